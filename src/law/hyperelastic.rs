@@ -1,0 +1,325 @@
+//! The yarn law: energies, stress mode by mode, from the four deformation modes (thesis, Eq. 4.6–4.15).
+//!
+//! ```text
+//! W = ½ k_el ⟨I_el⟩²  +  k_tc ⟨−I_tc⟩^p  +  ½ k_td I_td²  +  ½ k_ld I_ld²        per reference volume
+//!
+//! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(asinh s/s) D  +  (k_ld/λ²)(P b e⊗e + e⊗P b e)
+//! ```
+//!
+//! with P = 1 − e⊗e, b = F Fᵀ, and D, s and the invariants as [`kinematics`](super::kinematics) gives them. It is the
+//! thesis's Eq. 4.14 pushed forward, without its quotient 0/0: asinh s/s is smooth through s = 0.
+
+use nalgebra::Matrix3;
+
+use super::elementary::{Exponent, ln_1p, power};
+use super::failure::Failure;
+use super::kinematics::{Deformation, FibreFrame};
+use super::parameters::{self, FIBRE};
+use super::real::{Real, along, scale};
+use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use super::status::{self, Error};
+
+/// The law's properties, checked and prepared once.
+#[derive(Clone, Copy, Debug)]
+pub struct Hyperelastic<R> {
+    pub(super) k_el: R,
+    pub(super) k_tc: R,
+    pub(super) p: R,
+    pub(super) k_td: R,
+    pub(super) k_ld: R,
+    /// p − 1, the exponent of the compaction stress.
+    exponent: Exponent<R>,
+    failure: Failure<R>,
+    pub(super) frame: FibreFrame<R>,
+}
+
+/// What a caller wants beside the stress; what is left out is not computed and stays 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Request {
+    pub stress: bool,
+    pub energies: bool,
+    pub invariants: bool,
+    /// Failure index and latch. Left out, no point fails; a point that has failed before stays failed all the same.
+    pub failure: bool,
+    pub modes: bool,
+    pub wave_modulus: bool,
+}
+
+impl Request {
+    /// Everything there is.
+    pub const ALL: Request =
+        Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
+}
+
+/// What the law answers for one point, or for several side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Response<R: Real> {
+    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards and on errors.
+    pub stress: [R; 6],
+    /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index. Where `kept` holds they mean nothing: the old
+    /// ones stand.
+    pub energies: [R; 4],
+    pub invariants: [R; 4],
+    pub failure_index: R,
+    /// The new latch, 0 or 1.
+    pub failed: R,
+    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
+    pub modes: [[R; 6]; 4],
+    /// ρ0 c² for a bound c of the wave speed, at least k_el.
+    pub wave_modulus: R,
+    /// The point's status code, as a number.
+    pub status: R,
+    /// Where the point had failed before or cannot be evaluated, so that energies, invariants and index stay.
+    pub kept: R::Mask,
+}
+
+impl<T: Real + Into<f64>> Hyperelastic<T> {
+    /// Checks the properties, in the order of [`parameters::HYPERELASTIC`], and prepares the law.
+    ///
+    /// # Errors
+    /// The first property that is wrong, with its value and what is allowed.
+    pub fn new(properties: &[T]) -> Result<Self, Error> {
+        parameters::check(&parameters::HYPERELASTIC, properties)?;
+        let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3] = properties else {
+            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
+        };
+        let (frame, usable) = FibreFrame::new([m_1, m_2, m_3]);
+        if T::select(usable, T::splat(0.0), T::splat(1.0)).into() != 0.0 {
+            return Err(Error::Direction {
+                index: FIBRE,
+                name: "fibre direction",
+                value: [m_1.into(), m_2.into(), m_3.into()],
+                wanted: "any vector but zero",
+            });
+        }
+        let zero = T::splat(0.0);
+        let one = T::splat(1.0);
+        let fails = zero.lt(eps_lim);
+        let weight = |x: T| T::select(fails, x, zero);
+        Ok(Hyperelastic {
+            k_el,
+            k_tc,
+            p,
+            k_td,
+            k_ld,
+            exponent: Exponent::new(p - one),
+            failure: Failure {
+                inverse_limit: weight(one / ln_1p(T::select(fails, eps_lim, one))),
+                alpha: weight(alpha),
+                beta: weight(beta),
+            },
+            frame,
+        })
+    }
+}
+
+/// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
+#[derive(Clone, Copy, Debug)]
+pub struct Kirchhoff<R> {
+    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/4) asinh s/s, k_ld/λ²: the factors of the four modes in τ.
+    pub tension: R,
+    pub pressure: R,
+    pub distortion: R,
+    pub shear: R,
+    /// k_tc⟨−I_tc⟩^p, which shares its power with the pressure.
+    pub compaction_energy: R,
+}
+
+impl<R: Real> Hyperelastic<R> {
+    /// The factors of the four modes in the Kirchhoff stress.
+    #[inline(always)]
+    pub fn kirchhoff(&self, d: &Deformation<R>) -> Kirchhoff<R> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let [i_el, i_tc, _, _] = d.invariants;
+        let compaction = (-i_tc).max(zero);
+        let powered = self.k_tc * power(compaction, self.exponent);
+        let undistorted = d.s.le(zero);
+        let ratio = R::select(undistorted, one, d.asinh_s / R::select(undistorted, one, d.s));
+        Kirchhoff {
+            tension: self.k_el * i_el.max(zero),
+            pressure: R::splat(0.5) * self.p * powered,
+            distortion: R::splat(0.25) * self.k_td * ratio,
+            shear: self.k_ld / (d.lambda * d.lambda),
+            compaction_energy: powered * compaction,
+        }
+    }
+
+    /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
+    #[inline(always)]
+    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> [R; 4] {
+        let (zero, half) = (R::splat(0.0), R::splat(0.5));
+        let [i_el, _, i_td, i_ld] = d.invariants;
+        [
+            half * k.tension * i_el.max(zero),
+            k.compaction_energy,
+            half * self.k_td * i_td * i_td,
+            half * self.k_ld * i_ld * i_ld,
+        ]
+    }
+
+    /// Cauchy stress 11 22 33 12 23 31.
+    #[inline(always)]
+    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> [R; 6] {
+        let inverse_j = R::splat(1.0) / d.jacobian;
+        let tension = k.tension * inverse_j;
+        let pressure = k.pressure * inverse_j;
+        let distortion = k.distortion * inverse_j;
+        let shear = k.shear * inverse_j;
+        let (d1, d2) = (distortion * d.d1, distortion * d.d2);
+        // On (e, q1, q2): tension and shears in the first row, the plane across the fibre below.
+        let t12 = shear * d.f_a.mul_add(d.r11, d.f_b * d.r12);
+        let t13 = shear * d.f_b * d.r22;
+        // σ = e⊗along + along⊗e … gathered so that each row of Q meets its traction once.
+        let on_e = along(along(scale(tension, d.e), t12, d.q1), t13, d.q2);
+        let on_q1 = along(along(scale(d1 - pressure, d.q1), d2, d.q2), t12, d.e);
+        let on_q2 = along(along(scale(-(d1 + pressure), d.q2), d2, d.q1), t13, d.e);
+        let entry = |i: usize, j: usize| d.e[i].mul_add(on_e[j], d.q1[i].mul_add(on_q1[j], d.q2[i] * on_q2[j]));
+        [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
+    }
+
+    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
+    #[inline(always)]
+    pub fn modes(&self, d: &Deformation<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
+        let one = R::splat(1.0);
+        let (inverse_lambda, inverse_11, inverse_22) = (one / d.lambda, one / d.r11, one / d.r22);
+        // F⁻¹e, F⁻¹q1, F⁻¹q2.
+        let w1 = scale(inverse_lambda, n.m);
+        let w2 = scale(inverse_11, along(n.t1, -(d.f_a * inverse_lambda), n.m));
+        let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * inverse_lambda), n.m), -d.r12, w2));
+        let product = |s: R, a: [R; 3], b: [R; 3]| {
+            let entry = |i: usize, j: usize| R::splat(0.5) * s * a[i].mul_add(b[j], a[j] * b[i]);
+            [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
+        };
+        let sum = |a: [R; 6], b: [R; 6]| {
+            let mut sum = a;
+            for (x, y) in sum.iter_mut().zip(b) {
+                *x = *x + y;
+            }
+            sum
+        };
+        let two = R::splat(2.0);
+        let (d1, d2) = (k.distortion * d.d1, k.distortion * d.d2);
+        let t12 = k.shear * d.f_a.mul_add(d.r11, d.f_b * d.r12);
+        let t13 = k.shear * d.f_b * d.r22;
+        [
+            product(k.tension, w1, w1),
+            sum(product(-k.pressure, w2, w2), product(-k.pressure, w3, w3)),
+            sum(sum(product(d1, w2, w2), product(-d1, w3, w3)), product(two * d2, w2, w3)),
+            sum(product(two * t12, w1, w2), product(two * t13, w1, w3)),
+        ]
+    }
+}
+
+impl<R: Real> Hyperelastic<R> {
+    /// The law at a point: columns of F, the material frame and where it is usable, the latch of the old state.
+    ///
+    /// No NaN or infinity leaves in the stress, the modes, the latch, the wave modulus or the status; energies,
+    /// invariants and index are to be replaced by the old ones where `kept` says so.
+    #[inline(always)]
+    pub fn evaluate(
+        &self,
+        f: &[[R; 3]; 3],
+        frame: &FibreFrame<R>,
+        usable: R::Mask,
+        latch: R,
+        request: Request,
+    ) -> Response<R> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let latched = Failure::latched(latch);
+
+        let d = Deformation::new(f, frame);
+        let k = self.kirchhoff(&d);
+        let stress = if request.stress { self.cauchy(&d, &k) } else { [zero; 6] };
+        let energies = if request.energies { self.energies(&d, &k) } else { [zero; 4] };
+        let modes = if request.modes { self.modes(&d, &k, frame) } else { [[zero; 6]; 4] };
+        let wave = if request.wave_modulus { self.wave_modulus(&d, &k) } else { self.k_el };
+        let index = if request.failure { self.failure.index(&d.invariants) } else { zero };
+
+        // A number times zero is zero unless it is NaN or infinite.
+        let mut probe = (d.invariants[0] + d.invariants[1]) + (d.invariants[2] + d.invariants[3]);
+        probe = probe + (energies[0] + energies[1]) + (energies[2] + energies[3]) + (wave + index);
+        for &x in stress.iter().chain(modes.iter().flatten()) {
+            probe = x.mul_add(zero, probe * zero);
+        }
+        let representable = (probe * zero).le(zero);
+        let mut entries = zero;
+        for column in f {
+            for &x in column {
+                entries = x.mul_add(zero, entries);
+            }
+        }
+        let finite = entries.le(zero);
+        let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
+
+        // The first reason that applies, from the last to the first.
+        let code = |code: i32| R::splat(code as f64);
+        let mut status = R::select(representable, zero, code(status::OVERFLOW));
+        status = R::select(upright, status, code(status::INVERTED));
+        status = R::select(usable, status, code(status::FIBRE_DIRECTION));
+        status = R::select(finite, status, code(status::NOT_FINITE));
+        let intact_state = (latch * zero).le(zero);
+        status = R::select(latched, R::select(intact_state, zero, code(status::STATE_NOT_FINITE)), status);
+
+        let kept = latched | !status.le(zero) | status.lt(zero);
+        let fails = Failure::reached(index) & !kept;
+        let mask = |x: R| R::select(kept, zero, x);
+        Response {
+            stress: stress.map(mask),
+            energies,
+            invariants: d.invariants,
+            failure_index: index,
+            failed: R::select(latched | fails, one, zero),
+            modes: modes.map(|mode| mode.map(mask)),
+            wave_modulus: R::select(kept, self.k_el, wave),
+            status,
+            kept,
+        }
+    }
+}
+
+/// What the law answers for one point, ready to store.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point<T> {
+    /// Cauchy stress 11 22 33 12 23 31.
+    pub stress: [T; 6],
+    /// The new state, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
+    pub state: [T; HYPERELASTIC_STATE],
+    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
+    pub modes: [[T; 6]; 4],
+    /// ρ0 c² for a bound c of the wave speed.
+    pub wave_modulus: T,
+    /// 0, or why the point could not be evaluated.
+    pub status: i32,
+}
+
+impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
+    /// The law at one point, with the fibre direction of the properties.
+    ///
+    /// `f` is the deformation gradient, `state` the old state: all 0 at the start. A point that cannot be evaluated (F
+    /// inverted, not finite, …) says so in `status`, carries no stress and keeps its state.
+    pub fn point(&self, f: &Matrix3<T>, state: &[T; HYPERELASTIC_STATE], request: Request) -> Point<T>
+    where
+        T: nalgebra::Scalar,
+    {
+        let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
+        let r = self.evaluate(&columns, &self.frame, true, state[FAILED], request);
+        let zero = T::splat(0.0);
+        let mut status = Into::<f64>::into(r.status) as i32;
+        let mut new = [zero; HYPERELASTIC_STATE];
+        new[ENERGIES..INVARIANTS].copy_from_slice(&r.energies);
+        new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&r.invariants);
+        new[FAILURE_INDEX] = r.failure_index;
+        if r.kept {
+            for (x, &old) in new.iter_mut().zip(state) {
+                let finite = (old * zero).le(zero);
+                *x = T::select(finite, old, zero);
+                if !finite && status == status::OK {
+                    status = status::STATE_NOT_FINITE;
+                }
+            }
+        }
+        new[FAILED] = r.failed;
+        new[ALIVE] = T::splat(1.0) - r.failed;
+        Point { stress: r.stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }
+    }
+}

@@ -1,0 +1,13 @@
+//! The constitutive laws: no host, no file, no allocation, no standard library.
+
+pub mod elementary;
+pub mod failure;
+pub mod hyperelastic;
+pub mod kinematics;
+pub mod linear_elastic;
+pub mod parameters;
+pub mod real;
+pub mod state;
+pub mod status;
+pub mod stress;
+pub mod wave_speed;

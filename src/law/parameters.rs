@@ -1,0 +1,188 @@
+//! The tables of properties of both laws and their presets: the single source for messages, headers, documents, decks.
+
+use super::real::Real;
+use super::status::{Error, PROPERTY_COUNT, PROPERTY_NOT_FINITE, PROPERTY_OUT_OF_BOUNDS};
+
+/// What a quantity is measured in, as powers of mass, length and time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    pub mass: i32,
+    pub length: i32,
+    pub time: i32,
+    /// How the dimension is written in tables.
+    pub name: &'static str,
+}
+
+pub const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "-" };
+pub const STRESS: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "stress" };
+/// Energy per reference volume is a stress; the name tells the reader which it is.
+pub const ENERGY_DENSITY: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "energy/volume" };
+pub const DENSITY: Dimension = Dimension { mass: 1, length: -3, time: 0, name: "density" };
+
+/// One property of a law.
+#[derive(Debug, PartialEq)]
+pub struct Property {
+    /// The name in tables, decks and messages.
+    pub name: &'static str,
+    /// The symbol of the thesis.
+    pub symbol: &'static str,
+    pub dimension: Dimension,
+    /// The value to use where nothing else is known; `None`: the user must give it.
+    pub default: Option<f64>,
+    /// The least value allowed, and whether it is itself excluded.
+    pub minimum: f64,
+    pub minimum_excluded: bool,
+    /// The bounds in words.
+    pub allowed: &'static str,
+    pub meaning: &'static str,
+}
+
+const fn positive_or_zero(
+    name: &'static str,
+    symbol: &'static str,
+    dimension: Dimension,
+    default: Option<f64>,
+    meaning: &'static str,
+) -> Property {
+    Property {
+        name,
+        symbol,
+        dimension,
+        default,
+        minimum: 0.0,
+        minimum_excluded: false,
+        allowed: "a finite number >= 0",
+        meaning,
+    }
+}
+
+const fn component(name: &'static str, symbol: &'static str, default: f64, meaning: &'static str) -> Property {
+    Property {
+        name,
+        symbol,
+        dimension: NUMBER,
+        default: Some(default),
+        minimum: f64::NEG_INFINITY,
+        minimum_excluded: false,
+        allowed: "a finite number, not all three 0",
+        meaning,
+    }
+}
+
+/// Number of properties of the hyperelastic law.
+pub const HYPERELASTIC_PROPERTIES: usize = 11;
+/// Where the fibre direction starts among the properties of the hyperelastic law.
+pub const FIBRE: usize = 8;
+
+/// The properties of the hyperelastic law, in the order in which every host passes them (Eq. 4.10–4.15, section 4.4.2).
+pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
+    positive_or_zero("k_el", "k_el", STRESS, None, "longitudinal elongation stiffness"),
+    positive_or_zero("k_tc", "k_tc", STRESS, None, "transverse compaction stiffness"),
+    Property {
+        name: "p",
+        symbol: "p",
+        dimension: NUMBER,
+        default: None,
+        minimum: 1.0,
+        minimum_excluded: true,
+        allowed: "a finite number > 1",
+        meaning: "transverse compaction exponent",
+    },
+    positive_or_zero("k_td", "k_td", STRESS, None, "transverse distortion stiffness"),
+    positive_or_zero("k_ld", "k_ld", STRESS, Some(0.0), "longitudinal shear stiffness, 0: fibres slip freely"),
+    positive_or_zero("eps_lim", "ε_lim", NUMBER, Some(0.0), "fibre strain at failure, 0: no failure"),
+    positive_or_zero("alpha", "α", NUMBER, Some(0.0), "weight of compaction in multiaxial failure, 0: uniaxial"),
+    positive_or_zero("beta", "β", NUMBER, Some(0.0), "weight of distortion in multiaxial failure, 0: uniaxial"),
+    component("m_1", "m1", 1.0, "fibre direction in the reference placement, any length"),
+    component("m_2", "m2", 0.0, "fibre direction in the reference placement, any length"),
+    component("m_3", "m3", 0.0, "fibre direction in the reference placement, any length"),
+];
+
+/// Number of properties of the linear elastic law.
+pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;
+/// Where the fibre direction and the second axis start among the properties of the linear elastic law.
+pub const LINEAR_FIBRE: usize = 4;
+pub const LINEAR_SECOND_AXIS: usize = 7;
+
+/// The properties of the linear elastic orthotropic law (Tab. 4.4).
+pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
+    positive_or_zero("e_1", "E1", STRESS, None, "Young's modulus along the fibre"),
+    positive_or_zero("e_2", "E2", STRESS, None, "Young's modulus across the fibre, E2 = E3"),
+    positive_or_zero("g", "G", STRESS, None, "shear modulus, G12 = G23 = G31"),
+    positive_or_zero("sigma_lim", "σ_lim", STRESS, Some(0.0), "largest principal stress at failure, 0: no failure"),
+    component("m_1", "m1", 1.0, "fibre direction in the reference placement, any length"),
+    component("m_2", "m2", 0.0, "fibre direction in the reference placement, any length"),
+    component("m_3", "m3", 0.0, "fibre direction in the reference placement, any length"),
+    Property {
+        allowed: "a finite number; all three 0: any axis across the fibre",
+        ..component("n_1", "n1", 0.0, "second axis, made orthogonal to the fibre")
+    },
+    Property {
+        allowed: "a finite number; all three 0: any axis across the fibre",
+        ..component("n_2", "n2", 0.0, "second axis, made orthogonal to the fibre")
+    },
+    Property {
+        allowed: "a finite number; all three 0: any axis across the fibre",
+        ..component("n_3", "n3", 0.0, "second axis, made orthogonal to the fibre")
+    },
+];
+
+/// A named set of properties in SI units, with the density that goes with it.
+#[derive(Debug)]
+pub struct Preset {
+    pub name: &'static str,
+    pub table: &'static [Property],
+    /// As many values as the table has rows.
+    pub values: &'static [f64],
+    /// Reference density in kg/m³.
+    pub density: f64,
+    pub source: &'static str,
+}
+
+/// The yarns that the library knows by name.
+pub static PRESETS: [Preset; 2] = [
+    Preset {
+        name: "kevlar-km2-600",
+        table: &HYPERELASTIC,
+        values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0],
+        density: 1351.4,
+        source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.3 and 4.5 (multiaxial failure)",
+    },
+    Preset {
+        name: "kevlar-km2-600-linear",
+        table: &LINEAR_ELASTIC,
+        values: &[79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        density: 1351.4,
+        source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.4",
+    },
+];
+
+/// The preset of this name.
+pub fn preset(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().find(|preset| preset.name == name)
+}
+
+/// Checks number, finiteness and bounds of `values` against a table; directions are the laws' own business.
+///
+/// # Errors
+/// Names the first property that is wrong, its value and what is allowed.
+pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> Result<(), Error> {
+    if values.len() != table.len() {
+        return Err(Error::Count {
+            code: PROPERTY_COUNT,
+            what: "number of properties",
+            found: values.len() as i64,
+            wanted: table.len() as i64,
+        });
+    }
+    for (index, (property, &value)) in table.iter().zip(values).enumerate() {
+        let value: f64 = value.into();
+        if !value.is_finite() {
+            return Err(Error::Property { code: PROPERTY_NOT_FINITE, index, property, value });
+        }
+        if value < property.minimum || (property.minimum_excluded && value == property.minimum) {
+            return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,137 @@
+//! The number that the law is written in: one precision, one lane or many.
+//!
+//! Every formula of the law is generic over [`Real`], so that a scalar call and a block of points run the same
+//! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
+
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+/// A real number, or several of them side by side.
+///
+/// `mul_add` may be fused where the processor does so; every other operation is the correctly rounded one of IEEE 754.
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
+    /// The answer to a comparison, lane by lane.
+    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+
+    /// Smallest positive normal number.
+    const MIN_POSITIVE: f64;
+    /// Exponent of the smallest and of the largest normal power of two.
+    const EXPONENTS: (f64, f64);
+    /// Coefficients of the logarithm and of the exponential, see [`elementary`](super::elementary).
+    const LN: &'static [f64];
+    const EXP: &'static [f64];
+
+    /// The same value in every lane, rounded to this precision.
+    fn splat(x: f64) -> Self;
+    /// `self · a + b`.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    fn sqrt(self) -> Self;
+    fn abs(self) -> Self;
+    /// The larger one; `other` where `self` is NaN.
+    fn max(self, other: Self) -> Self;
+    fn lt(self, other: Self) -> Self::Mask;
+    fn le(self, other: Self) -> Self::Mask;
+    /// `a` where the mask holds, `b` elsewhere; what stands in the other one, NaN included, has no influence.
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// `(z, k)` with `self = z · 2^k`, z in [√½, √2). For positive normal numbers; anything else gives some number.
+    fn split_exponent(self) -> (Self, Self);
+    /// The nearest integer, for |self| up to 2^20.
+    fn round(self) -> Self;
+    /// `2^self` for an integer within [`EXPONENTS`](Self::EXPONENTS).
+    fn power_of_two(self) -> Self;
+}
+
+/// Scalar product of two vectors.
+#[inline(always)]
+pub fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// Vector product of two vectors.
+#[inline(always)]
+pub fn cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
+}
+
+/// `a + s b`.
+#[inline(always)]
+pub fn along<R: Real>(a: [R; 3], s: R, b: [R; 3]) -> [R; 3] {
+    [s.mul_add(b[0], a[0]), s.mul_add(b[1], a[1]), s.mul_add(b[2], a[2])]
+}
+
+/// `s a`.
+#[inline(always)]
+pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
+macro_rules! scalar {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, ln: $ln:expr, exp: $exp:expr) => {
+        impl Real for $t {
+            type Mask = bool;
+            const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
+            const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 - 1.0, $t::MAX_EXP as f64 - 1.0);
+            const LN: &'static [f64] = $ln;
+            const EXP: &'static [f64] = $exp;
+
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                x as $t
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                self * a + b
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $fabs(self)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+            #[inline(always)]
+            fn split_exponent(self) -> (Self, Self) {
+                // Shifting the exponent field so that it steps at √½ instead of at a power of two.
+                const MANTISSA: u32 = $t::MANTISSA_DIGITS - 1;
+                const ONE: $bits = (1.0 as $t).to_bits();
+                const ROOT_HALF: $bits = (core::f64::consts::FRAC_1_SQRT_2 as $t).to_bits();
+                let shifted = self.to_bits().wrapping_add(ONE - ROOT_HALF);
+                let z = $t::from_bits((shifted & ((1 << MANTISSA) - 1)) + ROOT_HALF);
+                let k = (shifted >> MANTISSA) as i32 - ($t::MAX_EXP - 1);
+                (z, k as $t)
+            }
+            #[inline(always)]
+            fn round(self) -> Self {
+                // Adding 1.5 · 2^(digits − 1) leaves no room for a fraction.
+                let shift = 1.5 * ((1 as $bits) << ($t::MANTISSA_DIGITS - 1)) as $t;
+                (self + shift) - shift
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                let exponent = (self as i32 + ($t::MAX_EXP - 1)) as $bits;
+                $t::from_bits(exponent << ($t::MANTISSA_DIGITS - 1))
+            }
+        }
+    };
+}
+
+scalar!(f64, u64, libm::sqrt, f64::abs, ln: &super::elementary::LN_F64, exp: &super::elementary::EXP_F64);
+scalar!(f32, u32, libm::sqrtf, f32::abs, ln: &super::elementary::LN_F32, exp: &super::elementary::EXP_F32);

@@ -1,0 +1,67 @@
+//! The tables of state variables: what a host keeps for each point from one call to the next. All start at 0.
+
+use super::parameters::{Dimension, ENERGY_DENSITY, NUMBER, STRESS};
+
+/// One state variable.
+#[derive(Debug)]
+pub struct StateVariable {
+    pub name: &'static str,
+    pub symbol: &'static str,
+    pub dimension: Dimension,
+    pub meaning: &'static str,
+}
+
+const fn row(name: &'static str, symbol: &'static str, dimension: Dimension, meaning: &'static str) -> StateVariable {
+    StateVariable { name, symbol, dimension, meaning }
+}
+
+/// Number of state variables of the hyperelastic law.
+pub const HYPERELASTIC_STATE: usize = 11;
+/// Where the groups of the hyperelastic law's state start: four energies, four invariants, then failure.
+pub const ENERGIES: usize = 0;
+pub const INVARIANTS: usize = 4;
+pub const FAILURE_INDEX: usize = 8;
+pub const FAILED: usize = 9;
+pub const ALIVE: usize = 10;
+
+const FAILED_ROW: StateVariable =
+    row("failed", "failed", NUMBER, "the latch: 1 once the point has failed; 0 at the start");
+const ALIVE_ROW: StateVariable =
+    row("alive", "alive", NUMBER, "1 - failed, written on every call and never read: for element deletion");
+
+/// The state of the hyperelastic law. Energies are per reference volume.
+pub static HYPERELASTIC: [StateVariable; HYPERELASTIC_STATE] = [
+    row("w_el", "W_el", ENERGY_DENSITY, "energy of longitudinal elongation"),
+    row("w_tc", "W_tc", ENERGY_DENSITY, "energy of transverse compaction"),
+    row("w_td", "W_td", ENERGY_DENSITY, "energy of transverse distortion"),
+    row("w_ld", "W_ld", ENERGY_DENSITY, "energy of longitudinal shear"),
+    row("i_el", "I_el", NUMBER, "elongation invariant: true strain along the fibre"),
+    row("i_tc", "I_tc", NUMBER, "compaction invariant: half the logarithm of the section's area ratio"),
+    row("i_td", "I_td", NUMBER, "distortion invariant: half the logarithm of the section's aspect ratio"),
+    row("i_ld", "I_ld", NUMBER, "longitudinal-shear invariant: tangent of the fibre-slip angle"),
+    row("failure_index", "index", NUMBER, "1 at the failure limit, 0 where the fibre is not in tension"),
+    FAILED_ROW,
+    ALIVE_ROW,
+];
+
+/// Number of state variables of the linear elastic law.
+pub const LINEAR_ELASTIC_STATE: usize = 10;
+pub const LINEAR_STRESS: usize = 0;
+pub const LINEAR_LARGEST: usize = 6;
+pub const LINEAR_WORK: usize = 7;
+pub const LINEAR_FAILED: usize = 8;
+pub const LINEAR_ALIVE: usize = 9;
+
+/// The state of the linear elastic law.
+pub static LINEAR_ELASTIC: [StateVariable; LINEAR_ELASTIC_STATE] = [
+    row("s_11", "σ11", STRESS, "Cauchy stress in the material frame"),
+    row("s_22", "σ22", STRESS, "Cauchy stress in the material frame"),
+    row("s_33", "σ33", STRESS, "Cauchy stress in the material frame"),
+    row("s_12", "σ12", STRESS, "Cauchy stress in the material frame"),
+    row("s_23", "σ23", STRESS, "Cauchy stress in the material frame"),
+    row("s_31", "σ31", STRESS, "Cauchy stress in the material frame"),
+    row("s_max", "σ_I", STRESS, "largest signed principal stress"),
+    row("work", "w", ENERGY_DENSITY, "work per reference volume"),
+    FAILED_ROW,
+    ALIVE_ROW,
+];

@@ -1,0 +1,195 @@
+//! Status codes, and the messages that go with them, without allocation.
+//!
+//! 0 is success and a negative number an error. The hundreds say whose error it is: −1xx the call's, −2xx the
+//! properties', −3xx the point's. New codes fill the gaps; none changes its meaning.
+
+use core::fmt;
+
+use super::parameters::Property;
+
+/// Everything went well.
+pub const OK: i32 = 0;
+/// An argument that must not be null is null.
+pub const NULL_ARGUMENT: i32 = -101;
+/// A count (of components, stress entries, …) is not what the entry can serve.
+pub const BAD_COUNT: i32 = -102;
+/// The leading dimension of component-major arrays is less than the number of points.
+pub const BAD_LEADING_DIMENSION: i32 = -103;
+/// A name, index, law, preset or unit system that does not exist.
+pub const UNKNOWN_NAME: i32 = -104;
+/// A scalar argument (density, option, …) outside what is allowed.
+pub const BAD_ARGUMENT: i32 = -105;
+/// The host runs a small-strain analysis, which carries no deformation gradient.
+pub const NO_DEFORMATION_GRADIENT: i32 = -106;
+/// The number of properties is not the table's.
+pub const PROPERTY_COUNT: i32 = -201;
+/// A property is NaN or infinite.
+pub const PROPERTY_NOT_FINITE: i32 = -202;
+/// A property is outside its bounds.
+pub const PROPERTY_OUT_OF_BOUNDS: i32 = -203;
+/// A direction among the properties has no length, or is parallel to the one it must differ from.
+pub const PROPERTY_DIRECTION: i32 = -204;
+/// There are fewer state variables than the table's.
+pub const STATE_COUNT: i32 = -211;
+/// The deformation gradient has a determinant ≤ 0, or maps the fibre to nothing.
+pub const INVERTED: i32 = -301;
+/// The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
+pub const NOT_FINITE: i32 = -302;
+/// A result does not fit the number format: the deformation or a property is astronomically large.
+pub const OVERFLOW: i32 = -303;
+/// An old state variable is NaN or infinite.
+pub const STATE_NOT_FINITE: i32 = -304;
+/// The fibre direction given for this point is zero, NaN or infinite.
+pub const FIBRE_DIRECTION: i32 = -305;
+/// The step is too large to integrate: a stretch by a factor of ten or more, or a half-turn.
+pub const INCREMENT_TOO_LARGE: i32 = -306;
+
+/// Every code with its name and meaning.
+pub const TABLE: [(i32, &str, &str); 18] = [
+    (OK, "ok", "no error"),
+    (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
+    (BAD_COUNT, "bad_count", "a count is not what this entry can serve"),
+    (BAD_LEADING_DIMENSION, "bad_leading_dimension", "the leading dimension is less than the number of points"),
+    (UNKNOWN_NAME, "unknown_name", "no such name, index, law, preset or unit system"),
+    (BAD_ARGUMENT, "bad_argument", "a scalar argument is outside what is allowed"),
+    (
+        NO_DEFORMATION_GRADIENT,
+        "no_deformation_gradient",
+        "the analysis is geometrically linear and passes no deformation gradient: switch to large displacements (NLGEOM)",
+    ),
+    (PROPERTY_COUNT, "property_count", "the number of properties is not the table's"),
+    (PROPERTY_NOT_FINITE, "property_not_finite", "a property is NaN or infinite"),
+    (PROPERTY_OUT_OF_BOUNDS, "property_out_of_bounds", "a property is outside its bounds"),
+    (PROPERTY_DIRECTION, "property_direction", "a direction among the properties has no length or is not independent"),
+    (STATE_COUNT, "state_count", "there are fewer state variables than the table's"),
+    (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to nothing"),
+    (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),
+    (OVERFLOW, "overflow", "a result does not fit the number format: the deformation or a property is too large"),
+    (STATE_NOT_FINITE, "state_not_finite", "an old state variable is NaN or infinite"),
+    (FIBRE_DIRECTION, "fibre_direction", "the fibre direction of this point is zero, NaN or infinite"),
+    (
+        INCREMENT_TOO_LARGE,
+        "increment_too_large",
+        "the step is too large to integrate: a stretch by a factor of ten or a half-turn",
+    ),
+];
+
+/// The short name of a status code; `None` for a number that is no code.
+pub fn name(code: i32) -> Option<&'static str> {
+    TABLE.iter().find(|row| row.0 == code).map(|row| row.1)
+}
+
+/// What a status code means, in a sentence; `None` for a number that is no code.
+pub fn meaning(code: i32) -> Option<&'static str> {
+    TABLE.iter().find(|row| row.0 == code).map(|row| row.2)
+}
+
+/// What is wrong, with the values that a message needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Error {
+    /// The number of properties or state variables is not the table's.
+    Count { code: i32, what: &'static str, found: i64, wanted: i64 },
+    /// A property is not finite or out of bounds. `index` counts from 0.
+    Property { code: i32, index: usize, property: &'static Property, value: f64 },
+    /// A direction among the properties cannot be used; `index` is that of its first component.
+    Direction { index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
+    /// A scalar argument is outside what is allowed.
+    Argument { name: &'static str, value: f64, wanted: &'static str },
+    /// Anything that its code says completely.
+    Plain(i32),
+}
+
+impl Error {
+    /// The status code.
+    pub fn code(&self) -> i32 {
+        match *self {
+            Error::Count { code, .. } | Error::Property { code, .. } | Error::Plain(code) => code,
+            Error::Direction { .. } => PROPERTY_DIRECTION,
+            Error::Argument { .. } => BAD_ARGUMENT,
+        }
+    }
+
+    /// Hands the message to `sink`, piece by piece. Formatting machinery of the standard library can panic; this cannot.
+    pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
+        let mut integer = itoa::Buffer::new();
+        match *self {
+            Error::Count { what, found, wanted, .. } => {
+                sink(what);
+                sink(": ");
+                sink(integer.format(found));
+                sink(" given, ");
+                sink(integer.format(wanted));
+                sink(" needed");
+            }
+            Error::Property { index, property, value, .. } => {
+                sink("property ");
+                sink(integer.format(index + 1));
+                sink(" (");
+                sink(property.name);
+                sink(", ");
+                sink(property.meaning);
+                sink(") is ");
+                describe_number(value, sink);
+                sink("; allowed: ");
+                sink(property.allowed);
+            }
+            Error::Direction { index, name, value, wanted } => {
+                sink("properties ");
+                sink(integer.format(index + 1));
+                sink(" to ");
+                sink(integer.format(index + 3));
+                sink(" (");
+                sink(name);
+                sink(") are ");
+                describe_number(value[0], sink);
+                sink(", ");
+                describe_number(value[1], sink);
+                sink(", ");
+                describe_number(value[2], sink);
+                sink("; allowed: ");
+                sink(wanted);
+            }
+            Error::Argument { name, value, wanted } => {
+                sink("argument ");
+                sink(name);
+                sink(" is ");
+                describe_number(value, sink);
+                sink("; allowed: ");
+                sink(wanted);
+            }
+            Error::Plain(code) => match meaning(code) {
+                Some(text) => sink(text),
+                None => {
+                    sink("no such status code: ");
+                    sink(integer.format(code));
+                }
+            },
+        }
+    }
+}
+
+fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
+    if value.is_nan() {
+        sink("NaN");
+    } else if value == f64::INFINITY {
+        sink("infinity");
+    } else if value == f64::NEG_INFINITY {
+        sink("-infinity");
+    } else {
+        sink(ryu::Buffer::new().format_finite(value));
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut result = Ok(());
+        self.describe(&mut |piece| {
+            if result.is_ok() {
+                result = f.write_str(piece);
+            }
+        });
+        result
+    }
+}
+
+impl core::error::Error for Error {}

@@ -1,0 +1,38 @@
+//! One stress, several measures: Cauchy σ, Kirchhoff τ = Jσ, first Piola–Kirchhoff P = JσF⁻ᵀ, second S = JF⁻¹σF⁻ᵀ.
+
+use nalgebra::Matrix3;
+
+/// The symmetric matrix of six components 11 22 33 12 23 31.
+pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
+    Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
+}
+
+/// The six components 11 22 33 12 23 31 of a symmetric matrix.
+pub fn components(s: &Matrix3<f64>) -> [f64; 6] {
+    [s.m11, s.m22, s.m33, s.m12, s.m23, s.m31]
+}
+
+/// The matrix of cofactors, J F⁻ᵀ, which exists for every F.
+pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
+    Matrix3::new(
+        f.m22 * f.m33 - f.m23 * f.m32,
+        f.m23 * f.m31 - f.m21 * f.m33,
+        f.m21 * f.m32 - f.m22 * f.m31,
+        f.m13 * f.m32 - f.m12 * f.m33,
+        f.m11 * f.m33 - f.m13 * f.m31,
+        f.m12 * f.m31 - f.m11 * f.m32,
+        f.m12 * f.m23 - f.m13 * f.m22,
+        f.m13 * f.m21 - f.m11 * f.m23,
+        f.m11 * f.m22 - f.m12 * f.m21,
+    )
+}
+
+/// First Piola–Kirchhoff stress of a Cauchy stress: the conjugate of F, force per reference area.
+pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
+    matrix(cauchy) * cofactors(f)
+}
+
+/// First Piola–Kirchhoff stress of a second one, P = F S.
+pub fn first_from_second(second: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
+    f * matrix(second)
+}

@@ -1,0 +1,57 @@
+//! What an explicit solver's time step needs: a bound of the wave speed.
+//!
+//! For a direction n and a polarisation u the acoustic tensor times the reference density is
+//! u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. With y = (e·n)(e·u), mode
+//! by mode (derivation in `docs/theory.md`):
+//!
+//! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
+//! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
+//! - distortion:       ≤ k_td (½ (a/s) eᵃ + a/4)(1 − y²), a = 2 I_td, s = sinh a;
+//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t eᵃ (1 − y²) + 4 |P b e|).
+//!
+//! The sum is linear in y² but for the last term, so that its maximum stands at y = 0 or y = 1:
+//!
+//! ρ0 c² ≤ max(k_el, k_el ⟨I_el⟩ + R) + L, where R gathers the factors of 1 − y² and L is the shear's last term.
+//!
+//! At rest, and along a stretched fibre, that is √(k_el/ρ0): slack or not, tension may come back within a step.
+
+use super::elementary::{Exponent, power};
+use super::hyperelastic::{Hyperelastic, Kirchhoff};
+use super::kinematics::Deformation;
+use super::real::Real;
+
+/// Below this compaction the stiffness W″ of an exponent p < 2 is held, since it is infinite at 0.
+pub(super) const COMPACTION_FLOOR: f64 = 1e-8;
+
+impl<R: Real> Hyperelastic<R> {
+    /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
+    #[inline(always)]
+    pub fn wave_modulus(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> R {
+        let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
+        let [i_el, i_tc, _, _] = d.invariants;
+
+        // |W′| = 2 · pressure; W″ = (p − 1)|W′|/i, or with i held at its floor.
+        let compaction = -i_tc;
+        let floor = R::splat(COMPACTION_FLOOR);
+        let above = floor.lt(compaction);
+        let slope = R::splat(2.0) * k.pressure;
+        let exponent = self.p - one;
+        let curvature = exponent
+            * R::select(
+                above,
+                slope / R::select(above, compaction, one),
+                self.p * self.k_tc * power(floor, Exponent::new(exponent)) / floor,
+            );
+        let active = zero.le(compaction);
+        let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
+
+        let grown = d.s + d.cosh; // eᵃ
+        let distorting = R::splat(2.0) * k.distortion * grown + quarter * self.k_td * d.asinh_s;
+        let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
+        let (on_q1, on_q2) = (d.f_a.mul_add(d.r11, d.f_b * d.r12), d.f_b * d.r22);
+        let coupling = R::splat(4.0) * k.shear * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
+
+        let across = self.k_el.mul_add(i_el.max(zero), compacting + distorting + shearing);
+        across.max(self.k_el) + coupling
+    }
+}
