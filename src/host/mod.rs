@@ -1,0 +1,3 @@
+//! The world's conventions meet the law here: one file a host, each opening with its order of arguments and components.
+
+pub mod units;
