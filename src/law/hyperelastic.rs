@@ -126,6 +126,12 @@ pub struct Kirchhoff<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave is the fibre's: K + 4G/3 = k_el. For hosts that
+    /// take their time step and contact stiffness from two constants.
+    pub fn bulk_and_shear(&self) -> [R; 2] {
+        [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
+    }
+
     /// The factors of the four modes in the Kirchhoff stress.
     #[inline(always)]
     pub fn kirchhoff(&self, d: &Deformation<R>) -> Kirchhoff<R> {

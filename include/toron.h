@@ -1,0 +1,810 @@
+/* toron: a transversely isotropic hyperelastic yarn law, and its linear elastic baseline.
+ *
+ * Generated from the library's source: do not edit. Deformation gradients are passed by columns, F11 F21 F31 F12 F22 F32
+ * F13 F23 F33; stresses as 11 22 33 12 23 31 unless a host has its own order. Status codes: 0 is success, a negative
+ * number an error. Every function may be called from any thread; none allocates, locks or keeps a pointer.
+ */
+
+#ifndef TORON_H
+#define TORON_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/*
+ Everything went well.
+ */
+#define TORON_OK 0
+
+/*
+ An argument that must not be null is null.
+ */
+#define TORON_NULL_ARGUMENT -101
+
+/*
+ A count (of components, stress entries, …) is not what the entry can serve.
+ */
+#define TORON_BAD_COUNT -102
+
+/*
+ The leading dimension of component-major arrays is less than the number of points.
+ */
+#define TORON_BAD_LEADING_DIMENSION -103
+
+/*
+ A name, index, law, preset or unit system that does not exist.
+ */
+#define TORON_UNKNOWN_NAME -104
+
+/*
+ A scalar argument (density, option, …) outside what is allowed.
+ */
+#define TORON_BAD_ARGUMENT -105
+
+/*
+ The host runs a small-strain analysis, which carries no deformation gradient.
+ */
+#define TORON_NO_DEFORMATION_GRADIENT -106
+
+/*
+ The number of properties is not the table's.
+ */
+#define TORON_PROPERTY_COUNT -201
+
+/*
+ A property is NaN or infinite.
+ */
+#define TORON_PROPERTY_NOT_FINITE -202
+
+/*
+ A property is outside its bounds.
+ */
+#define TORON_PROPERTY_OUT_OF_BOUNDS -203
+
+/*
+ A direction among the properties has no length, or is parallel to the one it must differ from.
+ */
+#define TORON_PROPERTY_DIRECTION -204
+
+/*
+ There are fewer state variables than the table's.
+ */
+#define TORON_STATE_COUNT -211
+
+/*
+ The deformation gradient has a determinant ≤ 0, or maps the fibre to nothing.
+ */
+#define TORON_INVERTED -301
+
+/*
+ The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
+ */
+#define TORON_NOT_FINITE -302
+
+/*
+ A result does not fit the number format: the deformation or a property is astronomically large.
+ */
+#define TORON_OVERFLOW -303
+
+/*
+ An old state variable is NaN or infinite.
+ */
+#define TORON_STATE_NOT_FINITE -304
+
+/*
+ The fibre direction given for this point is zero, NaN or infinite.
+ */
+#define TORON_FIBRE_DIRECTION -305
+
+/*
+ The step is too large to integrate: a stretch by a factor of ten or more, or a half-turn.
+ */
+#define TORON_INCREMENT_TOO_LARGE -306
+
+/*
+ Number of the interface. It changes when a caller compiled against an older header could no longer run.
+ */
+#define TORON_ABI_VERSION 1
+
+/*
+ The hyperelastic yarn law, where a table or a preset is asked for.
+ */
+#define TORON_HYPERELASTIC 0
+
+/*
+ The linear elastic orthotropic law.
+ */
+#define TORON_LINEAR_ELASTIC 1
+
+/*
+ Number of properties and of state variables of the hyperelastic law.
+ */
+#define TORON_HYPERELASTIC_PROPERTIES 11
+
+#define TORON_HYPERELASTIC_STATE 11
+
+/*
+ Number of properties and of state variables of the linear elastic law.
+ */
+#define TORON_LINEAR_ELASTIC_PROPERTIES 10
+
+#define TORON_LINEAR_ELASTIC_STATE 10
+
+/*
+ The frame of the linear elastic law follows the fibre.
+ */
+#define TORON_ROTATION_FIBRE 0
+
+/*
+ It follows the polar rotation of F.
+ */
+#define TORON_ROTATION_POLAR 1
+
+/*
+ It follows the spin.
+ */
+#define TORON_ROTATION_SPIN 2
+
+/*
+ The linear elastic law fails by its largest principal stress.
+ */
+#define TORON_CRITERION_PRINCIPAL 0
+
+/*
+ It fails by the stress along the fibre.
+ */
+#define TORON_CRITERION_FIBRE 1
+
+/*
+ A row of the tables of properties and state variables. Texts are terminated UTF-8.
+ */
+typedef struct {
+  /*
+   The name in decks and messages, and the thesis's symbol.
+   */
+  char name[24];
+  char symbol[24];
+  /*
+   The unit's dimension in words ("stress", "energy/volume", "-"), and as powers of mass, length and time.
+   */
+  char unit[24];
+  int32_t mass;
+  int32_t length;
+  int32_t time;
+  /*
+   Whether there is a default, and its value; for state variables the value at the start, 0.
+   */
+  int32_t has_default;
+  double default_value;
+  /*
+   The least value allowed, and whether it is itself excluded; -infinity for state variables.
+   */
+  double minimum;
+  int32_t minimum_excluded;
+  /*
+   The bounds in words, and what the quantity is.
+   */
+  char allowed[80];
+  char meaning[96];
+} toron_table_row;
+
+/*
+ A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
+
+ Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
+ one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+ */
+typedef struct {
+  /*
+   Number of points, and the distance from one component to the next, at least as many.
+   */
+  size_t n;
+  size_t leading_dimension;
+  /*
+   In, 9 components: F by columns. Must not be null.
+   */
+  const double *deformation_gradient;
+  /*
+   In, 3: the fibre direction of each point, any length; null: the property.
+   */
+  const double *fibre;
+  /*
+   In, 4, 4 and 3: the old state; null: all 0.
+   */
+  const double *energies_old;
+  const double *invariants_old;
+  const double *failure_old;
+  /*
+   In: reference density; read for the wave speed only.
+   */
+  double density;
+  /*
+   Out, 6: Cauchy stress 11 22 33 12 23 31.
+   */
+  double *stress;
+  /*
+   Out, 4: W_el W_tc W_td W_ld.
+   */
+  double *energies;
+  /*
+   Out, 4: I_el I_tc I_td I_ld.
+   */
+  double *invariants;
+  /*
+   Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+   */
+  double *failure;
+  /*
+   Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+   */
+  double *modes;
+  /*
+   Out, 1: an upper bound of the wave speed.
+   */
+  double *wave_speed;
+  /*
+   Out: a status code for each point.
+   */
+  int32_t *status;
+} toron_block_f64;
+
+/*
+ A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
+
+ Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
+ one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+ */
+typedef struct {
+  /*
+   Number of points, and the distance from one component to the next, at least as many.
+   */
+  size_t n;
+  size_t leading_dimension;
+  /*
+   In, 9 components: F by columns. Must not be null.
+   */
+  const float *deformation_gradient;
+  /*
+   In, 3: the fibre direction of each point, any length; null: the property.
+   */
+  const float *fibre;
+  /*
+   In, 4, 4 and 3: the old state; null: all 0.
+   */
+  const float *energies_old;
+  const float *invariants_old;
+  const float *failure_old;
+  /*
+   In: reference density; read for the wave speed only.
+   */
+  float density;
+  /*
+   Out, 6: Cauchy stress 11 22 33 12 23 31.
+   */
+  float *stress;
+  /*
+   Out, 4: W_el W_tc W_td W_ld.
+   */
+  float *energies;
+  /*
+   Out, 4: I_el I_tc I_td I_ld.
+   */
+  float *invariants;
+  /*
+   Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+   */
+  float *failure;
+  /*
+   Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+   */
+  float *modes;
+  /*
+   Out, 1: an upper bound of the wave speed.
+   */
+  float *wave_speed;
+  /*
+   Out: a status code for each point.
+   */
+  int32_t *status;
+} toron_block_f32;
+
+/*
+ The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+ */
+typedef struct {
+  /*
+   Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+   */
+  int32_t nblock;
+  int32_t ndir;
+  int32_t nshr;
+  int32_t nstatev;
+  int32_t nprops;
+  /*
+   Both 0: the data check, which wants an elastic answer to `strain_inc`.
+   */
+  double step_time;
+  double total_time;
+  /*
+   In: properties, nprops.
+   */
+  const double *props;
+  /*
+   In, 1: current density at the middle of the step.
+   */
+  const double *density;
+  /*
+   In, 6: increment of strain, tensor components; read in the data check only.
+   */
+  const double *strain_inc;
+  /*
+   In, 6 each: U at both ends of the step.
+   */
+  const double *stretch_old;
+  const double *stretch_new;
+  /*
+   In: 6, nstatev, 1 and 1.
+   */
+  const double *stress_old;
+  const double *state_old;
+  const double *ener_intern_old;
+  const double *ener_inelas_old;
+  /*
+   Out: 6, nstatev, 1 and 1.
+   */
+  double *stress_new;
+  double *state_new;
+  double *ener_intern_new;
+  double *ener_inelas_new;
+} toron_vumat_f64;
+
+/*
+ The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+ */
+typedef struct {
+  /*
+   Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+   */
+  int32_t nblock;
+  int32_t ndir;
+  int32_t nshr;
+  int32_t nstatev;
+  int32_t nprops;
+  /*
+   Both 0: the data check, which wants an elastic answer to `strain_inc`.
+   */
+  float step_time;
+  float total_time;
+  /*
+   In: properties, nprops.
+   */
+  const float *props;
+  /*
+   In, 1: current density at the middle of the step.
+   */
+  const float *density;
+  /*
+   In, 6: increment of strain, tensor components; read in the data check only.
+   */
+  const float *strain_inc;
+  /*
+   In, 6 each: U at both ends of the step.
+   */
+  const float *stretch_old;
+  const float *stretch_new;
+  /*
+   In: 6, nstatev, 1 and 1.
+   */
+  const float *stress_old;
+  const float *state_old;
+  const float *ener_intern_old;
+  const float *ener_inelas_old;
+  /*
+   Out: 6, nstatev, 1 and 1.
+   */
+  float *stress_new;
+  float *state_new;
+  float *ener_intern_new;
+  float *ener_inelas_new;
+} toron_vumat_f32;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/*
+ The version of the library, terminated, static: do not free.
+ */
+const char *toron_version(void);
+
+/*
+ The number of the interface the library was built with: compare it with `TORON_ABI_VERSION` of the header.
+ */
+int32_t toron_abi_version(void);
+
+/*
+ What a status code means, as a sentence.
+
+ Writes at most `capacity` bytes to `buffer`, always terminated; returns the length needed without the terminator.
+ `buffer` may be null and `capacity` 0.
+
+ # Safety
+ `buffer` is null or has room for `capacity` bytes.
+ */
+size_t toron_status_message(int32_t status, char *buffer, size_t capacity);
+
+/*
+ The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
+ */
+int32_t toron_property_count(int32_t law);
+
+/*
+ Writes the property of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+
+ # Safety
+ `row` is null or writable.
+ */
+int32_t toron_property(int32_t law, int32_t index, toron_table_row *row);
+
+/*
+ The index, from 0, of the property of this name, or `TORON_UNKNOWN_NAME`.
+
+ # Safety
+ `property` is null or terminated.
+ */
+int32_t toron_property_index(int32_t law, const char *property);
+
+/*
+ The number of state variables of a law, or `TORON_UNKNOWN_NAME`.
+ */
+int32_t toron_state_count(int32_t law);
+
+/*
+ Writes the state variable of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+
+ # Safety
+ `row` is null or writable.
+ */
+int32_t toron_state_variable(int32_t law, int32_t index, toron_table_row *row);
+
+/*
+ The index, from 0, of the state variable of this name, or `TORON_UNKNOWN_NAME`.
+
+ # Safety
+ `variable` is null or terminated.
+ */
+int32_t toron_state_index(int32_t law, const char *variable);
+
+/*
+ The properties and the reference density of a preset, in the units of the user's model.
+
+ - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: three units of length, mass and time joined by
+   "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+ - `values`: room for `count` values, the law's number of properties; `density`: one value, or null.
+
+ Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
+
+ # Safety
+ Strings are terminated; `values` has room for `count` values.
+ */
+int32_t toron_preset_f64(const char *preset, const char *units, double *values, size_t count, double *density);
+
+/*
+ As `toron_preset_f64`, rounded to single precision.
+
+ # Safety
+ As for `toron_preset_f64`.
+ */
+int32_t toron_preset_f32(const char *preset, const char *units, float *values, size_t count, float *density);
+
+/*
+ Checks the properties of the hyperelastic law.
+
+ - `values`, `count`: the properties in the table's order.
+ - `message`, `capacity`: where to write which property is wrong, its value and what is allowed: at most `capacity`
+   bytes, always terminated, empty where all is well. `message` may be null and `capacity` 0.
+ - `status`: 0, `TORON_NULL_ARGUMENT` or a −2xx code; may be null.
+
+ Returns the length of the whole message without the terminator, 0 where all is well.
+
+ # Safety
+ `values` is null or points to `count` values; `message` is null or has room for `capacity` bytes.
+ */
+size_t toron_hyperelastic_validate_f64(const double *values,
+                                       size_t count,
+                                       char *message,
+                                       size_t capacity,
+                                       int32_t *status);
+
+/*
+ As `toron_hyperelastic_validate_f64`, in single precision.
+
+ # Safety
+ As for `toron_hyperelastic_validate_f64`.
+ */
+size_t toron_hyperelastic_validate_f32(const float *values,
+                                       size_t count,
+                                       char *message,
+                                       size_t capacity,
+                                       int32_t *status);
+
+/*
+ The hyperelastic law at one point.
+
+ - `values`, `count`: the properties in the table's order.
+ - `deformation_gradient`: 9 values by columns. Must not be null.
+ - `fibre`: 3 values, the fibre direction, any length; null: the property.
+ - `state_old`: 11 values; null: all 0. `state_new`: room for 11; null: not wanted, and the point cannot fail. They may
+   be the same array.
+ - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second
+   Piola-Kirchhoff); `wave_speed`: room for 1, a bound at the reference density `density`; each may be null.
+
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_hyperelastic_point_f64(const double *values,
+                                     size_t count,
+                                     const double *deformation_gradient,
+                                     const double *fibre,
+                                     const double *state_old,
+                                     double *state_new,
+                                     double *stress,
+                                     double *modes,
+                                     double density,
+                                     double *wave_speed);
+
+/*
+ As `toron_hyperelastic_point_f64`, in single precision.
+
+ # Safety
+ As for `toron_hyperelastic_point_f64`.
+ */
+int32_t toron_hyperelastic_point_f32(const float *values,
+                                     size_t count,
+                                     const float *deformation_gradient,
+                                     const float *fibre,
+                                     const float *state_old,
+                                     float *state_new,
+                                     float *stress,
+                                     float *modes,
+                                     float density,
+                                     float *wave_speed);
+
+/*
+ The hyperelastic law at a block of points.
+
+ - `values`, `count`: the properties in the table's order, the same for all points.
+ - `block`: the arrays, see the structure; all theirs stay the caller's.
+
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+ its state; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+
+ # Safety
+ Every array has as many values as the structure says; outputs overlap nothing but, exactly, the old state they
+ replace.
+ */
+int32_t toron_hyperelastic_block_f64(const double *values,
+                                     size_t count,
+                                     const toron_block_f64 *block);
+
+/*
+ As `toron_hyperelastic_block_f64`, in single precision.
+
+ # Safety
+ As for `toron_hyperelastic_block_f64`.
+ */
+int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const toron_block_f32 *block);
+
+/*
+ Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
+
+ # Safety
+ As for `toron_hyperelastic_validate_f64`.
+ */
+size_t toron_linear_elastic_validate_f64(const double *values,
+                                         size_t count,
+                                         char *message,
+                                         size_t capacity,
+                                         int32_t *status);
+
+/*
+ The material axes of the linear elastic law in the reference placement: where the axes of
+ `TORON_ROTATION_SPIN` start.
+
+ `axes`: room for 9 values, the three axes one after the other. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+
+ # Safety
+ `values` points to `count` values; `axes` has room for 9.
+ */
+int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double *axes);
+
+/*
+ The linear elastic law over a step, from the deformation gradients at both ends.
+
+ - `values`, `count`: the properties in the table's order.
+ - `f_old`, `f_new`: 9 values each, by columns. Must not be null.
+ - `state_old`: 10 values; null: all 0. `state_new`: room for 10, or null. They may be the same array.
+ - `stress`: room for 6, Cauchy stress in space 11 22 33 12 23 31, or null.
+ - `rotation`: the frame that turns with the material, `TORON_ROTATION_FIBRE` (what a yarn needs), `_POLAR` or `_SPIN`.
+ - `criterion`: `TORON_CRITERION_PRINCIPAL` or `_FIBRE`.
+ - `axes`: 9 values, read and advanced for `TORON_ROTATION_SPIN`, which has to be told where the material axes are:
+   start with `toron_linear_elastic_axes_f64`. May be null for the other frames.
+
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_linear_elastic_step_f64(const double *values,
+                                      size_t count,
+                                      const double *f_old,
+                                      const double *f_new,
+                                      const double *state_old,
+                                      double *state_new,
+                                      double *stress,
+                                      int32_t rotation,
+                                      int32_t criterion,
+                                      double *axes);
+
+/*
+ The linear elastic law for an increment of strain in a frame that the host keeps.
+
+ - `strain`: 6 tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be
+   null.
+ - `jacobian`: the volume ratio J, which weighs the work; 1 where it is not known.
+ - `state_old`, `state_new`, `criterion`: as for `toron_linear_elastic_step_f64`; `stress`: in that frame.
+
+ The law is as good as the frame: axes that follow the host's polar rotation or spin let the stiff direction drift off
+ a sheared fibre. Returns as `toron_linear_elastic_step_f64` does.
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_linear_elastic_increment_f64(const double *values,
+                                           size_t count,
+                                           const double *strain,
+                                           double jacobian,
+                                           const double *state_old,
+                                           double *state_new,
+                                           double *stress,
+                                           int32_t criterion);
+
+/*
+ The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
+
+ Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
+ `pnewdt` (in and out), `stran` and `dstran` (6, in), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` =
+ 3. All pointers are the caller's and not null.
+
+ Returns 0; `TORON_BAD_COUNT`, `TORON_STATE_COUNT`, a −2xx code, or `TORON_NO_DEFORMATION_GRADIENT` where there are
+ strains but F = 1 (NLGEOM=NO), and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
+ lowered to at most a quarter.
+
+ # Safety
+ Every pointer has as many values as said.
+ */
+int32_t toron_abaqus_umat_f64(double *stress,
+                              double *statev,
+                              double *sse,
+                              double *pnewdt,
+                              const double *stran,
+                              const double *dstran,
+                              const double *dfgrd1,
+                              const double *props,
+                              int32_t nprops,
+                              int32_t nstatv,
+                              int32_t ndi,
+                              int32_t nshr);
+
+/*
+ The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
+
+ `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
+ law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
+ `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
+
+ Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
+ nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
+ and is failed and deleted.
+
+ # Safety
+ Every pointer has as many values as said; old and new arrays do not overlap.
+ */
+int32_t toron_abaqus_vumat_f64(const toron_vumat_f64 *block);
+
+/*
+ As `toron_abaqus_vumat_f64`, for jobs in single precision.
+
+ # Safety
+ As for `toron_abaqus_vumat_f64`.
+ */
+int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
+
+/*
+ The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
+
+ `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
+ `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
+
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code: no
+ stress, energies and invariants as they were, the element failed.
+
+ # Safety
+ Every pointer has as many values as said.
+ */
+int32_t toron_lsdyna_umat_f64(const double *cm, double *sig, double *hsv, int32_t nhv, int *failel);
+
+/*
+ As `toron_lsdyna_umat_f64`, in single precision.
+
+ # Safety
+ As for `toron_lsdyna_umat_f64`.
+ */
+int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t nhv, int *failel);
+
+/*
+ The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
+
+ `cm`: 11 properties or more; `sig1` … `sig6`: `nlq` each, out; `hsvs`: (`nlq`, 20), `nhv` = 11 state variables, in
+ and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0. Elements
+ `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
+
+ Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
+ `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or the most negative −3xx code of an element: that one
+ carries no stress, keeps its energies and invariants, and is failed.
+
+ # Safety
+ Every pointer has as many values as said.
+ */
+int32_t toron_lsdyna_umat_vector_f64(const double *cm,
+                                     double *sig1,
+                                     double *sig2,
+                                     double *sig3,
+                                     double *sig4,
+                                     double *sig5,
+                                     double *sig6,
+                                     double *hsvs,
+                                     int32_t nhv,
+                                     int32_t lft,
+                                     int32_t llt,
+                                     int32_t nlq,
+                                     int *failels);
+
+/*
+ As `toron_lsdyna_umat_vector_f64`, in single precision.
+
+ # Safety
+ As for `toron_lsdyna_umat_vector_f64`.
+ */
+int32_t toron_lsdyna_umat_vector_f32(const float *cm,
+                                     float *sig1,
+                                     float *sig2,
+                                     float *sig3,
+                                     float *sig4,
+                                     float *sig5,
+                                     float *sig6,
+                                     float *hsvs,
+                                     int32_t nhv,
+                                     int32_t lft,
+                                     int32_t llt,
+                                     int32_t nlq,
+                                     int *failels);
+
+/*
+ Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
+
+ LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
+ `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+
+ # Safety
+ `values` points to `count` values; `bulk` and `shear` are writable.
+ */
+int32_t toron_lsdyna_bulk_and_shear_f64(const double *values, size_t count, double *bulk, double *shear);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* TORON_H */

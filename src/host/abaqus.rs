@@ -1,0 +1,334 @@
+//! Abaqus: UMAT (Standard) and VUMAT (Explicit).
+//!
+//! | | UMAT | VUMAT |
+//! |---|---|---|
+//! | deformation | DFGRD1(3,3), F by columns | stretchNew, U: 11 22 33 12 23 31 |
+//! | frame of the stress | global; no `*ORIENTATION` | corotational: RᵀσR |
+//! | order of the stress | 11 22 33 **12 13 23** | 11 22 33 **12 23 31** |
+//! | arrays | one point | (nblock, components), component-major |
+//! | precision | double | that of the job |
+//! | energy | SSE = W/J per current volume | enerInternNew = W/ρ0 per mass |
+//! | failure | stress 0, STATEV "alive" 0 | state variable 11, "alive", 0: `*DEPVAR, DELETE=11` |
+//! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
+//!
+//! Three-dimensional solids only (NDI = 3, NSHR = 3). The symbols `umat_` and `vumat_` that Abaqus looks for are in
+//! `fortran-shim/`. UMAT leaves DDSDDE untouched: not for Standard yet.
+
+use crate::law::block::{Pointers, components, components_mut};
+use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::parameters;
+use crate::law::real::Real;
+use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use crate::law::status;
+use nalgebra::Matrix3;
+
+use super::c_api::properties;
+
+/// What PNEWDT is lowered to where a point cannot be evaluated.
+const CUTBACK: f64 = 0.25;
+
+/// A strain that no rounding of a large-displacement analysis leaves behind F = 1.
+const STRAIN_WITHOUT_DEFORMATION: f64 = 1e-12;
+
+/// The counts that both entries demand.
+fn counts(direct: i32, shear: i32, state: i32) -> i32 {
+    if direct != 3 || shear != 3 {
+        status::BAD_COUNT
+    } else if state < HYPERELASTIC_STATE as i32 {
+        status::STATE_COUNT
+    } else {
+        status::OK
+    }
+}
+
+/// The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
+///
+/// Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
+/// `pnewdt` (in and out), `stran` and `dstran` (6, in), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` =
+/// 3. All pointers are the caller's and not null.
+///
+/// Returns 0; `TORON_BAD_COUNT`, `TORON_STATE_COUNT`, a −2xx code, or `TORON_NO_DEFORMATION_GRADIENT` where there are
+/// strains but F = 1 (NLGEOM=NO), and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
+/// lowered to at most a quarter.
+///
+/// # Safety
+/// Every pointer has as many values as said.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    stran: *const f64,
+    dstran: *const f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+) -> i32 {
+    let pointers = [stress.cast_const(), statev, sse, pnewdt, stran, dstran, dfgrd1, props];
+    if pointers.iter().any(|pointer| pointer.is_null()) {
+        return status::NULL_ARGUMENT;
+    }
+    let code = counts(ndi, nshr, nstatv);
+    if code != status::OK {
+        return code;
+    }
+    // SAFETY: not null, and the caller's promise.
+    let (props, f, old, stran, dstran) = unsafe {
+        (
+            properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
+            Matrix3::from_column_slice(&*dfgrd1.cast::<[f64; 9]>()),
+            *statev.cast::<[f64; HYPERELASTIC_STATE]>(),
+            *stran.cast::<[f64; 6]>(),
+            *dstran.cast::<[f64; 6]>(),
+        )
+    };
+    let law = match props.and_then(Hyperelastic::new) {
+        Ok(law) => law,
+        Err(error) => return error.code(),
+    };
+    let strained = stran.iter().zip(&dstran).any(|(a, b)| (a + b).abs() > STRAIN_WITHOUT_DEFORMATION);
+    if strained && f == Matrix3::identity() {
+        return status::NO_DEFORMATION_GRADIENT;
+    }
+    let point = law.point(&f, &old, Request { modes: false, wave_modulus: false, ..Request::ALL });
+    let [s11, s22, s33, s12, s23, s31] = point.stress;
+    let energy: f64 = point.state[ENERGIES..INVARIANTS].iter().sum();
+    // SAFETY: as above.
+    unsafe {
+        *stress.cast::<[f64; 6]>() = [s11, s22, s33, s12, s31, s23];
+        if point.status == status::OK {
+            *statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
+            let jacobian = f.determinant();
+            *sse = if jacobian > 0.0 { energy / jacobian } else { energy };
+        } else {
+            *pnewdt = (*pnewdt).min(CUTBACK);
+        }
+    }
+    point.status
+}
+
+/// The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Vumat<T> {
+    /// Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+    pub nblock: i32,
+    pub ndir: i32,
+    pub nshr: i32,
+    pub nstatev: i32,
+    pub nprops: i32,
+    /// Both 0: the data check, which wants an elastic answer to `strain_inc`.
+    pub step_time: T,
+    pub total_time: T,
+    /// In: properties, nprops.
+    pub props: *const T,
+    /// In, 1: current density at the middle of the step.
+    pub density: *const T,
+    /// In, 6: increment of strain, tensor components; read in the data check only.
+    pub strain_inc: *const T,
+    /// In, 6 each: U at both ends of the step.
+    pub stretch_old: *const T,
+    pub stretch_new: *const T,
+    /// In: 6, nstatev, 1 and 1.
+    pub stress_old: *const T,
+    pub state_old: *const T,
+    pub ener_intern_old: *const T,
+    pub ener_inelas_old: *const T,
+    /// Out: 6, nstatev, 1 and 1.
+    pub stress_new: *mut T,
+    pub state_new: *mut T,
+    pub ener_intern_new: *mut T,
+    pub ener_inelas_new: *mut T,
+}
+
+/// The elements of component `c` of point `i`.
+macro_rules! at {
+    ($array:expr, $block:expr, $c:expr, $i:expr) => {
+        *$array.add($c * $block.nblock as usize + $i)
+    };
+}
+
+/// # Safety
+/// As for `toron_abaqus_vumat_f64`.
+unsafe fn vumat<T: Real<Mask = bool> + Into<f64> + PartialEq>(block: *const Vumat<T>) -> i32 {
+    if block.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    // SAFETY: not null, and the caller's promise.
+    let block = unsafe { &*block };
+    let pointers = [
+        block.props,
+        block.density,
+        block.strain_inc,
+        block.stretch_old,
+        block.stretch_new,
+        block.stress_old,
+        block.state_old,
+        block.ener_intern_old,
+        block.ener_inelas_old,
+        block.stress_new,
+        block.state_new,
+        block.ener_intern_new,
+        block.ener_inelas_new,
+    ];
+    if pointers.iter().any(|pointer| pointer.is_null()) {
+        return status::NULL_ARGUMENT;
+    }
+    let code = counts(block.ndir, block.nshr, block.nstatev);
+    if code != status::OK {
+        return code;
+    }
+    let Ok(n) = usize::try_from(block.nblock) else {
+        return status::BAD_COUNT;
+    };
+    let count = usize::try_from(block.nprops).unwrap_or(0);
+    // SAFETY: not null, and the caller's promise.
+    let law = match unsafe { properties(block.props, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new) {
+        Ok(law) => law,
+        Err(error) => return error.code(),
+    };
+    // SAFETY: the caller's promise, from here on.
+    unsafe {
+        for i in 0..n {
+            // What the law does not own goes over as it is, the inelastic energy too: there is none.
+            for c in HYPERELASTIC_STATE..block.nstatev as usize {
+                at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
+            }
+            *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
+        }
+        let zero = T::splat(0.0);
+        if block.step_time == zero && block.total_time == zero {
+            elastic_check(&law, block, n);
+            return status::OK;
+        }
+        stretched(&law, block, n)
+    }
+}
+
+/// The data check: Abaqus wants the elastic wave speed from fictitious strains, before there is any deformation. The
+/// answer is an isotropic solid whose longitudinal wave is the fibre's, since the law itself has no stiffness across.
+///
+/// # Safety
+/// As for [`vumat`], with `n` points.
+unsafe fn elastic_check<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) {
+    let [bulk, shear] = law.bulk_and_shear();
+    let two_g = T::splat(2.0) * shear;
+    let lame = bulk - two_g * T::splat(1.0 / 3.0);
+    // SAFETY: the caller's promise.
+    unsafe {
+        for i in 0..n {
+            let strain = |c: usize| at!(block.strain_inc, block, c, i);
+            let volumetric = lame * (strain(0) + strain(1) + strain(2));
+            for c in 0..6 {
+                let isotropic = if c < 3 { volumetric } else { T::splat(0.0) };
+                at!(block.stress_new, block, c, i) =
+                    at!(block.stress_old, block, c, i) + two_g.mul_add(strain(c), isotropic);
+            }
+            for c in 0..ALIVE {
+                at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
+            }
+            at!(block.state_new, block, ALIVE, i) = T::splat(1.0) - at!(block.state_old, block, FAILED, i);
+            *block.ener_intern_new.add(i) = *block.ener_intern_old.add(i);
+        }
+    }
+}
+
+/// The law itself, at U: the stress of U is RᵀσR.
+///
+/// # Safety
+/// As for [`vumat`], with `n` points.
+unsafe fn stretched<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) -> i32 {
+    const CHUNK: usize = 64;
+    let mut worst = status::OK;
+    let mut start = 0;
+    while start < n {
+        let mut codes = [status::OK; CHUNK];
+        let row = |c: usize| c.wrapping_mul(n).wrapping_add(start);
+        let [u11, u22, u33, u12, u23, u31] = components(block.stretch_new.wrapping_add(start), n);
+        let pointers = Pointers {
+            n: CHUNK.min(n - start),
+            leading_dimension: n,
+            deformation_gradient: [u11, u12, u31, u12, u22, u23, u31, u23, u33],
+            fibre: [core::ptr::null(); 3],
+            energies_old: block.state_old.wrapping_add(row(ENERGIES)),
+            invariants_old: block.state_old.wrapping_add(row(INVARIANTS)),
+            failure_old: block.state_old.wrapping_add(row(FAILURE_INDEX)),
+            density: T::splat(1.0),
+            stress: components_mut(block.stress_new.wrapping_add(start), n),
+            energies: block.state_new.wrapping_add(row(ENERGIES)),
+            invariants: block.state_new.wrapping_add(row(INVARIANTS)),
+            failure: block.state_new.wrapping_add(row(FAILURE_INDEX)),
+            modes: core::ptr::null_mut(),
+            wave_speed: core::ptr::null_mut(),
+            status: codes.as_mut_ptr(),
+        };
+        // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
+        match unsafe { law.raw_block(&pointers) } {
+            Ok(code) => worst = worst.min(code),
+            Err(error) => return error.code(),
+        }
+        for (i, &code) in (start..n).zip(&codes) {
+            // SAFETY: i < n.
+            unsafe { finish(block, i, code) };
+        }
+        start += CHUNK;
+    }
+    worst
+}
+
+/// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is
+/// the current one at the middle of the step.
+///
+/// # Safety
+/// As for [`vumat`], for a point i < nblock whose new state is written.
+unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
+    let (zero, half, one) = (T::splat(0.0), T::splat(0.5), T::splat(1.0));
+    // SAFETY: the caller's promise.
+    unsafe {
+        if code != status::OK {
+            at!(block.state_new, block, FAILED, i) = one;
+            at!(block.state_new, block, ALIVE, i) = zero;
+        }
+        let u = |c: usize| half * (at!(block.stretch_old, block, c, i) + at!(block.stretch_new, block, c, i));
+        let volume = u(0) * (u(1) * u(2) - u(4) * u(4)) - u(3) * (u(3) * u(2) - u(4) * u(5))
+            + u(5) * (u(3) * u(4) - u(1) * u(5));
+        let w = |c: usize| at!(block.state_new, block, c, i);
+        let energy = (w(0) + w(1) + w(2) + w(3)) / (*block.density.add(i) * volume);
+        // Where the deformation or the density makes no sense, the energy stays.
+        let known = zero.lt(volume) && (energy * zero).le(zero);
+        *block.ener_intern_new.add(i) = if known { energy } else { *block.ener_intern_old.add(i) };
+    }
+}
+
+/// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
+///
+/// `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
+/// law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
+/// `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
+///
+/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
+/// nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
+/// and is failed and deleted.
+///
+/// # Safety
+/// Every pointer has as many values as said; old and new arrays do not overlap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vumat(block) }
+}
+
+/// As `toron_abaqus_vumat_f64`, for jobs in single precision.
+///
+/// # Safety
+/// As for `toron_abaqus_vumat_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_vumat_f32(block: *const Vumat<f32>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vumat(block) }
+}

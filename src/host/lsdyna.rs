@@ -1,0 +1,281 @@
+//! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`).
+//!
+//! | | |
+//! |---|---|
+//! | properties | cm(1) … cm(11); cm(12), cm(13) hold bulk and shear modulus for IBULK = 12, IG = 13 |
+//! | deformation | F by columns in the history after the NHV = 11 state variables: hsv(12) … hsv(20), read only |
+//! | arrays, vectorised | leading dimension nlq: variable j of element i at hsvs((i − 1) + (j − 1) nlq) |
+//! | stress | Cauchy 11 22 33 12 23 31, global |
+//! | card | IHYPER = −1, IORTHO = 1: fibre (1, 0, 0); or IHYPER = 1, IORTHO = 0: fibre in global axes; IFAIL = 1 |
+//! | failure | failel; F inverted or not finite fails the element too |
+//!
+//! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
+
+use core::ffi::c_int;
+
+use crate::law::block::{Pointers, components};
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::parameters;
+use crate::law::real::Real;
+use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use crate::law::status::{self, Error};
+
+use super::c_api::{properties, store};
+
+/// Elements `first` to `last`, counted from 0, of a vector block.
+struct Elements<T> {
+    stress: [*mut T; 6],
+    history: *mut T,
+    leading_dimension: usize,
+    first: usize,
+    count: usize,
+    failed: *mut c_int,
+}
+
+/// # Safety
+/// As for `toron_lsdyna_umat_vector_f64`.
+unsafe fn umat<T: Real<Mask = bool> + Into<f64>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> i32 {
+    if nhv != HYPERELASTIC_STATE as i32 {
+        return status::STATE_COUNT;
+    }
+    // SAFETY: the caller's promise.
+    let props = unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) };
+    let law = match props.and_then(Hyperelastic::new) {
+        Ok(law) => law,
+        Err(error) => return error.code(),
+    };
+    // SAFETY: the caller's promise.
+    unsafe { evaluate(&law, elements) }.unwrap_or_else(|error| error.code())
+}
+
+/// Runs the law over the elements in place, and fails those that have failed or could not be evaluated.
+///
+/// # Safety
+/// As for `toron_lsdyna_umat_vector_f64`.
+unsafe fn evaluate<T: Real<Mask = bool> + Into<f64>>(
+    law: &Hyperelastic<T>,
+    elements: &Elements<T>,
+) -> Result<i32, Error> {
+    const CHUNK: usize = 64;
+    let Elements { leading_dimension: stride, .. } = *elements;
+    let mut worst = status::OK;
+    let mut done = 0;
+    while done < elements.count {
+        let start = elements.first + done;
+        let n = CHUNK.min(elements.count - done);
+        let mut codes = [status::OK; CHUNK];
+        let row = |variable: usize| elements.history.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
+        let pointers = Pointers {
+            n,
+            leading_dimension: stride,
+            deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
+            fibre: [core::ptr::null(); 3],
+            energies_old: row(ENERGIES),
+            invariants_old: row(INVARIANTS),
+            failure_old: row(FAILURE_INDEX),
+            density: T::splat(1.0),
+            stress: elements.stress.map(|component| component.wrapping_add(start)),
+            energies: row(ENERGIES),
+            invariants: row(INVARIANTS),
+            failure: row(FAILURE_INDEX),
+            modes: core::ptr::null_mut(),
+            wave_speed: core::ptr::null_mut(),
+            status: codes.as_mut_ptr(),
+        };
+        // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
+        worst = worst.min(unsafe { law.raw_block(&pointers) }?);
+        for (i, &code) in codes.iter().take(n).enumerate() {
+            // SAFETY: the element is one of the block.
+            unsafe {
+                let failed = row(FAILED).add(i);
+                if code != status::OK {
+                    *failed = T::splat(1.0);
+                    *row(ALIVE).add(i) = T::splat(0.0);
+                }
+                *elements.failed.add(start + i) = c_int::from(!(*failed).lt(T::splat(0.5)));
+            }
+        }
+        done += n;
+    }
+    Ok(worst)
+}
+
+/// # Safety
+/// As for `toron_lsdyna_umat_f64`.
+unsafe fn scalar<T: Real<Mask = bool> + Into<f64>>(
+    cm: *const T,
+    sig: *mut T,
+    hsv: *mut T,
+    nhv: i32,
+    failel: *mut c_int,
+) -> i32 {
+    if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    let stress = [0, 1, 2, 3, 4, 5].map(|component| sig.wrapping_add(component));
+    let element = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
+    // SAFETY: the caller's promise.
+    unsafe { umat(cm, nhv, &element) }
+}
+
+/// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
+///
+/// `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
+/// `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
+///
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code: no
+/// stress, energies and invariants as they were, the element failed.
+///
+/// # Safety
+/// Every pointer has as many values as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_umat_f64(
+    cm: *const f64,
+    sig: *mut f64,
+    hsv: *mut f64,
+    nhv: i32,
+    failel: *mut c_int,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { scalar(cm, sig, hsv, nhv, failel) }
+}
+
+/// As `toron_lsdyna_umat_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_lsdyna_umat_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_umat_f32(
+    cm: *const f32,
+    sig: *mut f32,
+    hsv: *mut f32,
+    nhv: i32,
+    failel: *mut c_int,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { scalar(cm, sig, hsv, nhv, failel) }
+}
+
+/// # Safety
+/// As for `toron_lsdyna_umat_vector_f64`.
+#[allow(clippy::too_many_arguments)]
+unsafe fn vector<T: Real<Mask = bool> + Into<f64>>(
+    cm: *const T,
+    stress: [*mut T; 6],
+    hsvs: *mut T,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+) -> i32 {
+    if cm.is_null() || stress.iter().any(|component| component.is_null()) || hsvs.is_null() || failels.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    if lft < 1 || llt < lft - 1 {
+        return status::BAD_COUNT;
+    }
+    if nlq < llt {
+        return status::BAD_LEADING_DIMENSION;
+    }
+    let elements = Elements {
+        stress,
+        history: hsvs,
+        leading_dimension: nlq as usize,
+        first: (lft - 1) as usize,
+        count: (llt - lft + 1) as usize,
+        failed: failels,
+    };
+    // SAFETY: the caller's promise.
+    unsafe { umat(cm, nhv, &elements) }
+}
+
+/// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
+///
+/// `cm`: 11 properties or more; `sig1` … `sig6`: `nlq` each, out; `hsvs`: (`nlq`, 20), `nhv` = 11 state variables, in
+/// and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0. Elements
+/// `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
+///
+/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
+/// `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or the most negative −3xx code of an element: that one
+/// carries no stress, keeps its energies and invariants, and is failed.
+///
+/// # Safety
+/// Every pointer has as many values as said.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
+    cm: *const f64,
+    sig1: *mut f64,
+    sig2: *mut f64,
+    sig3: *mut f64,
+    sig4: *mut f64,
+    sig5: *mut f64,
+    sig6: *mut f64,
+    hsvs: *mut f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) }
+}
+
+/// As `toron_lsdyna_umat_vector_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_lsdyna_umat_vector_f64`.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
+    cm: *const f32,
+    sig1: *mut f32,
+    sig2: *mut f32,
+    sig3: *mut f32,
+    sig4: *mut f32,
+    sig5: *mut f32,
+    sig6: *mut f32,
+    hsvs: *mut f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) }
+}
+
+/// Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
+///
+/// LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
+/// `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+///
+/// # Safety
+/// `values` points to `count` values; `bulk` and `shear` are writable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
+    values: *const f64,
+    count: usize,
+    bulk: *mut f64,
+    shear: *mut f64,
+) -> i32 {
+    if bulk.is_null() || shear.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    // SAFETY: the caller's promise.
+    match unsafe { properties(values, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new) {
+        Ok(law) => {
+            let [k, g] = law.bulk_and_shear();
+            // SAFETY: not null, and the caller's promise.
+            unsafe {
+                store(&[k], bulk);
+                store(&[g], shear);
+            }
+            status::OK
+        }
+        Err(error) => error.code(),
+    }
+}

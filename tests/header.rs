@@ -1,0 +1,45 @@
+//! The committed C header is what cbindgen makes of the source today. `TORON_WRITE_HEADER=1 cargo test --test header`
+//! writes it anew.
+
+use std::path::Path;
+
+use toron::law::status;
+
+fn generated() -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut config = cbindgen::Config::from_file(root.join("cbindgen.toml")).expect("cbindgen.toml");
+    for (_, name, _) in status::TABLE {
+        let name = name.to_uppercase();
+        config.export.rename.insert(name.clone(), format!("TORON_{name}"));
+    }
+    let mut builder = cbindgen::Builder::new().with_config(config);
+    for source in ["src/law/status.rs", "src/host/c_api.rs", "src/host/abaqus.rs", "src/host/lsdyna.rs"] {
+        builder = builder.with_src(root.join(source));
+    }
+    let mut header = Vec::new();
+    builder.generate().expect("a header").write(&mut header);
+    String::from_utf8(header).expect("UTF-8")
+}
+
+#[test]
+fn the_committed_header_is_current() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/toron.h");
+    let generated = generated();
+    if std::env::var_os("TORON_WRITE_HEADER").is_some() {
+        std::fs::write(&path, &generated).expect("include/toron.h is writable");
+    }
+    let committed = std::fs::read_to_string(&path).expect("include/toron.h");
+    assert!(
+        committed == generated,
+        "include/toron.h is not current: run TORON_WRITE_HEADER=1 cargo test --test header"
+    );
+}
+
+#[test]
+fn every_status_code_is_in_the_header() {
+    let header = generated();
+    for (code, name, _) in status::TABLE {
+        let line = format!("#define TORON_{} {code}\n", name.to_uppercase());
+        assert!(header.contains(&line), "{line}");
+    }
+}
