@@ -18,7 +18,7 @@
 //! not a branch.
 
 use super::elementary::{asinh, ln_sum};
-use super::real::{Real, along, cross, dot, scale};
+use super::real::{Real, accurate_cross, along, cross, dot, scale};
 
 /// F − 1 counts as small where the sum of its squared entries is below this: every diagonal entry of F is then above ½,
 /// so that H is exact, and no singular value of F is below 0.6.
@@ -93,7 +93,9 @@ impl<R: Real> Deformation<R> {
     pub fn new(f: &[[R; 3]; 3], n: &FibreFrame<R>) -> Self {
         let (zero, one, half) = (R::splat(0.0), R::splat(1.0), R::splat(0.5));
 
-        let jacobian = dot(f[0], cross(f[1], f[2]));
+        // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
+        // section loses most of its digits here.
+        let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
         let h = [f[0][0] - one, f[1][1] - one, f[2][2] - one];
         let off_diagonal = dot([f[0][1], f[0][2], f[1][2]], [f[0][1], f[0][2], f[1][2]])
