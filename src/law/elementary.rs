@@ -117,6 +117,17 @@ impl<R: Real> Exponent<R> {
         let high = big - (big - q);
         Exponent { value: q, high, low: q - high, over_ln_2: q * R::splat(core::f64::consts::LOG2_E) }
     }
+
+    /// The same exponent in another number.
+    #[inline(always)]
+    pub fn map<L>(self, lane: impl Fn(R) -> L) -> Exponent<L> {
+        Exponent {
+            value: lane(self.value),
+            high: lane(self.high),
+            low: lane(self.low),
+            over_ln_2: lane(self.over_ln_2),
+        }
+    }
 }
 
 /// i^q for i ≥ 0 and q > 0; 0 for subnormal i.

@@ -18,7 +18,7 @@
 //! not a branch.
 
 use super::elementary::{asinh, ln_sum};
-use super::real::{Real, accurate_cross, along, cross, dot, scale};
+use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
 
 /// F − 1 counts as small where the sum of its squared entries is below this: every diagonal entry of F is then above ½,
 /// so that H is exact, and no singular value of F is below 0.6.
@@ -107,8 +107,7 @@ impl<R: Real> Deformation<R> {
         let diagonal = [R::select(near, h[0], f[0][0]), R::select(near, h[1], f[1][1]), R::select(near, h[2], f[2][2])];
         let columns =
             [[diagonal[0], f[0][1], f[0][2]], [f[1][0], diagonal[1], f[1][2]], [f[2][0], f[2][1], diagonal[2]]];
-        let image = |v: [R; 3]| along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0]);
-        let (g1, g2, g3) = (image(n.m), image(n.t1), image(n.t2));
+        let (g1, g2, g3) = (image(&columns, n.m), image(&columns, n.t1), image(&columns, n.t2));
         let (c1, c2, c3) = (along(g1, sigma, n.m), along(g2, sigma, n.t1), along(g3, sigma, n.t2));
 
         // Along the fibre.

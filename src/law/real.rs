@@ -78,6 +78,12 @@ pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
     [s * a[0], s * a[1], s * a[2]]
 }
 
+/// The image of a vector under the matrix of these columns.
+#[inline(always)]
+pub fn image<R: Real>(columns: &[[R; 3]; 3], v: [R; 3]) -> [R; 3] {
+    along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0])
+}
+
 /// A product and its rounding error, without a fused multiply-add (Dekker, Numer. Math. 18, 1971).
 #[inline(always)]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
