@@ -168,16 +168,14 @@ impl<R: Real> Hyperelastic<R> {
     /// The factors of the four modes in the Kirchhoff stress.
     #[inline(always)]
     pub fn kirchhoff(&self, d: &Deformation<R>) -> Kirchhoff<R> {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let zero = R::splat(0.0);
         let [i_el, i_tc, _, _] = d.invariants;
         let compaction = (-i_tc).max(zero);
         let powered = self.k_tc * power(compaction, self.exponent);
-        let undistorted = d.s.le(zero);
-        let ratio = R::select(undistorted, one, d.asinh_s / R::select(undistorted, one, d.s));
         Kirchhoff {
             tension: self.k_el * i_el.max(zero),
             pressure: R::splat(0.5) * self.p * powered,
-            distortion: R::splat(0.25) * self.k_td * ratio,
+            distortion: R::splat(0.25) * self.k_td * d.asinh_ratio,
             shear: self.k_ld / (d.lambda * d.lambda),
             compaction_energy: powered * compaction,
         }
@@ -199,7 +197,7 @@ impl<R: Real> Hyperelastic<R> {
     /// Cauchy stress 11 22 33 12 23 31.
     #[inline(always)]
     pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>, request: Request) -> [R; 6] {
-        let inverse_j = R::splat(1.0) / d.jacobian;
+        let inverse_j = d.inverse_jacobian;
         let tension = k.tension * inverse_j;
         let pressure = k.pressure * inverse_j;
         let distortion = k.distortion * inverse_j;
