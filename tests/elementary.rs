@@ -51,8 +51,8 @@ impl Worst {
     }
 
     fn within(&self, what: &str, bound: f64) {
-        println!("{what:<16} {:6.3} ulp at {:e?}, allowed {bound}", self.error, self.at);
-        assert!(self.error <= bound, "{what}: {} ulp at {:e?}", self.error, self.at);
+        println!("{what:<16} {:6.3} ulp at {:?}, allowed {bound}", self.error, self.at);
+        assert!(self.error <= bound, "{what}: {} ulp at {:?}", self.error, self.at);
     }
 }
 
@@ -72,7 +72,7 @@ fn positive() -> Vec<f64> {
     exponents.chain(near_one).chain(about_one).chain(seams).chain(dense).chain(wide).collect()
 }
 
-/// Every 7th positive normal single-precision number: some 300 million would be too many, 3 million reach every seam.
+/// Positive normal single-precision numbers, 3 million evenly spread over the range and 4 million near 1.
 fn positive_single() -> impl Iterator<Item = f32> {
     let (first, last) = (f32::MIN_POSITIVE.to_bits(), f32::MAX.to_bits());
     let near_one = (0.6f32.to_bits()..1.6f32.to_bits()).step_by(3);
@@ -169,7 +169,7 @@ fn powers() {
     for q in exponents() {
         for &i in &bases {
             let size = q * i.log2();
-            if -1022.0 < size && size < 1023.9 {
+            if -1022.0 < size && size <= 1023.0 {
                 let mut worst = Worst::default();
                 worst.double(power(i, Exponent::new(q)), &reference(i).powf(&reference(q)), &[i, q]);
                 excess.note((worst.error - q * POWER.0.1).max(0.0), &[i, q]);
@@ -182,10 +182,10 @@ fn powers() {
     for q in exponents().into_iter().map(|q| q as f32) {
         for i in positive_single().step_by(23) {
             let truth = f64::from(i).powf(f64::from(q));
-            if f64::from(f32::MIN_POSITIVE) <= truth && truth <= f64::from(f32::MAX) {
+            if f64::from(f32::MIN_POSITIVE) <= truth && truth <= 2f64.powi(127) {
                 let mut worst = Worst::default();
                 worst.single(power(i, Exponent::new(q)), truth, &[i, q]);
-                excess.note((worst.error - f64::from(q) * POWER.1.1).max(0.0), &[i, q]);
+                excess.note((worst.error - f64::from(q) * POWER.1.1).max(0.0), &worst.at);
             }
         }
     }
@@ -201,12 +201,14 @@ fn powers_at_the_ends_of_the_range() {
     }
     assert_eq!(power(1e-200, Exponent::new(2.0)), 0.0, "underflow");
     assert_eq!(power(1e200, Exponent::new(2.0)), f64::INFINITY, "overflow");
+    assert_eq!(power(2f64.powi(1023), Exponent::new(1.0)), 2f64.powi(1023), "the largest result");
+    assert_eq!(power(1.2 * 2f64.powi(1023), Exponent::new(1.0)), f64::INFINITY, "beyond the largest result");
 }
 
 // The contract, double and single precision: what the table of `law/elementary.rs` says. For the power, (a, b) stands
 // for a + b q.
-const LN_SUM: (f64, f64) = (1.0, 1.0);
-const LN_1P: (f64, f64) = (1.0, 1.0);
-const ASINH: (f64, f64) = (2.0, 2.0);
-const ROOT: f64 = 2.0;
-const POWER: ((f64, f64), (f64, f64)) = ((1.5, 1.0), (1.5, 1.0));
+const LN_SUM: (f64, f64) = (0.9, 0.9);
+const LN_1P: (f64, f64) = (0.9, 0.9);
+const ASINH: (f64, f64) = (1.7, 1.7);
+const ROOT: f64 = 1.1;
+const POWER: ((f64, f64), (f64, f64)) = ((1.2, 1.0), (1.2, 1.0));
