@@ -216,15 +216,14 @@ impl LinearElastic {
         for x in &mut point.state[LINEAR_STRESS..LINEAR_LARGEST] {
             *x = 0.0;
         }
-        point.state[LINEAR_FAILED] = 1.0;
-        point.state[LINEAR_ALIVE] = 0.0;
         point
     }
 
-    /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it.
+    /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it; the latch is 0 or 1.
     fn refused(&self, state: &[f64; LINEAR_ELASTIC_STATE], status: i32) -> LinearPoint {
         let finite = state.iter().all(|x| x.is_finite());
         let mut new = state.map(|x| if x.is_finite() { x } else { 0.0 });
+        new[LINEAR_FAILED] = if Failure::latched(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
         new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];
         let status = if !finite && status == status::OK { status::STATE_NOT_FINITE } else { status };
         LinearPoint { stress: [0.0; 6], state: new, status }
