@@ -123,10 +123,13 @@ impl LinearElastic {
             Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
             Rotation::Polar => (polar_rotation(f0) * self.axes, polar_rotation(f1) * self.axes),
             Rotation::Spin => {
-                let Some(rate) = logarithm(&relative) else {
+                // Half the gradient of the increment at the middle of the step: its skew part turns a rigid step
+                // exactly.
+                let Some(inverse) = (relative + Matrix3::identity()).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
                 };
-                let half_spin = (rate - rate.transpose()) * 0.25;
+                let gradient = (relative - Matrix3::identity()) * inverse;
+                let half_spin = (gradient - gradient.transpose()) * 0.5;
                 let Some(inverse) = (Matrix3::identity() - half_spin).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
                 };
