@@ -7,7 +7,7 @@ use toron::law::hyperelastic::Hyperelastic;
 use toron::law::linear_elastic::LinearElastic;
 use toron::law::parameters::{
     self, DENSITY, HYPERELASTIC, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC, LINEAR_ELASTIC_PROPERTIES, NUMBER, PRESETS,
-    Property, STRESS, preset,
+    STRESS, preset,
 };
 use toron::law::state::{self, StateVariable};
 use toron::law::status::{self, Error};
@@ -119,8 +119,8 @@ fn messages_name_the_property_its_value_and_what_is_allowed() {
 /// Every property of both laws refuses NaN and infinities, and, where it is bounded, what lies below.
 #[test]
 fn every_property_is_checked() {
-    let laws: [(&[Property], fn(usize, f64) -> Error); 2] = [(&HYPERELASTIC, hyperelastic), (&LINEAR_ELASTIC, linear)];
-    for (table, refusal) in laws {
+    type Refusal = fn(usize, f64) -> Error;
+    for (table, refusal) in [(&HYPERELASTIC[..], hyperelastic as Refusal), (&LINEAR_ELASTIC[..], linear as Refusal)] {
         for (index, property) in table.iter().enumerate() {
             for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                 let error = refusal(index, value);
