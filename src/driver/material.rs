@@ -177,6 +177,18 @@ impl Material {
             Law::LinearElastic { criterion: Criterion::FibreStress, .. } => memory.state[LINEAR_STRESS] / limit,
         }
     }
+
+    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only.
+    pub fn failure_terms(&self, memory: &Memory) -> [f64; 3] {
+        let property = |name: &str| self.property(name).unwrap_or(0.0);
+        let [i_el, i_tc, i_td] = [0, 1, 2].map(|mode| memory.state[INVARIANTS + mode]);
+        [i_el / property("eps_lim").ln_1p(), property("alpha") * (-i_tc).max(0.0), property("beta") * i_td]
+    }
+
+    /// Whether there is a limit at all.
+    pub fn can_fail(&self) -> bool {
+        ["eps_lim", "sigma_lim"].iter().any(|name| self.property(name).is_some_and(|limit| limit > 0.0))
+    }
 }
 
 /// Which state variable, counted from 0, tells a host to delete the element, for a law of so many properties' table.

@@ -25,11 +25,16 @@ const NO_STIFFNESS: f64 = 1e-9;
 const DIFFERENCE: f64 = 1e-6;
 /// Largest change of a component in one iteration.
 const LARGEST_STEP: f64 = 0.1;
+/// How far a component without stiffness is moved in search of some: a slack yarn is drawn taut, a loose one compacted.
+const LARGEST_SLACK: f64 = 0.5;
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 30;
 
 type Vector = SVector<f64, 9>;
 type Jacobian = SMatrix<f64, 9, 9>;
+
+/// The first Piola–Kirchhoff stress of a deformation gradient, or the law's status code.
+pub type Stress<'a> = dyn Fn(&Matrix3<f64>) -> Result<Matrix3<f64>, i32> + 'a;
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,30 +53,32 @@ impl std::fmt::Display for Failure {
             Failure::Law(code) => f.write_str(status::meaning(code).unwrap_or("the law refuses this deformation")),
             Failure::NoStiffness { component, residual } => write!(
                 f,
-                "P{name} is off its prescribed value by {residual:.6e} and F{name} has no stiffness here (the law carries \
-                 no transverse expansion, no compression along the fibre, and no longitudinal shear without k_ld): \
+                "P{name} is off its prescribed value by {residual:.6e} and F{name} has no stiffness here ({HINT}): \
                  prescribe F{name} instead",
                 name = COMPONENT_NAMES[component]
             ),
             Failure::NotConverged { component, residual } => write!(
                 f,
-                "Newton's method does not converge: P{} is off its prescribed value by {residual:.6e}",
+                "Newton's method does not converge: P{} is off its prescribed value by {residual:.6e} ({HINT})",
                 COMPONENT_NAMES[component]
             ),
         }
     }
 }
 
+const HINT: &str = "the yarn law carries no transverse expansion, no compression along the fibre, and no longitudinal \
+                    shear without k_ld";
+
 /// The deformation gradient whose components, and whose stress's, are as prescribed, sought from `start`.
 ///
-/// `stress` gives the first Piola–Kirchhoff stress of a deformation gradient, or the law's status code; `scale` is the
-/// stress by which small ones are measured. A free direction without stiffness stays where it is: the step is the
-/// shortest that solves the linearised equations.
+/// `scale` is the stress by which small ones are measured. A free direction without stiffness stays where it is: the
+/// step is the shortest that solves the linearised equations. One that lacks stress is moved until the law answers: a
+/// slack yarn is drawn taut.
 ///
 /// # Errors
 /// See [`Failure`].
 pub fn solve(
-    stress: &dyn Fn(&Matrix3<f64>) -> Result<Matrix3<f64>, i32>,
+    stress: &Stress,
     start: &Matrix3<f64>,
     prescribed: &[Prescribed; 9],
     scale: f64,
@@ -91,11 +98,14 @@ pub fn solve(
         let jacobian = jacobian(&residual, &f, prescribed)?;
         let step = -jacobian.svd(true, true).solve(&r, NO_STIFFNESS * scale).unwrap_or_default();
         let left = r + jacobian * step;
-        if left.amax() > 0.5 * r.amax() {
+        let next = if left.amax() > 0.5 * r.amax() {
             let component = left.iamax();
-            return Err(Failure::NoStiffness { component, residual: r[component] });
-        }
-        let Some(next) = line_search(&residual, &f, &r, &step) else { break };
+            let taut = take_up_slack(&residual, &f, &r, component, TOLERANCE * scale);
+            Some(taut.ok_or(Failure::NoStiffness { component, residual: r[component] })?)
+        } else {
+            line_search(&residual, &f, &r, &step)
+        };
+        let Some(next) = next else { break };
         (f, r) = next;
     }
     Err(Failure::NotConverged { component: r.iamax(), residual: r[r.iamax()] })
@@ -147,6 +157,28 @@ fn line_search(
             return Some((trial, new));
         }
         length *= 0.5;
+    }
+    None
+}
+
+/// Moves a component without stiffness towards the stress that it lacks, ever farther, until the stress answers.
+fn take_up_slack(
+    residual: &dyn Fn(&Matrix3<f64>) -> Result<Vector, Failure>,
+    f: &Matrix3<f64>,
+    r: &Vector,
+    component: usize,
+    least: f64,
+) -> Option<(Matrix3<f64>, Vector)> {
+    let towards = -r[component].signum();
+    let mut reach = DIFFERENCE;
+    while reach <= LARGEST_SLACK {
+        let mut trial = *f;
+        trial[COMPONENTS[component]] += towards * reach;
+        let new = residual(&trial).ok()?;
+        if (new[component] - r[component]) * towards > least {
+            return Some((trial, new));
+        }
+        reach *= 2.0;
     }
     None
 }

@@ -2,6 +2,7 @@
 //! `docs/load-paths.md`.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
@@ -45,6 +46,7 @@ pub struct Point {
 /// A step: targets that are reached by a ramp.
 #[derive(Clone, Debug)]
 pub struct Step {
+    /// Empty where the file gives none.
     pub name: String,
     /// The step's place in the file, and which repetition of its group this is, both from 1.
     pub number: usize,
@@ -207,6 +209,19 @@ impl LoadPath {
     /// Number of increments of all points.
     pub fn increments(&self) -> usize {
         self.points.len() * self.steps.iter().map(|step| step.increments).sum::<usize>()
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "step {}", self.number)?;
+        if !self.name.is_empty() {
+            write!(f, " ({})", self.name)?;
+        }
+        if self.cycle > 1 {
+            write!(f, ", cycle {}", self.cycle)?;
+        }
+        Ok(())
     }
 }
 
@@ -477,7 +492,7 @@ impl Source<'_> {
         if rotation.is_none() && targets.iter().all(Option::is_none) {
             return Err(self.error(span, "the step does nothing; allowed: targets in F or P, or a rotation"));
         }
-        let name = file.name.clone().unwrap_or_else(|| format!("step {number}"));
+        let name = file.name.clone().unwrap_or_default();
         Ok(Step { name, number, cycle, duration, increments, targets, rotation })
     }
 

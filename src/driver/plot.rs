@@ -6,21 +6,20 @@
 use std::path::Path;
 use std::sync::OnceLock;
 
-use nalgebra::{Matrix3, Vector3};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::register_font;
 use resvg::{tiny_skia, usvg};
 
 use super::Error;
-use super::material::{Law, Material};
+use super::material::Law;
 use super::newton::{COMPONENT_NAMES, COMPONENTS};
 use super::path::LoadPath;
 use super::report::MODE_NAMES;
 use super::run::{History, Increment};
 use super::table::{self, SYMMETRIC_NAMES};
 use super::unit_names::{ENERGY, unit};
-use crate::law::parameters::{ENERGY_DENSITY, STRESS};
+use crate::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
 use crate::law::state::{ENERGIES, INVARIANTS};
 
 static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
@@ -153,79 +152,90 @@ fn abscissa(path: &LoadPath, history: &History) -> Abscissa {
     Abscissa { label, failure: history.failure.map(|i| values[i]), values }
 }
 
+/// A value of every increment as a line.
+fn line(history: &History, name: &str, colour: RGBColor, of: impl Fn(&Increment) -> f64) -> Series {
+    Series { name: name.to_string(), colour, values: history.increments.iter().map(of).collect() }
+}
+
 /// Deformation, energies, stress; failure, or the work where nothing can fail.
 fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
     let material = &history.point.material;
-    let all = |of: &dyn Fn(&Increment) -> f64| history.increments.iter().map(of).collect::<Vec<f64>>();
-    let line = |name: &str, colour: usize, of: &dyn Fn(&Increment) -> f64| Series {
-        name: name.to_string(),
-        colour: COLOURS[colour % COLOURS.len()],
-        values: all(of),
+    let panel = |title, dimension, series, limit| Panel {
+        title,
+        unit: unit(&path.units, dimension),
+        series: tidy(series),
+        limit,
     };
-    let state = |first: usize| -> Vec<Series> {
-        (0..4).map(|mode| line(MODE_NAMES[mode], mode, &|i| i.answer.memory.state[first + mode])).collect()
-    };
-    let (deformation, energies) = match material.law {
-        Law::Hyperelastic(_) => (("Deformation by mode: invariants", state(INVARIANTS)), state(ENERGIES)),
+    let (title, deformation, energies) = match material.law {
+        Law::Hyperelastic(_) => {
+            ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
+        }
         Law::LinearElastic { .. } => {
-            let identity = Matrix3::<f64>::identity();
-            let gradient = |k: usize| {
-                let name = format!("F{}{}", COMPONENT_NAMES[k], if k % 4 == 0 { " − 1" } else { "" });
-                line(&name, k, &|i| i.rotated_gradient()[COMPONENTS[k]] - identity[COMPONENTS[k]])
-            };
-            let work = line("work", 0, &|i| material.energy(&i.answer.memory));
-            (("Deformation gradient", (0..9).map(gradient).collect()), vec![work])
+            let work = line(history, "work", COLOURS[0], |i| material.energy(&i.answer.memory));
+            ("Deformation gradient", gradient(history), vec![work])
         }
     };
-    let stresses = (0..6).map(|k| line(&format!("σ{}", SYMMETRIC_NAMES[k]), k, &|i| i.answer.cauchy[k])).collect();
-    let panel = |title, unit, series, limit| Panel { title, unit, series: tidy(series), limit };
-    let fails = ["eps_lim", "sigma_lim"].iter().any(|name| material.property(name).is_some_and(|limit| limit > 0.0));
-    let last = if fails {
-        panel("Failure index", "-".to_string(), index(material, &line), Some(1.0))
+    let stress = |k: usize| line(history, &format!("σ{}", SYMMETRIC_NAMES[k]), COLOURS[k], |i| i.answer.cauchy[k]);
+    let last = if material.can_fail() {
+        panel("Failure index", NUMBER, index(history), Some(1.0))
     } else {
         let stored = |i: &Increment| material.energy(&i.answer.memory) * path.element.volume();
-        let work = vec![line("external work", 0, &|i| i.work), line("stored energy", 1, &stored)];
-        panel("Work", unit(&path.units, ENERGY), work, None)
+        let external = line(history, "external work", COLOURS[0], |i| i.work);
+        panel("Work", ENERGY, vec![external, line(history, "stored energy", COLOURS[1], stored)], None)
     };
     [
-        panel(deformation.0, "-".to_string(), deformation.1, None),
-        panel("Energy per reference volume", unit(&path.units, ENERGY_DENSITY), energies, None),
-        panel("Cauchy stress", unit(&path.units, STRESS), stresses, None),
+        panel(title, NUMBER, deformation, None),
+        panel("Energy per reference volume", ENERGY_DENSITY, energies, None),
+        panel("Cauchy stress", STRESS, (0..6).map(stress).collect(), None),
         last,
     ]
 }
 
+/// Four state variables from `first` on, one for each deformation mode.
+fn modes(history: &History, first: usize) -> Vec<Series> {
+    let mode = |m: usize| line(history, MODE_NAMES[m], COLOURS[m], |i| i.answer.memory.state[first + m]);
+    (0..4).map(mode).collect()
+}
+
+/// The components of F, less 1 on the diagonal.
+fn gradient(history: &History) -> Vec<Series> {
+    let component = |k: usize| {
+        let (row, column) = COMPONENTS[k];
+        let rest = if row == column { 1.0 } else { 0.0 };
+        let name = format!("F{}{}", COMPONENT_NAMES[k], if row == column { " − 1" } else { "" });
+        line(history, &name, COLOURS[k % COLOURS.len()], |i| i.rotated_gradient()[(row, column)] - rest)
+    };
+    (0..9).map(component).collect()
+}
+
 /// The failure index, and for the hyperelastic law the terms that it is the sum of.
-fn index(material: &Material, line: &dyn Fn(&str, usize, &dyn Fn(&Increment) -> f64) -> Series) -> Vec<Series> {
+fn index(history: &History) -> Vec<Series> {
+    let material = &history.point.material;
     let total = |i: &Increment| material.failure_index(&i.answer.memory);
-    let mut series = Vec::new();
-    if let Law::Hyperelastic(_) = material.law {
-        let property = |name: &str| material.property(name).unwrap_or(0.0);
-        let weights = Vector3::new(1.0 / property("eps_lim").ln_1p(), -property("alpha"), property("beta"));
-        for mode in 0..3 {
-            // Where the fibre is not in tension the index is 0, whatever its terms.
-            let term = |i: &Increment| {
-                let value = weights[mode] * i.answer.memory.state[INVARIANTS + mode];
-                if total(i) > 0.0 { value.max(0.0) } else { 0.0 }
-            };
-            series.push(line(MODE_NAMES[mode], mode, &term));
-        }
-    }
-    series.push(Series { colour: INK, ..line("index", 0, &total) });
+    // Where the fibre is not in tension the index is 0, whatever its terms.
+    let term = |m: usize| {
+        let value = |i: &Increment| if total(i) > 0.0 { material.failure_terms(&i.answer.memory)[m] } else { 0.0 };
+        line(history, MODE_NAMES[m], COLOURS[m], value)
+    };
+    let mut series: Vec<Series> = match material.law {
+        Law::Hyperelastic(_) => (0..3).map(term).collect(),
+        Law::LinearElastic { .. } => Vec::new(),
+    };
+    series.push(line(history, "index", INK, total));
     series
 }
 
-/// Drops lines that stay at 0 beside others that do not, and joins lines that coincide.
+/// Drops lines that stay at 0 beside others that do not, and joins lines that the eye cannot tell apart.
 fn tidy(series: Vec<Series>) -> Vec<Series> {
     let size = |values: &[f64]| values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let largest = series.iter().map(|one| size(&one.values)).fold(0.0, f64::max);
     let mut kept: Vec<Series> = Vec::new();
     for one in series {
-        if size(&one.values) <= 1e-6 * largest {
+        let own = size(&one.values);
+        if own <= 1e-6 * largest {
             continue;
         }
-        let same =
-            |other: &&mut Series| other.values.iter().zip(&one.values).all(|(a, b)| (a - b).abs() <= 1e-6 * largest);
+        let same = |other: &&mut Series| other.values.iter().zip(&one.values).all(|(a, b)| (a - b).abs() <= 1e-3 * own);
         match kept.iter_mut().find(same) {
             Some(other) => other.name = format!("{} = {}", other.name, one.name),
             None => kept.push(one),
@@ -243,7 +253,8 @@ impl Panel {
         let (left, right) = bounds(&abscissa.values);
         let mut chart = ChartBuilder::on(&body)
             .margin_right(fine(30))
-            .x_label_area_size(fine(58))
+            .margin_bottom(fine(12))
+            .x_label_area_size(fine(50))
             .y_label_area_size(fine(MARGIN))
             .build_cartesian_2d(left..right, low * factor..high * factor)?;
         chart

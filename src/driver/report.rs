@@ -12,6 +12,9 @@ use crate::law::state::{ENERGIES, INVARIANTS};
 /// The names of the four deformation modes.
 pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "shear"];
 
+/// An energy below this fraction of the largest one is none.
+const ROUNDING: f64 = 1e-12;
+
 /// What happened to a point: largest fibre stress, energies, failure and its reason, work.
 pub fn summary(path: &LoadPath, history: &History) -> String {
     let mut text = String::new();
@@ -63,9 +66,11 @@ fn energies(path: &LoadPath, history: &History) -> Vec<(String, String)> {
     let largest = history.increments.iter().map(parts).fold(vec![0.0; names.len()], |largest, parts| {
         largest.iter().zip(parts).map(|(a, b): (&f64, f64)| a.max(b)).collect()
     });
+    let noise = ROUNDING * largest.iter().copied().fold(0.0, f64::max);
     let list = |values: &[f64]| {
-        let items: Vec<String> =
-            names.iter().zip(values).map(|(name, &value)| format!("{name} {}", number(value))).collect();
+        let item =
+            |(name, &value): (&&str, &f64)| format!("{name} {}", number(if value > noise { value } else { 0.0 }));
+        let items: Vec<String> = names.iter().zip(values).map(item).collect();
         format!("{} {unit}", items.join(", "))
     };
     vec![("largest energies".to_string(), list(&largest)), ("energies at the end".to_string(), list(&last))]
@@ -83,17 +88,11 @@ fn failure(path: &LoadPath, history: &History) -> Vec<(&'static str, String)> {
     vec![("failure", place(path, first)), ("failure index", reason)]
 }
 
-/// The three terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td.
+/// What the hyperelastic law's failure index is the sum of.
 fn parts(material: &Material, increment: &Increment) -> String {
-    let property = |name: &str| material.property(name).unwrap_or(0.0);
     let Law::Hyperelastic(_) = material.law else { return String::new() };
-    let [i_el, i_tc, i_td] = [0, 1, 2].map(|i| increment.answer.memory.state[INVARIANTS + i]);
-    format!(
-        " = {} elongation + {} compaction + {} distortion",
-        number(i_el / property("eps_lim").ln_1p()),
-        number(property("alpha") * (-i_tc).max(0.0)),
-        number(property("beta") * i_td)
-    )
+    let [elongation, compaction, distortion] = material.failure_terms(&increment.answer.memory).map(number);
+    format!(" = {elongation} elongation + {compaction} compaction + {distortion} distortion")
 }
 
 fn place(path: &LoadPath, increment: &Increment) -> String {
@@ -101,12 +100,5 @@ fn place(path: &LoadPath, increment: &Increment) -> String {
         return "at the start".to_string();
     }
     let step = &path.steps[increment.step];
-    let cycle = if step.cycle > 1 { format!(", cycle {}", step.cycle) } else { String::new() };
-    format!(
-        "step {} ({}){cycle}, increment {}, time {}",
-        step.number,
-        step.name,
-        increment.number,
-        number(increment.time)
-    )
+    format!("{step}, increment {}, time {}", increment.number, number(increment.time))
 }

@@ -91,7 +91,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
         let ramp = Ramp::new(step, &walk, &mut control);
         for number in 1..=step.increments {
             let [from, to] = [number - 1, number].map(|i| i as f64 / step.increments as f64);
-            let place = || format!("step {} ({}), cycle {}, increment {number}", step.number, step.name, step.cycle);
+            let place = || format!("{step}, increment {number}");
             if walk.cannot_carry(&ramp, to) {
                 history.end = End::Stopped(place());
                 return history;

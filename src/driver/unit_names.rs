@@ -56,8 +56,8 @@ fn imperial(units: &UnitSystem, name: &str) -> Option<String> {
 /// A number for people: four significant digits, with an exponent where the number is very large or small.
 pub fn number(value: f64) -> String {
     let size = value.abs();
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value:.0}");
+    if value == 0.0 {
+        return "0".to_string(); // without the sign of -0
     }
     if !(1e-3..1e6).contains(&size) {
         return format!("{value:.3e}");
