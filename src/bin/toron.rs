@@ -26,7 +26,7 @@ enum Command {
     },
     /// Print the tables of properties and state variables, the presets, or a preset as a deck.
     Params {
-        /// Unit system, for instance mm-tonne-s.
+        /// Unit system, for instance mm-tonne-s; without it, si.
         #[arg(long)]
         units: Option<String>,
         /// Print this preset, ready for LS-DYNA and Abaqus decks.

@@ -20,15 +20,15 @@ pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (ABI 1)");
 /// # Errors
 /// An unknown preset or unit system.
 pub fn print_tables(units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
-    let units = units.map(unit_system).transpose()?;
+    let units = units.map_or(Ok(UnitSystem::SI), unit_system)?;
     let text = match preset {
-        None => tables(units.as_ref()),
+        None => tables(&units),
         Some(name) => {
             let preset = parameters::preset(name).ok_or_else(|| {
                 let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
                 Error::Input(format!("--preset {name}; allowed: {}", known.join(", ")))
             })?;
-            deck(preset, units.as_ref().unwrap_or(&UnitSystem::SI))?
+            deck(preset, &units)?
         }
     };
     print(&text);
@@ -40,7 +40,7 @@ fn unit_system(name: &str) -> Result<UnitSystem, Error> {
 }
 
 /// Both laws' properties and state variables, and the presets.
-fn tables(units: Option<&UnitSystem>) -> String {
+fn tables(units: &UnitSystem) -> String {
     let mut text = String::new();
     let laws: [(&str, &[Property], &[StateVariable]); 2] = [
         ("Hyperelastic yarn law", &HYPERELASTIC, &state::HYPERELASTIC),
@@ -50,14 +50,13 @@ fn tables(units: Option<&UnitSystem>) -> String {
         text += &format!("{name}: properties\n{}\n", property_table(properties, units));
         text += &format!("{name}: state variables, all 0 at the start\n{}\n", state_table(variables, units));
     }
-    let units = units.unwrap_or(&UnitSystem::SI);
     for preset in &PRESETS {
         text += &format!("Preset {}\n{}\n{}\n", preset.name, preset.source, preset_table(preset, units));
     }
     text
 }
 
-fn property_table(properties: &[Property], units: Option<&UnitSystem>) -> String {
+fn property_table(properties: &[Property], units: &UnitSystem) -> String {
     let rows = properties.iter().enumerate().map(|(i, property)| {
         let bound = match (property.minimum.is_finite(), property.minimum_excluded) {
             (false, _) => "any".to_string(),
@@ -65,15 +64,15 @@ fn property_table(properties: &[Property], units: Option<&UnitSystem>) -> String
             (true, false) => format!(">= {}", property.minimum),
         };
         let default = property.default.map_or("-".to_string(), |value| value.to_string());
-        let unit = unit_name(units, property.dimension);
+        let unit = unit(units, property.dimension);
         [(i + 1).to_string(), property.name.to_string(), unit, default, bound, property.meaning.to_string()]
     });
     align(["no", "name", "unit", "default", "allowed", "meaning"], rows)
 }
 
-fn state_table(variables: &[StateVariable], units: Option<&UnitSystem>) -> String {
+fn state_table(variables: &[StateVariable], units: &UnitSystem) -> String {
     let rows = variables.iter().enumerate().map(|(i, variable)| {
-        let unit = unit_name(units, variable.dimension);
+        let unit = unit(units, variable.dimension);
         [(i + 1).to_string(), variable.name.to_string(), unit, variable.meaning.to_string()]
     });
     align(["no", "name", "unit", "meaning"], rows)
@@ -92,11 +91,6 @@ fn preset_table(preset: &Preset, units: &UnitSystem) -> String {
 fn quantity(units: &UnitSystem, si: f64, dimension: Dimension) -> String {
     let value = short(units.from_si(si, dimension), 12);
     if dimension == NUMBER { value } else { format!("{value} {}", unit(units, dimension)) }
-}
-
-/// The unit's name where a system is given, else the dimension's.
-fn unit_name(units: Option<&UnitSystem>, dimension: Dimension) -> String {
-    units.map_or(dimension.name.to_string(), |units| unit(units, dimension))
 }
 
 /// Left-aligned columns, two blanks apart.

@@ -19,8 +19,8 @@ use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{self, DENSITY, FIBRE, LINEAR_FIBRE, Preset, Property};
 use crate::law::status;
 
-/// Most increments that a path may have, all cycles counted.
-const MOST_INCREMENTS: u64 = 10_000_000;
+/// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
+const MOST_INCREMENTS: usize = 1_000_000;
 
 /// What runs: an element, the materials it is tried with, and its steps.
 #[derive(Clone, Debug)]
@@ -76,8 +76,7 @@ struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
     element: Option<Spanned<[f64; 3]>>,
-    #[serde(default)]
-    material: MaterialFile,
+    material: Option<Spanned<MaterialFile>>,
     #[serde(default)]
     point: Vec<Spanned<PointFile>>,
     #[serde(default)]
@@ -275,8 +274,12 @@ impl Source<'_> {
     }
 
     fn points(&self, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
+        let (base, span) = match &file.material {
+            Some(material) => (material.get_ref().clone(), material.span()),
+            None => (MaterialFile::default(), 0..0),
+        };
         if file.point.is_empty() {
-            let material = self.material(&file.material, units, 0..0)?;
+            let material = self.material(&base, units, span)?;
             return Ok(vec![Point { name: material.label.clone(), material }]);
         }
         let mut points: Vec<Point> = Vec::new();
@@ -287,7 +290,7 @@ impl Source<'_> {
                 let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
                 return Err(self.error(span, &format!("point \"{name}\"; allowed: {wanted}")));
             }
-            let material = self.material(&point.get_ref().material.over(&file.material), units, span)?;
+            let material = self.material(&point.get_ref().material.over(&base), units, span)?;
             points.push(Point { name: name.clone(), material });
         }
         Ok(points)
@@ -405,8 +408,16 @@ impl Source<'_> {
         if file.is_empty() {
             return Err(self.error(0..0, "no [[step]]: a load path needs one at least"));
         }
-        let (mut steps, mut number, mut increments) = (Vec::new(), 0, 0);
-        self.unroll(file, 1, &mut number, &mut increments, &mut steps)?;
+        let mut increments = 0usize;
+        for step in file {
+            increments = increments.saturating_add(step.get_ref().increments());
+            if increments > MOST_INCREMENTS {
+                let message = format!("more than {MOST_INCREMENTS} increments up to here, all cycles counted");
+                return Err(self.error(step.span(), &message));
+            }
+        }
+        let (mut steps, mut number) = (Vec::new(), 0);
+        self.unroll(file, 1, &mut number, &mut steps)?;
         Ok(steps)
     }
 
@@ -416,27 +427,20 @@ impl Source<'_> {
         file: &[Spanned<StepFile>],
         cycle: usize,
         number: &mut usize,
-        increments: &mut u64,
         steps: &mut Vec<Step>,
     ) -> Result<(), Error> {
         for step in file {
             let (span, step) = (step.span(), step.get_ref());
             if step.step.is_empty() && step.cycles.is_none() {
                 *number += 1;
-                let step = self.step(step, *number, cycle, span.clone())?;
-                *increments += step.increments as u64;
-                if *increments > MOST_INCREMENTS {
-                    let message = format!("more than {MOST_INCREMENTS} increments up to here, all cycles counted");
-                    return Err(self.error(span, &message));
-                }
-                steps.push(step);
+                steps.push(self.step(step, *number, cycle, span)?);
                 continue;
             }
             let cycles = self.cycles(step, span)?;
             let first = *number;
             for cycle in 1..=cycles {
                 *number = first;
-                self.unroll(&step.step, cycle, number, increments, steps)?;
+                self.unroll(&step.step, cycle, number, steps)?;
             }
         }
         Ok(())
@@ -514,6 +518,16 @@ impl Source<'_> {
                 Err(self.error(file.span(), &message))
             }
         }
+    }
+}
+
+impl StepFile {
+    /// Number of increments, all cycles of all groups counted.
+    fn increments(&self) -> usize {
+        let own = self.increments.as_ref().map_or(1, |increments| *increments.get_ref());
+        let inner = self.step.iter().map(|step| step.get_ref().increments()).fold(0, usize::saturating_add);
+        let cycles = self.cycles.as_ref().map_or(1, |cycles| *cycles.get_ref());
+        if self.step.is_empty() { own } else { inner.saturating_mul(cycles) }
     }
 }
 
