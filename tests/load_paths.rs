@@ -143,6 +143,23 @@ fn prescribed_stresses_hold_under_a_rotation() {
 }
 
 #[test]
+fn every_frame_of_the_linear_law_turns_with_a_rotation() {
+    for frame in ["fibre", "polar", "spin"] {
+        let path = parse(&format!(
+            "units = \"mm-tonne-s\"\n[material]\npreset = \"kevlar-km2-600-linear\"\nframe = \"{frame}\"\n\
+             [[step]]\nincrements = 5\nF = {{ 11 = 1.02 }}\n\
+             [[step]]\nincrements = 10\nrotation = {{ axis = [0, 0, 1], angle = 90 }}\n\
+             [[step]]\nincrements = 5\nF = {{ 11 = 1.03 }}"
+        ));
+        let history = first(&path);
+        for (index, stretch) in [(15, 1.02f64), (20, 1.03)] {
+            let [s11, s22, ..] = history.increments[index].answer.cauchy;
+            assert!((s22 - 79414.0 * stretch.ln()).abs() < 1e-8 && s11.abs() < 1e-8, "{frame}: {s11} {s22}");
+        }
+    }
+}
+
+#[test]
 fn forces_on_faces_are_stress_times_reference_area() {
     let element = Hexahedron { size: Vector3::new(2.0, 3.0, 5.0) };
     let p = Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0);

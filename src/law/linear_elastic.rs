@@ -123,9 +123,11 @@ impl LinearElastic {
             Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
             Rotation::Polar => (polar_rotation(f0) * self.axes, polar_rotation(f1) * self.axes),
             Rotation::Spin => {
-                let Some(rate) = logarithm(&relative) else {
+                // The velocity gradient of the midpoint, ΔF F½⁻¹: with it a rigid rotation turns the axes exactly.
+                let Some(middle) = (relative + Matrix3::identity()).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
                 };
+                let rate = (relative - Matrix3::identity()) * middle * 2.0;
                 let half_spin = (rate - rate.transpose()) * 0.25;
                 let Some(inverse) = (Matrix3::identity() - half_spin).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
