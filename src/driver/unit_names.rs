@@ -20,7 +20,10 @@ pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {
     let [length, mass, time] = units.names();
     match dimension {
         NUMBER => "-".to_string(),
-        ENERGY_DENSITY => format!("{}/{length}³", unit(units, ENERGY)),
+        ENERGY_DENSITY => match named(units, ENERGY, "J", &[]) {
+            Some(joule) => format!("{joule}/{length}³"),
+            None => unit(units, STRESS),
+        },
         STRESS => named(units, dimension, "Pa", &[(11, "Mbar"), (5, "bar")])
             .or_else(|| imperial(units, "psi"))
             .unwrap_or_else(|| format!("{mass}/({length} {time}²)")),
