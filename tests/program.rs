@@ -111,8 +111,9 @@ fn the_version_names_the_interface() {
 
 #[test]
 fn tables_fit_a_terminal() {
-    for arguments in [&["params"][..], &["params", "--units", "mm-tonne-s"], &["params", "--units", "in-slinch-s"]] {
-        let output = toron(Path::new("."), arguments);
+    let systems = ["si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "in-slinch-s", "ft-slug-s"];
+    for arguments in systems.map(|units| ["params", "--units", units]) {
+        let output = toron(Path::new("."), &arguments);
         assert_eq!(output.status.code(), Some(0));
         let tables = text(&output.stdout);
         for name in ["k_el", "sigma_lim", "failure_index", "kevlar-km2-600-linear"] {

@@ -25,13 +25,13 @@ pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {
             None => unit(units, STRESS),
         },
         STRESS => named(units, dimension, "Pa", &[(11, "Mbar"), (5, "bar")])
-            .or_else(|| imperial(units, "psi"))
+            .or_else(|| imperial(units, ["psi", "psf"]))
             .unwrap_or_else(|| format!("{mass}/({length} {time}²)")),
         ENERGY => named(units, dimension, "J", &[])
-            .or_else(|| imperial(units, "lbf in"))
+            .or_else(|| imperial(units, ["lbf in", "lbf ft"]))
             .unwrap_or_else(|| format!("{mass} {length}²/{time}²")),
         FORCE => named(units, dimension, "N", &[])
-            .or_else(|| imperial(units, "lbf"))
+            .or_else(|| imperial(units, ["lbf", "lbf"]))
             .unwrap_or_else(|| format!("{mass} {length}/{time}²")),
         DENSITY => format!("{mass}/{length}³"),
         TIME => time.to_string(),
@@ -51,9 +51,13 @@ fn named(units: &UnitSystem, dimension: Dimension, name: &str, others: &[(i32, &
     prefixed.or_else(|| others.iter().find(|row| f64::from(row.0) == whole).map(|row| row.1.to_string()))
 }
 
-/// The name, in the one imperial system whose units have names of their own.
-fn imperial(units: &UnitSystem, name: &str) -> Option<String> {
-    (units.names() == ["in", "slinch", "s"]).then(|| name.to_string())
+/// The names of the inch and of the foot, in the two systems whose units have such names.
+fn imperial(units: &UnitSystem, [inch, foot]: [&str; 2]) -> Option<String> {
+    match units.names() {
+        ["in", "slinch", "s"] => Some(inch.to_string()),
+        ["ft", "slug", "s"] => Some(foot.to_string()),
+        _ => None,
+    }
 }
 
 /// A number for people: four significant digits, with an exponent where the number is very large or small.
