@@ -108,7 +108,7 @@ fn transverse_compaction() {
     }
 }
 
-/// Cauchy stresses 22 and 33 of F = diag(λ, 1, l): model of the thesis with −I_tc = I_td = ½|ln l|.
+/// Cauchy stresses 22 and 33 of F = diag(λ, 1, l), where −I_tc = I_td = ½|ln l|.
 fn flattened(stretch: f64, l: f64) -> [f64; 2] {
     let i = -0.5 * l.ln();
     let pressure = 0.5 * P * K_TC * i.powf(P - 1.0);
@@ -136,7 +136,7 @@ fn spreading() {
     for increment in &history.increments[1..] {
         let (f22, f33) = (increment.f.m22, increment.f.m33);
         let (compaction, distortion) = (-0.5 * (f22 * f33).ln(), 0.5 * (f22 / f33).ln());
-        // No force on the free side: distortion pushes out what compaction pulls… in balance.
+        // No force on the free side: distortion and compaction are in balance there.
         assert_near(K_TD * distortion, P * K_TC * compaction.powf(P - 1.0), NEWTON, K_EL);
         assert!(f22 > 1.0);
     }

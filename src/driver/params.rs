@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use super::material::{Law, alive};
+use super::material::alive;
 use super::unit_names::unit;
 use super::{Error, print};
 use crate::host::units::UnitSystem;
-use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{
     self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Preset, Property,
 };
@@ -28,7 +27,7 @@ pub fn print_tables(units: Option<&str>, preset: Option<&str>) -> Result<(), Err
                 let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
                 Error::Input(format!("--preset {name}; allowed: {}", known.join(", ")))
             })?;
-            deck(preset, &units)?
+            deck(preset, &units)
         }
     };
     print(&text);
@@ -107,27 +106,20 @@ fn align<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]
 }
 
 /// A preset as cards of LS-DYNA and lines of Abaqus.
-fn deck(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
+fn deck(preset: &Preset, units: &UnitSystem) -> String {
     let pairs = preset.table.iter().zip(preset.values);
     let values: Vec<f64> = pairs.map(|(property, &si)| units.from_si(si, property.dimension)).collect();
     let density = units.from_si(preset.density, DENSITY);
-    let law = Law::new(preset.table, &values, Rotation::default(), Criterion::default())
-        .map_err(|error| Error::Input(error.to_string()))?;
     let [length, mass, time] = units.names();
     let heading = format!("{}, in {length}, {mass}, {time}", preset.source);
-    let moduli = bulk_and_shear(&law, &values);
-    Ok(format!(
-        "{}\n{}",
-        ls_dyna(preset, &heading, density, &values, moduli),
-        abaqus(preset, &heading, density, &values)
-    ))
+    let moduli = bulk_and_shear(values[0]);
+    let cards = ls_dyna(preset, &heading, density, &values, moduli);
+    format!("{cards}\n{}", abaqus(preset, &heading, density, &values))
 }
 
 /// The bulk and shear moduli that LS-DYNA wants for contact stiffness and time step: K = k/2, G = 3k/8, so that
-/// K + 4G/3 = k, the modulus of the fibre's wave.
-fn bulk_and_shear(law: &Law, values: &[f64]) -> [f64; 2] {
-    let (Law::Hyperelastic(_) | Law::LinearElastic { .. }) = law;
-    let fibre = values[0];
+/// K + 4G/3 = k, the modulus of the fibre's wave and the first property of either law.
+fn bulk_and_shear(fibre: f64) -> [f64; 2] {
     [fibre / 2.0, 3.0 * fibre / 8.0]
 }
 
