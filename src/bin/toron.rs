@@ -1,15 +1,59 @@
-use toron::driver::eval::{Entry, evaluate};
-fn main() {
-    let a = std::env::args().nth(1).unwrap();
-    let e = match a.as_str() {
-        "law" => Entry::Law,
-        "block" => Entry::Block,
-        "block-f32" => Entry::BlockF32,
-        "umat" => Entry::Umat,
-        "vumat" => Entry::Vumat,
-        "vumat-sp" => Entry::VumatSp,
-        "ls-dyna" => Entry::LsDyna,
-        _ => Entry::LsDynaVector,
+//! The program `toron`: arguments only.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use toron::driver::eval::Entry;
+use toron::driver::{Error, command, eval, params};
+
+/// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
+#[derive(Parser)]
+#[command(version = params::version())]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Take one element along a load path; write a table and a plot of it.
+    Run {
+        /// The load path (see docs/load-paths.md); without it, a demonstration: compaction, then tension to failure.
+        path: Option<PathBuf>,
+        /// Where the table and the plot go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
+    /// Print the tables of properties and state variables, the presets, or a preset as a deck.
+    Params {
+        /// Unit system, for instance mm-tonne-s; without it, si.
+        #[arg(long)]
+        units: Option<String>,
+        /// Print this preset, ready for LS-DYNA and Abaqus decks.
+        #[arg(long)]
+        preset: Option<String>,
+    },
+    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
+    /// eps_lim, alpha, beta}}.
+    Eval {
+        /// The C entry to go through, as its host would call it.
+        #[arg(long, value_enum, default_value = "law")]
+        via: Entry,
+    },
+}
+
+fn main() -> ExitCode {
+    let answer: Result<(), Error> = match Arguments::parse().command {
+        Command::Run { path, output } => command::run(path.as_deref(), &output),
+        Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
+        Command::Eval { via } => eval::lines(via),
     };
-    evaluate(e, std::io::stdin().lock(), std::io::stdout().lock()).unwrap();
+    match answer {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("toron: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
 }

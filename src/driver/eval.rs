@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 
 use serde::{Deserialize, Serialize};
 
+use super::Error;
 use super::polar::polar_decomposition;
 use crate::host::c_api::{self, Block};
 use crate::host::{abaqus, lsdyna};
@@ -13,7 +14,7 @@ use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INV
 use crate::law::status;
 
 /// The C entry that evaluates a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Entry {
     /// `toron_hyperelastic_point_f64`.
     Law,
@@ -93,6 +94,18 @@ struct Answer {
     stress: [f64; 6],
     state: [f64; HYPERELASTIC_STATE],
     modes: Option<[[f64; 6]; 4]>,
+}
+
+/// `toron eval`: from the standard input to the standard output.
+///
+/// # Errors
+/// Reading or writing fails.
+pub fn lines(entry: Entry) -> Result<(), Error> {
+    match evaluate(entry, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
+        // A reader that has gone is no error.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Evaluation(error.to_string())),
+        _ => Ok(()),
+    }
 }
 
 /// Evaluates every line of `input`, from a fresh state each.

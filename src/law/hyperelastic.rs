@@ -43,21 +43,12 @@ pub struct Request {
     pub failure: bool,
     pub modes: bool,
     pub wave_modulus: bool,
-    /// Whether the law has a longitudinal-shear stiffness: see [`Hyperelastic::shears`].
-    pub shear: bool,
 }
 
 impl Request {
     /// Everything there is.
-    pub const ALL: Request = Request {
-        stress: true,
-        energies: true,
-        invariants: true,
-        failure: true,
-        modes: true,
-        wave_modulus: true,
-        shear: true,
-    };
+    pub const ALL: Request =
+        Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
 }
 
 /// What the law answers for one point, or for several side by side.
@@ -176,27 +167,27 @@ impl<R: Real> Hyperelastic<R> {
             tension: self.k_el * i_el.max(zero),
             pressure: R::splat(0.5) * self.p * powered,
             distortion: R::splat(0.25) * self.k_td * d.asinh_ratio,
-            shear: self.k_ld / (d.lambda * d.lambda),
+            shear: self.k_ld * d.inverse_lambda * d.inverse_lambda,
             compaction_energy: powered * compaction,
         }
     }
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>, request: Request) -> [R; 4] {
+    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let [i_el, _, i_td, i_ld] = d.invariants;
         [
             half * k.tension * i_el.max(zero),
             k.compaction_energy,
             half * self.k_td * i_td * i_td,
-            if request.shear { half * self.k_ld * i_ld * i_ld } else { zero },
+            if shear { half * self.k_ld * i_ld * i_ld } else { zero },
         ]
     }
 
     /// Cauchy stress 11 22 33 12 23 31.
     #[inline(always)]
-    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>, request: Request) -> [R; 6] {
+    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 6] {
         let inverse_j = d.inverse_jacobian;
         let tension = k.tension * inverse_j;
         let pressure = k.pressure * inverse_j;
@@ -206,7 +197,7 @@ impl<R: Real> Hyperelastic<R> {
         let mut on_e = scale(tension, d.e);
         let mut on_q1 = along(scale(d1 - pressure, d.q1), d2, d.q2);
         let mut on_q2 = along(scale(-(d1 + pressure), d.q2), d2, d.q1);
-        if request.shear {
+        if shear {
             let [t12, t13] = shear_components(d, k.shear * inverse_j);
             on_e = along(along(on_e, t12, d.q1), t13, d.q2);
             on_q1 = along(on_q1, t12, d.e);
@@ -226,11 +217,11 @@ impl<R: Real> Hyperelastic<R> {
     #[inline(always)]
     pub fn modes(&self, d: &Deformation<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
         let one = R::splat(1.0);
-        let (inverse_lambda, inverse_11, inverse_22) = (one / d.lambda, one / d.r11, one / d.r22);
+        let (inverse_11, inverse_22) = (one / d.r11, one / d.r22);
         // F⁻¹e, F⁻¹q1, F⁻¹q2.
-        let w1 = scale(inverse_lambda, n.m);
-        let w2 = scale(inverse_11, along(n.t1, -(d.f_a * inverse_lambda), n.m));
-        let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * inverse_lambda), n.m), -d.r12, w2));
+        let w1 = scale(d.inverse_lambda, n.m);
+        let w2 = scale(inverse_11, along(n.t1, -(d.f_a * d.inverse_lambda), n.m));
+        let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * d.inverse_lambda), n.m), -d.r12, w2));
         let two = R::splat(2.0);
         let (d1, d2) = (k.distortion * d.d1, k.distortion * d.d2);
         let [t12, t13] = shear_components(d, k.shear);
@@ -244,7 +235,8 @@ impl<R: Real> Hyperelastic<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The law at a point: columns of F, the material frame and where it is usable, the latch of the old state.
+    /// The law at a point: columns of F, the material frame and where it is usable, the latch of the old state; `shear`
+    /// says whether there is a longitudinal-shear stiffness whose terms are to be computed.
     ///
     /// No NaN or infinity leaves in the stress, the modes, the latch, the wave modulus or the status; energies,
     /// invariants and index are to be replaced by the old ones where `kept` says so.
@@ -256,14 +248,15 @@ impl<R: Real> Hyperelastic<R> {
         usable: R::Mask,
         latch: R,
         request: Request,
+        shear: bool,
     ) -> Response<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let latched = Failure::latched(latch);
 
         let d = Deformation::new(f, frame);
         let k = self.kirchhoff(&d);
-        let mut stress = if request.stress { self.cauchy(&d, &k, request) } else { [zero; 6] };
-        let energies = if request.energies { self.energies(&d, &k, request) } else { [zero; 4] };
+        let mut stress = if request.stress { self.cauchy(&d, &k, shear) } else { [zero; 6] };
+        let energies = if request.energies { self.energies(&d, &k, shear) } else { [zero; 4] };
         let mut modes = if request.modes { self.modes(&d, &k, frame) } else { [[zero; 6]; 4] };
         let wave = if request.wave_modulus { self.wave_modulus(&d, &k) } else { self.k_el };
         let index = if request.failure { self.failure.index(&d.invariants) } else { zero };
@@ -381,8 +374,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         T: nalgebra::Scalar,
     {
         let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
-        let request = Request { shear: request.shear && self.shears(), ..request };
-        let r = self.evaluate(&columns, &self.frame, true, state[FAILED], request);
+        let r = self.evaluate(&columns, &self.frame, true, state[FAILED], request, self.shears());
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

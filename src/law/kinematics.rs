@@ -64,8 +64,9 @@ pub struct Deformation<R> {
     pub e: [R; 3],
     pub q1: [R; 3],
     pub q2: [R; 3],
-    /// The upper triangle of R: see the module's text.
+    /// The upper triangle of R, see the module's text, and 1/λ.
     pub lambda: R,
+    pub inverse_lambda: R,
     pub f_a: R,
     pub f_b: R,
     pub r11: R,
@@ -168,6 +169,7 @@ impl<R: Real> Deformation<R> {
             q1,
             q2,
             lambda,
+            inverse_lambda,
             f_a,
             f_b,
             r11,

@@ -6,7 +6,7 @@
 //!
 //! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
 //! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
-//! - distortion:       ≤ k_td (½ (a/s) eᵃ + a/4)(1 − y²), a = 2 I_td, s = sinh a;
+//! - distortion:       ≤ ¼ k_td ((a/s) eᵃ + a)(1 − y²), a = 2 I_td, s = sinh a;
 //! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t eᵃ (1 − y²) + 4 |P b e|).
 //!
 //! The sum is linear in y² but for the last term, so that its maximum stands at y = 0 or y = 1:
@@ -46,7 +46,7 @@ impl<R: Real> Hyperelastic<R> {
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
         let grown = d.s + d.cosh; // eᵃ
-        let distorting = R::splat(2.0) * k.distortion * grown + quarter * self.k_td * d.asinh_s;
+        let distorting = k.distortion * grown + quarter * self.k_td * d.asinh_s;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         let [on_q1, on_q2] = shear_components(d, k.shear);
         let coupling = R::splat(4.0) * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();

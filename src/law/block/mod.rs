@@ -177,7 +177,6 @@ impl<T: Precision> Hyperelastic<T> {
             failure: !block.failure.is_null(),
             modes: !block.modes.is_null(),
             wave_modulus: !block.wave_speed.is_null(),
-            shear: self.shears(),
         };
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
         // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
@@ -320,7 +319,8 @@ const AS_ASKED: u8 = 128;
 #[cfg(target_arch = "x86_64")]
 macro_rules! specialised {
     ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
-        let Request { stress, energies, invariants, failure, modes, wave_modulus, shear } = $request;
+        let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
+        let shear = $law.shears();
         let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
         let fibres = !$block.fibre[0].is_null();
         match (usual, energies, invariants && failure, invariants || failure) {
@@ -412,8 +412,8 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
         failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
         modes: asked && !block.modes.is_null(),
         wave_modulus: asked && !block.wave_speed.is_null(),
-        shear: asked || WANT & SHEAR != 0,
     };
+    let shear = asked || WANT & SHEAR != 0;
     let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
     let stride = block.leading_dimension;
     let always = zero.le(zero);
@@ -435,7 +435,7 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
             (law.frame, always)
         };
         let latch = if block.failure_old.is_null() { zero } else { R::load(block.failure_old.add(stride + i)) };
-        let r = law.evaluate(&f, &frame, usable, latch, request);
+        let r = law.evaluate(&f, &frame, usable, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
