@@ -172,15 +172,18 @@ static void lsdyna_moduli(void)
 
 enum { VUMAT_STATE = STATE + 2 };
 
-/* The stretch of a point: that of the truth where F is symmetric, else FᵀF, which is a stretch as good as any. */
+/* The stretch of a point: the truth's F where that is symmetric, else ½1 + FᵀF/|F|², positive in either precision. */
 static int stretch(const truth *t, double u[6])
 {
     const double *f = t->f;
     int symmetric = f[1] == f[3] && f[2] == f[6] && f[5] == f[7];
     const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    double square = 0;
+    for (int i = 0; i < 9; i++)
+        square += f[i] * f[i];
     for (int c = 0; c < 6; c++) {
         const double *a = f + 3 * pairs[c][0], *b = f + 3 * pairs[c][1];
-        u[c] = symmetric ? a[pairs[c][1]] : a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        u[c] = symmetric ? a[pairs[c][1]] : (c < 3 ? 0.5 : 0) + (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / square;
     }
     return symmetric;
 }
