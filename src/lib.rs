@@ -1,2 +1,4 @@
+#[cfg(feature = "driver")]
+pub mod driver;
 pub mod host;
 pub mod law;

@@ -14,7 +14,7 @@
 //! Three-dimensional solids only (NDI = 3, NSHR = 3). The symbols `umat_` and `vumat_` that Abaqus looks for are in
 //! `fortran-shim/`. UMAT leaves DDSDDE untouched: not for Standard yet.
 
-use crate::law::block::{Pointers, components, components_mut};
+use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
 use crate::law::real::Real;
@@ -155,7 +155,7 @@ macro_rules! at {
 
 /// # Safety
 /// As for `toron_abaqus_vumat_f64`.
-unsafe fn vumat<T: Real<Mask = bool> + Into<f64> + PartialEq>(block: *const Vumat<T>) -> i32 {
+unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
     if block.is_null() {
         return status::NULL_ARGUMENT;
     }
@@ -215,7 +215,7 @@ unsafe fn vumat<T: Real<Mask = bool> + Into<f64> + PartialEq>(block: *const Vuma
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn elastic_check<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) {
+unsafe fn elastic_check<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) {
     let [bulk, shear] = law.bulk_and_shear();
     let two_g = T::splat(2.0) * shear;
     let lame = bulk - two_g * T::splat(1.0 / 3.0);
@@ -242,7 +242,7 @@ unsafe fn elastic_check<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>,
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn stretched<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) -> i32 {
+unsafe fn stretched<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) -> i32 {
     const CHUNK: usize = 64;
     let mut worst = status::OK;
     let mut start = 0;
@@ -266,6 +266,7 @@ unsafe fn stretched<T: Real<Mask = bool> + Into<f64>>(law: &Hyperelastic<T>, blo
             modes: core::ptr::null_mut(),
             wave_speed: core::ptr::null_mut(),
             status: codes.as_mut_ptr(),
+            level: None,
         };
         // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
         match unsafe { law.raw_block(&pointers) } {

@@ -15,7 +15,7 @@ use core::slice;
 use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
-use crate::law::block::{Pointers, components, components_mut};
+use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 use crate::law::parameters::{self, Dimension, Property};
@@ -470,6 +470,7 @@ impl<T> Block<T> {
             modes: self.modes,
             wave_speed: self.wave_speed,
             status: self.status,
+            level: None,
         }
     }
 }
@@ -541,7 +542,7 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn point<T: Real<Mask = bool> + Into<f64>>(
+unsafe fn point<T: Precision>(
     values: *const T,
     count: size_t,
     deformation_gradient: *const T,
@@ -637,11 +638,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
 
 /// # Safety
 /// As for `toron_hyperelastic_block_f64`.
-unsafe fn block<T: Real<Mask = bool> + Into<f64>>(
-    values: *const T,
-    count: size_t,
-    block: *const Block<T>,
-) -> Result<i32, Error> {
+unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Block<T>) -> Result<i32, Error> {
     if block.is_null() {
         return Err(Error::Plain(status::NULL_ARGUMENT));
     }

@@ -13,10 +13,9 @@
 
 use core::ffi::c_int;
 
-use crate::law::block::{Pointers, components};
+use crate::law::block::{Pointers, Precision, components};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::parameters;
-use crate::law::real::Real;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status::{self, Error};
 
@@ -34,7 +33,7 @@ struct Elements<T> {
 
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn umat<T: Real<Mask = bool> + Into<f64>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> i32 {
+unsafe fn umat<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>) -> i32 {
     if nhv != HYPERELASTIC_STATE as i32 {
         return status::STATE_COUNT;
     }
@@ -52,10 +51,7 @@ unsafe fn umat<T: Real<Mask = bool> + Into<f64>>(cm: *const T, nhv: i32, element
 ///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn evaluate<T: Real<Mask = bool> + Into<f64>>(
-    law: &Hyperelastic<T>,
-    elements: &Elements<T>,
-) -> Result<i32, Error> {
+unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) -> Result<i32, Error> {
     const CHUNK: usize = 64;
     let Elements { leading_dimension: stride, .. } = *elements;
     let mut worst = status::OK;
@@ -81,6 +77,7 @@ unsafe fn evaluate<T: Real<Mask = bool> + Into<f64>>(
             modes: core::ptr::null_mut(),
             wave_speed: core::ptr::null_mut(),
             status: codes.as_mut_ptr(),
+            level: None,
         };
         // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
         worst = worst.min(unsafe { law.raw_block(&pointers) }?);
@@ -102,13 +99,7 @@ unsafe fn evaluate<T: Real<Mask = bool> + Into<f64>>(
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Real<Mask = bool> + Into<f64>>(
-    cm: *const T,
-    sig: *mut T,
-    hsv: *mut T,
-    nhv: i32,
-    failel: *mut c_int,
-) -> i32 {
+unsafe fn scalar<T: Precision>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32, failel: *mut c_int) -> i32 {
     if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
         return status::NULL_ARGUMENT;
     }
@@ -159,7 +150,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn vector<T: Real<Mask = bool> + Into<f64>>(
+unsafe fn vector<T: Precision>(
     cm: *const T,
     stress: [*mut T; 6],
     hsvs: *mut T,

@@ -43,12 +43,21 @@ pub struct Request {
     pub failure: bool,
     pub modes: bool,
     pub wave_modulus: bool,
+    /// Whether the law has a longitudinal-shear stiffness: see [`Hyperelastic::shears`].
+    pub shear: bool,
 }
 
 impl Request {
     /// Everything there is.
-    pub const ALL: Request =
-        Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
+    pub const ALL: Request = Request {
+        stress: true,
+        energies: true,
+        invariants: true,
+        failure: true,
+        modes: true,
+        wave_modulus: true,
+        shear: true,
+    };
 }
 
 /// What the law answers for one point, or for several side by side.
@@ -132,19 +141,41 @@ impl<R: Real> Hyperelastic<R> {
         [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
     }
 
+    /// The same properties in another number: many lanes instead of one.
+    #[inline(always)]
+    pub fn lanes<L: Real>(&self) -> Hyperelastic<L>
+    where
+        R: Into<f64>,
+    {
+        let lane = |x: R| L::splat(x.into());
+        let vector = |v: [R; 3]| [lane(v[0]), lane(v[1]), lane(v[2])];
+        Hyperelastic {
+            k_el: lane(self.k_el),
+            k_tc: lane(self.k_tc),
+            p: lane(self.p),
+            k_td: lane(self.k_td),
+            k_ld: lane(self.k_ld),
+            exponent: self.exponent.map(lane),
+            failure: Failure {
+                inverse_limit: lane(self.failure.inverse_limit),
+                alpha: lane(self.failure.alpha),
+                beta: lane(self.failure.beta),
+            },
+            frame: FibreFrame { m: vector(self.frame.m), t1: vector(self.frame.t1), t2: vector(self.frame.t2) },
+        }
+    }
+
     /// The factors of the four modes in the Kirchhoff stress.
     #[inline(always)]
     pub fn kirchhoff(&self, d: &Deformation<R>) -> Kirchhoff<R> {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let zero = R::splat(0.0);
         let [i_el, i_tc, _, _] = d.invariants;
         let compaction = (-i_tc).max(zero);
         let powered = self.k_tc * power(compaction, self.exponent);
-        let undistorted = d.s.le(zero);
-        let ratio = R::select(undistorted, one, d.asinh_s / R::select(undistorted, one, d.s));
         Kirchhoff {
             tension: self.k_el * i_el.max(zero),
             pressure: R::splat(0.5) * self.p * powered,
-            distortion: R::splat(0.25) * self.k_td * ratio,
+            distortion: R::splat(0.25) * self.k_td * d.asinh_ratio,
             shear: self.k_ld / (d.lambda * d.lambda),
             compaction_energy: powered * compaction,
         }
@@ -152,35 +183,43 @@ impl<R: Real> Hyperelastic<R> {
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> [R; 4] {
+    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>, request: Request) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let [i_el, _, i_td, i_ld] = d.invariants;
         [
             half * k.tension * i_el.max(zero),
             k.compaction_energy,
             half * self.k_td * i_td * i_td,
-            half * self.k_ld * i_ld * i_ld,
+            if request.shear { half * self.k_ld * i_ld * i_ld } else { zero },
         ]
     }
 
     /// Cauchy stress 11 22 33 12 23 31.
     #[inline(always)]
-    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> [R; 6] {
-        let inverse_j = R::splat(1.0) / d.jacobian;
+    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>, request: Request) -> [R; 6] {
+        let inverse_j = d.inverse_jacobian;
         let tension = k.tension * inverse_j;
         let pressure = k.pressure * inverse_j;
         let distortion = k.distortion * inverse_j;
-        let shear = k.shear * inverse_j;
         let (d1, d2) = (distortion * d.d1, distortion * d.d2);
-        // On (e, q1, q2): tension and shears in the first row, the plane across the fibre below.
-        let t12 = shear * d.f_a.mul_add(d.r11, d.f_b * d.r12);
-        let t13 = shear * d.f_b * d.r22;
-        // σ = e⊗along + along⊗e … gathered so that each row of Q meets its traction once.
-        let on_e = along(along(scale(tension, d.e), t12, d.q1), t13, d.q2);
-        let on_q1 = along(along(scale(d1 - pressure, d.q1), d2, d.q2), t12, d.e);
-        let on_q2 = along(along(scale(-(d1 + pressure), d.q2), d2, d.q1), t13, d.e);
-        let entry = |i: usize, j: usize| d.e[i].mul_add(on_e[j], d.q1[i].mul_add(on_q1[j], d.q2[i] * on_q2[j]));
-        [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
+        // The tractions on e, q1 and q2: each meets its axis once.
+        let mut on_e = scale(tension, d.e);
+        let mut on_q1 = along(scale(d1 - pressure, d.q1), d2, d.q2);
+        let mut on_q2 = along(scale(-(d1 + pressure), d.q2), d2, d.q1);
+        if request.shear {
+            let [t12, t13] = shear_components(d, k.shear * inverse_j);
+            on_e = along(along(on_e, t12, d.q1), t13, d.q2);
+            on_q1 = along(on_q1, t12, d.e);
+            on_q2 = along(on_q2, t13, d.e);
+        }
+        [
+            d.e[0].mul_add(on_e[0], d.q1[0].mul_add(on_q1[0], d.q2[0] * on_q2[0])),
+            d.e[1].mul_add(on_e[1], d.q1[1].mul_add(on_q1[1], d.q2[1] * on_q2[1])),
+            d.e[2].mul_add(on_e[2], d.q1[2].mul_add(on_q1[2], d.q2[2] * on_q2[2])),
+            d.e[0].mul_add(on_e[1], d.q1[0].mul_add(on_q1[1], d.q2[0] * on_q2[1])),
+            d.e[1].mul_add(on_e[2], d.q1[1].mul_add(on_q1[2], d.q2[1] * on_q2[2])),
+            d.e[2].mul_add(on_e[0], d.q1[2].mul_add(on_q1[0], d.q2[2] * on_q2[0])),
+        ]
     }
 
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
@@ -192,21 +231,9 @@ impl<R: Real> Hyperelastic<R> {
         let w1 = scale(inverse_lambda, n.m);
         let w2 = scale(inverse_11, along(n.t1, -(d.f_a * inverse_lambda), n.m));
         let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * inverse_lambda), n.m), -d.r12, w2));
-        let product = |s: R, a: [R; 3], b: [R; 3]| {
-            let entry = |i: usize, j: usize| R::splat(0.5) * s * a[i].mul_add(b[j], a[j] * b[i]);
-            [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
-        };
-        let sum = |a: [R; 6], b: [R; 6]| {
-            let mut sum = a;
-            for (x, y) in sum.iter_mut().zip(b) {
-                *x = *x + y;
-            }
-            sum
-        };
         let two = R::splat(2.0);
         let (d1, d2) = (k.distortion * d.d1, k.distortion * d.d2);
-        let t12 = k.shear * d.f_a.mul_add(d.r11, d.f_b * d.r12);
-        let t13 = k.shear * d.f_b * d.r22;
+        let [t12, t13] = shear_components(d, k.shear);
         [
             product(k.tension, w1, w1),
             sum(product(-k.pressure, w2, w2), product(-k.pressure, w3, w3)),
@@ -235,17 +262,27 @@ impl<R: Real> Hyperelastic<R> {
 
         let d = Deformation::new(f, frame);
         let k = self.kirchhoff(&d);
-        let stress = if request.stress { self.cauchy(&d, &k) } else { [zero; 6] };
-        let energies = if request.energies { self.energies(&d, &k) } else { [zero; 4] };
-        let modes = if request.modes { self.modes(&d, &k, frame) } else { [[zero; 6]; 4] };
+        let mut stress = if request.stress { self.cauchy(&d, &k, request) } else { [zero; 6] };
+        let energies = if request.energies { self.energies(&d, &k, request) } else { [zero; 4] };
+        let mut modes = if request.modes { self.modes(&d, &k, frame) } else { [[zero; 6]; 4] };
         let wave = if request.wave_modulus { self.wave_modulus(&d, &k) } else { self.k_el };
         let index = if request.failure { self.failure.index(&d.invariants) } else { zero };
 
         // A number times zero is zero unless it is NaN or infinite.
-        let mut probe = (d.invariants[0] + d.invariants[1]) + (d.invariants[2] + d.invariants[3]);
-        probe = probe + (energies[0] + energies[1]) + (energies[2] + energies[3]) + (wave + index);
-        for &x in stress.iter().chain(modes.iter().flatten()) {
-            probe = x.mul_add(zero, probe * zero);
+        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
+        probe = probe + (energies[0] + energies[1]) + (energies[2] + energies[3]) + index;
+        if request.invariants {
+            probe = probe + (d.invariants[0] + d.invariants[1]) + (d.invariants[2] + d.invariants[3]);
+        }
+        if request.wave_modulus {
+            probe = probe + wave;
+        }
+        if request.modes {
+            for mode in &modes {
+                for &x in mode {
+                    probe = x.mul_add(zero, probe);
+                }
+            }
         }
         let representable = (probe * zero).le(zero);
         let mut entries = zero;
@@ -258,29 +295,60 @@ impl<R: Real> Hyperelastic<R> {
         let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
 
         // The first reason that applies, from the last to the first.
-        let code = |code: i32| R::splat(code as f64);
-        let mut status = R::select(representable, zero, code(status::OVERFLOW));
-        status = R::select(upright, status, code(status::INVERTED));
-        status = R::select(usable, status, code(status::FIBRE_DIRECTION));
-        status = R::select(finite, status, code(status::NOT_FINITE));
+        let mut status = R::select(representable, zero, R::splat(status::OVERFLOW as f64));
+        status = R::select(upright, status, R::splat(status::INVERTED as f64));
+        status = R::select(usable, status, R::splat(status::FIBRE_DIRECTION as f64));
+        status = R::select(finite, status, R::splat(status::NOT_FINITE as f64));
         let intact_state = (latch * zero).le(zero);
-        status = R::select(latched, R::select(intact_state, zero, code(status::STATE_NOT_FINITE)), status);
+        let unknown = R::select(intact_state, zero, R::splat(status::STATE_NOT_FINITE as f64));
+        status = R::select(latched, unknown, status);
 
-        let kept = latched | !status.le(zero) | status.lt(zero);
+        let kept = latched | status.lt(zero);
         let fails = Failure::reached(index) & !kept;
-        let mask = |x: R| R::select(kept, zero, x);
+        for x in &mut stress {
+            *x = R::select(kept, zero, *x);
+        }
+        for x in modes.iter_mut().flatten() {
+            *x = R::select(kept, zero, *x);
+        }
         Response {
-            stress: stress.map(mask),
+            stress,
             energies,
             invariants: d.invariants,
             failure_index: index,
             failed: R::select(latched | fails, one, zero),
-            modes: modes.map(|mode| mode.map(mask)),
+            modes,
             wave_modulus: R::select(kept, self.k_el, wave),
             status,
             kept,
         }
     }
+}
+
+/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
+#[inline(always)]
+fn product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
+    let half = R::splat(0.5) * s;
+    [
+        s * a[0] * b[0],
+        s * a[1] * b[1],
+        s * a[2] * b[2],
+        half * a[0].mul_add(b[1], a[1] * b[0]),
+        half * a[1].mul_add(b[2], a[2] * b[1]),
+        half * a[2].mul_add(b[0], a[0] * b[2]),
+    ]
+}
+
+/// The sum of two tensors of six components.
+#[inline(always)]
+fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]]
+}
+
+/// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · P b e.
+#[inline(always)]
+pub(super) fn shear_components<R: Real>(d: &Deformation<R>, factor: R) -> [R; 2] {
+    [factor * d.f_a.mul_add(d.r11, d.f_b * d.r12), factor * d.f_b * d.r22]
 }
 
 /// What the law answers for one point, ready to store.
@@ -299,6 +367,11 @@ pub struct Point<T> {
 }
 
 impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
+    /// Whether there is a longitudinal-shear stiffness; without one its terms need not be computed.
+    pub fn shears(&self) -> bool {
+        T::splat(0.0).lt(self.k_ld)
+    }
+
     /// The law at one point, with the fibre direction of the properties.
     ///
     /// `f` is the deformation gradient, `state` the old state: all 0 at the start. A point that cannot be evaluated (F
@@ -308,6 +381,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         T: nalgebra::Scalar,
     {
         let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
+        let request = Request { shear: request.shear && self.shears(), ..request };
         let r = self.evaluate(&columns, &self.frame, true, state[FAILED], request);
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;

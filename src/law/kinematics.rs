@@ -17,8 +17,8 @@
 //! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0: the choice is a number,
 //! not a branch.
 
-use super::elementary::{asinh, ln_sum};
-use super::real::{Real, along, cross, dot, scale};
+use super::elementary::{Asinh, Logarithm, reciprocals};
+use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
 
 /// F − 1 counts as small where the sum of its squared entries is below this: every diagonal entry of F is then above ½,
 /// so that H is exact, and no singular value of F is below 0.6.
@@ -71,16 +71,18 @@ pub struct Deformation<R> {
     pub r11: R,
     pub r12: R,
     pub r22: R,
-    /// det F and the area ratio J_t = J/λ.
+    /// det F, its reciprocal, and the area ratio J_t = J/λ.
     pub jacobian: R,
+    pub inverse_jacobian: R,
     pub area_ratio: R,
     /// Elongation, compaction, distortion and longitudinal-shear invariant (Eq. 4.9).
     pub invariants: [R; 4],
-    /// The deviator of B/J_t on (q1, q2), its magnitude s, asinh s = 2 I_td, and x = √(1 + s²) = cosh 2 I_td.
+    /// The deviator of B/J_t on (q1, q2), its magnitude s, asinh s = 2 I_td, asinh s/s, and x = √(1 + s²) = cosh 2 I_td.
     pub d1: R,
     pub d2: R,
     pub s: R,
     pub asinh_s: R,
+    pub asinh_ratio: R,
     pub cosh: R,
 }
 
@@ -93,7 +95,9 @@ impl<R: Real> Deformation<R> {
     pub fn new(f: &[[R; 3]; 3], n: &FibreFrame<R>) -> Self {
         let (zero, one, half) = (R::splat(0.0), R::splat(1.0), R::splat(0.5));
 
-        let jacobian = dot(f[0], cross(f[1], f[2]));
+        // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
+        // section loses most of its digits here.
+        let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
         let h = [f[0][0] - one, f[1][1] - one, f[2][2] - one];
         let off_diagonal = dot([f[0][1], f[0][2], f[1][2]], [f[0][1], f[0][2], f[1][2]])
@@ -105,16 +109,14 @@ impl<R: Real> Deformation<R> {
         let diagonal = [R::select(near, h[0], f[0][0]), R::select(near, h[1], f[1][1]), R::select(near, h[2], f[2][2])];
         let columns =
             [[diagonal[0], f[0][1], f[0][2]], [f[1][0], diagonal[1], f[1][2]], [f[2][0], f[2][1], diagonal[2]]];
-        let image = |v: [R; 3]| along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0]);
-        let (g1, g2, g3) = (image(n.m), image(n.t1), image(n.t2));
+        let (g1, g2, g3) = (image(&columns, n.m), image(&columns, n.t1), image(&columns, n.t2));
         let (c1, c2, c3) = (along(g1, sigma, n.m), along(g2, sigma, n.t1), along(g3, sigma, n.t2));
 
         // Along the fibre.
         let u11 = dot(g1, along(c1, sigma, n.m));
         let stretch_square = sigma + u11;
-        let i_el = half * ln_sum(stretch_square, u11 - (stretch_square - sigma));
         let lambda = stretch_square.sqrt();
-        let inverse_lambda = one / lambda;
+        let [inverse_lambda, inverse_jacobian] = reciprocals([lambda, jacobian]);
         let e = scale(inverse_lambda, c1);
 
         // Longitudinal shear.
@@ -133,21 +135,31 @@ impl<R: Real> Deformation<R> {
         let r11 = r11_square.sqrt();
         let inverse_r11 = one / r11;
         let area_ratio = jacobian * inverse_lambda;
-        let inverse_area = one / area_ratio;
+        let inverse_area = lambda * inverse_jacobian;
         let r12 = x23 * inverse_r11;
         let r22 = area_ratio * inverse_r11;
 
         // Compaction: ¼ ln det X near the reference, ½ ln J_t away from it.
         let growth = x22 + x33 + x22.mul_add(x33, -(x23 * x23));
         let area_square = R::select(near, one + growth, area_ratio * area_ratio);
-        let correction = R::select(near, growth - (area_square - one), zero);
-        let i_tc = R::splat(0.25) * ln_sum(area_square, correction);
 
         // Distortion.
         let d1 = half.mul_add(x22 - x33, r12 * r12) * inverse_area;
         let d2 = r12 * inverse_r11;
         let s = d1.mul_add(d1, d2 * d2).sqrt();
-        let (asinh_s, cosh) = asinh(s);
+
+        // Two logarithms and an inverse hyperbolic sine share one division. Near the reference 1 + u has lost digits of u
+        // that the logarithm needs: they follow as a correction.
+        let (elongation, compaction, distortion) =
+            (Logarithm::new(stretch_square), Logarithm::new(area_square), Asinh::new(s));
+        let [a_1, a_2] = distortion.denominators();
+        let [over_el, over_tc, over_1, over_2] =
+            reciprocals([elongation.denominator(), compaction.denominator(), a_1, a_2]);
+        let lost_el = u11 - (stretch_square - sigma);
+        let lost_tc = R::select(near, growth - (area_square - one), zero);
+        let i_el = half * elongation.finish(over_el, lost_el * inverse_lambda * inverse_lambda);
+        let i_tc = R::splat(0.25) * compaction.finish(over_tc, lost_tc * inverse_area * inverse_area);
+        let (asinh_s, asinh_ratio) = distortion.finish([over_1, over_2]);
 
         let q1 = scale(inverse_r11, a);
         let q2 = cross(e, q1);
@@ -162,13 +174,15 @@ impl<R: Real> Deformation<R> {
             r12,
             r22,
             jacobian,
+            inverse_jacobian,
             area_ratio,
             invariants: [i_el, i_tc, half * asinh_s, i_ld],
             d1,
             d2,
             s,
             asinh_s,
-            cosh,
+            asinh_ratio,
+            cosh: distortion.cosh(),
         }
     }
 }

@@ -123,10 +123,13 @@ impl LinearElastic {
             Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
             Rotation::Polar => (polar_rotation(f0) * self.axes, polar_rotation(f1) * self.axes),
             Rotation::Spin => {
-                let Some(rate) = logarithm(&relative) else {
+                // Half the gradient of the increment at the middle of the step: its skew part turns a rigid step
+                // exactly.
+                let Some(inverse) = (relative + Matrix3::identity()).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
                 };
-                let half_spin = (rate - rate.transpose()) * 0.25;
+                let gradient = (relative - Matrix3::identity()) * inverse;
+                let half_spin = (gradient - gradient.transpose()) * 0.5;
                 let Some(inverse) = (Matrix3::identity() - half_spin).try_inverse() else {
                     return self.refused(state, status::INCREMENT_TOO_LARGE);
                 };
@@ -216,15 +219,14 @@ impl LinearElastic {
         for x in &mut point.state[LINEAR_STRESS..LINEAR_LARGEST] {
             *x = 0.0;
         }
-        point.state[LINEAR_FAILED] = 1.0;
-        point.state[LINEAR_ALIVE] = 0.0;
         point
     }
 
-    /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it.
+    /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it; the latch is 0 or 1.
     fn refused(&self, state: &[f64; LINEAR_ELASTIC_STATE], status: i32) -> LinearPoint {
         let finite = state.iter().all(|x| x.is_finite());
         let mut new = state.map(|x| if x.is_finite() { x } else { 0.0 });
+        new[LINEAR_FAILED] = if Failure::latched(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
         new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];
         let status = if !finite && status == status::OK { status::STATE_NOT_FINITE } else { status };
         LinearPoint { stress: [0.0; 6], state: new, status }

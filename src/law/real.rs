@@ -26,6 +26,8 @@ pub trait Real:
     fn splat(x: f64) -> Self;
     /// `self · a + b`.
     fn mul_add(self, a: Self, b: Self) -> Self;
+    /// `a b − c d` to within 1.5 ulp, however much of it cancels.
+    fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self;
     fn sqrt(self) -> Self;
     fn abs(self) -> Self;
     /// The larger one; `other` where `self` is NaN.
@@ -54,6 +56,16 @@ pub fn cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
     [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
 }
 
+/// Vector product of two vectors, each component to within 1.5 ulp.
+#[inline(always)]
+pub fn accurate_cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [
+        R::difference_of_products(a[1], b[2], a[2], b[1]),
+        R::difference_of_products(a[2], b[0], a[0], b[2]),
+        R::difference_of_products(a[0], b[1], a[1], b[0]),
+    ]
+}
+
 /// `a + s b`.
 #[inline(always)]
 pub fn along<R: Real>(a: [R; 3], s: R, b: [R; 3]) -> [R; 3] {
@@ -66,8 +78,27 @@ pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
     [s * a[0], s * a[1], s * a[2]]
 }
 
+/// The image of a vector under the matrix of these columns.
+#[inline(always)]
+pub fn image<R: Real>(columns: &[[R; 3]; 3], v: [R; 3]) -> [R; 3] {
+    along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0])
+}
+
+/// A product and its rounding error, without a fused multiply-add (Dekker, Numer. Math. 18, 1971).
+#[inline(always)]
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    // Halves of 26 bits, whose products are exact.
+    let split = |x: f64| {
+        let high = f64::from_bits(x.to_bits() & !0x7ff_ffff);
+        (high, x - high)
+    };
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let product = a * b;
+    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
 macro_rules! scalar {
-    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, ln: $ln:expr, exp: $exp:expr) => {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, difference: $difference:expr, ln: $ln:expr, exp: $exp:expr) => {
         impl Real for $t {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
@@ -82,6 +113,11 @@ macro_rules! scalar {
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 self * a + b
+            }
+            #[inline(always)]
+            fn difference_of_products(a: Self, b: Self, c: Self, d: Self) -> Self {
+                let difference: fn(Self, Self, Self, Self) -> Self = $difference;
+                difference(a, b, c, d)
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
@@ -133,5 +169,16 @@ macro_rules! scalar {
     };
 }
 
-scalar!(f64, u64, libm::sqrt, f64::abs, ln: &super::elementary::LN_F64, exp: &super::elementary::EXP_F64);
-scalar!(f32, u32, libm::sqrtf, f32::abs, ln: &super::elementary::LN_F32, exp: &super::elementary::EXP_F32);
+scalar!(
+    f64, u64, libm::sqrt, f64::abs,
+    difference: |a, b, c, d| {
+        let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
+        (p - q) + (p_error - q_error)
+    },
+    ln: &super::elementary::LN_F64, exp: &super::elementary::EXP_F64
+);
+scalar!(
+    f32, u32, libm::sqrtf, f32::abs,
+    difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
+    ln: &super::elementary::LN_F32, exp: &super::elementary::EXP_F32
+);

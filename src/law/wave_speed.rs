@@ -16,7 +16,7 @@
 //! At rest, and along a stretched fibre, that is √(k_el/ρ0): slack or not, tension may come back within a step.
 
 use super::elementary::{Exponent, power};
-use super::hyperelastic::{Hyperelastic, Kirchhoff};
+use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::Deformation;
 use super::real::Real;
 
@@ -48,8 +48,8 @@ impl<R: Real> Hyperelastic<R> {
         let grown = d.s + d.cosh; // eᵃ
         let distorting = R::splat(2.0) * k.distortion * grown + quarter * self.k_td * d.asinh_s;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
-        let (on_q1, on_q2) = (d.f_a.mul_add(d.r11, d.f_b * d.r12), d.f_b * d.r22);
-        let coupling = R::splat(4.0) * k.shear * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
+        let [on_q1, on_q2] = shear_components(d, k.shear);
+        let coupling = R::splat(4.0) * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
 
         let across = self.k_el.mul_add(i_el.max(zero), compacting + distorting + shearing);
         across.max(self.k_el) + coupling

@@ -1,0 +1,640 @@
+//! Many points at once: the same law over component-major arrays.
+//!
+//! Component c of point i stands at `c * leading_dimension + i`, as LS-DYNA (nlq), Abaqus (nblock) and OpenRadioss (nel)
+//! lay their arrays out. What a caller leaves out is neither read, computed nor written.
+//!
+//! | array | components |
+//! |---|---|
+//! | `deformation_gradient` | F11 F21 F31 F12 F22 F32 F13 F23 F33 (columns of F) |
+//! | `fibre` | m1 m2 m3, any length |
+//! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
+//! | `energies` | W_el W_tc W_td W_ld |
+//! | `invariants` | I_el I_tc I_td I_ld |
+//! | `failure` | failure index, failed, alive |
+//! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff) |
+//! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
+
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+use core::mem::MaybeUninit;
+
+use super::hyperelastic::{Hyperelastic, Request};
+use super::kinematics::FibreFrame;
+use super::real::Real;
+use super::status::{self, Error};
+
+/// A block as a host passes it: null is left out.
+///
+/// The deformation gradient, the fibre direction and the stress come as one pointer a component, since some hosts keep
+/// them in arrays of their own; the other arrays are component-major with the leading dimension. `energies_old`,
+/// `invariants_old` and `failure_old` are the old state, null a fresh one; they may be the same arrays as the new ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Pointers<T> {
+    pub n: usize,
+    pub leading_dimension: usize,
+    pub deformation_gradient: [*const T; 9],
+    pub fibre: [*const T; 3],
+    pub energies_old: *const T,
+    pub invariants_old: *const T,
+    pub failure_old: *const T,
+    pub density: T,
+    pub stress: [*mut T; 6],
+    pub energies: *mut T,
+    pub invariants: *mut T,
+    pub failure: *mut T,
+    pub modes: *mut T,
+    pub wave_speed: *mut T,
+    pub status: *mut i32,
+    /// The instructions to use, no better than the processor has; `None`: the best.
+    pub level: Option<Level>,
+}
+
+/// The pointers to the components of a component-major array; all null where the array is.
+pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
+    let mut pointers = [core::ptr::null(); N];
+    if !array.is_null() {
+        for (c, pointer) in pointers.iter_mut().enumerate() {
+            *pointer = array.wrapping_add(c.wrapping_mul(leading_dimension));
+        }
+    }
+    pointers
+}
+
+/// Likewise, for writing.
+pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize) -> [*mut T; N] {
+    components(array.cast_const(), leading_dimension).map(<*const T>::cast_mut)
+}
+
+/// A block as Rust passes it: the state in place, old on entry and new on return.
+#[derive(Debug, Default)]
+pub struct Arrays<'a, T> {
+    pub n: usize,
+    pub leading_dimension: usize,
+    pub deformation_gradient: &'a [T],
+    pub fibre: Option<&'a [T]>,
+    pub density: T,
+    pub stress: Option<&'a mut [T]>,
+    pub energies: Option<&'a mut [T]>,
+    pub invariants: Option<&'a mut [T]>,
+    pub failure: Option<&'a mut [T]>,
+    pub modes: Option<&'a mut [T]>,
+    pub wave_speed: Option<&'a mut [T]>,
+    pub status: Option<&'a mut [i32]>,
+    pub level: Option<Level>,
+}
+
+impl<T: Precision> Hyperelastic<T> {
+    /// The law at every point of a block; returns the worst (most negative) of their status codes.
+    ///
+    /// # Errors
+    /// An array that is too short, a leading dimension below n, a density that is not positive where the wave speed is
+    /// wanted.
+    pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
+        let Arrays { n, leading_dimension, .. } = arrays;
+        let needed = |components: usize| match components {
+            0 => 0,
+            _ if n == 0 => 0,
+            _ => (components - 1).saturating_mul(leading_dimension).saturating_add(n),
+        };
+        let check = |name: &'static str, length: usize, components: usize| {
+            if length >= needed(components) {
+                return Ok(());
+            }
+            let wanted = i64::try_from(needed(components)).unwrap_or(i64::MAX);
+            Err(Error::Count { code: status::BAD_COUNT, what: name, found: length as i64, wanted })
+        };
+        check("entries of deformation_gradient", arrays.deformation_gradient.len(), 9)?;
+        let input = |name, array: Option<&[T]>, components| match array {
+            Some(array) => check(name, array.len(), components).map(|()| array.as_ptr()),
+            None => Ok(core::ptr::null()),
+        };
+        let output = |name, array: Option<&mut [T]>, components| match array {
+            Some(array) => check(name, array.len(), components).map(|()| array.as_mut_ptr()),
+            None => Ok(core::ptr::null_mut()),
+        };
+        let energies = output("entries of energies", arrays.energies, 4)?;
+        let invariants = output("entries of invariants", arrays.invariants, 4)?;
+        let failure = output("entries of failure", arrays.failure, 3)?;
+        let block = Pointers {
+            n,
+            leading_dimension,
+            deformation_gradient: components(arrays.deformation_gradient.as_ptr(), leading_dimension),
+            fibre: components(input("entries of fibre", arrays.fibre, 3)?, leading_dimension),
+            energies_old: energies,
+            invariants_old: invariants,
+            failure_old: failure,
+            density: arrays.density,
+            stress: components_mut(output("entries of stress", arrays.stress, 6)?, leading_dimension),
+            energies,
+            invariants,
+            failure,
+            modes: output("entries of modes", arrays.modes, 24)?,
+            wave_speed: output("entries of wave_speed", arrays.wave_speed, 1)?,
+            status: match arrays.status {
+                Some(array) => check("entries of status", array.len(), 1).map(|()| array.as_mut_ptr())?,
+                None => core::ptr::null_mut(),
+            },
+            level: arrays.level,
+        };
+        // SAFETY: every array is as long as the block needs; the state alone is read and written, through one pointer.
+        unsafe { self.raw_block(&block) }
+    }
+
+    /// The law at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
+    ///
+    /// # Errors
+    /// A null deformation gradient, a leading dimension below n, a density that is not positive where the wave speed is
+    /// wanted.
+    ///
+    /// # Safety
+    /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
+    /// reading or writing; outputs overlap nothing but, exactly, the old state they replace.
+    pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
+        if block.n == 0 {
+            return Ok(status::OK);
+        }
+        if block.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
+            return Err(Error::Plain(status::NULL_ARGUMENT));
+        }
+        if block.leading_dimension < block.n {
+            return Err(Error::Count {
+                code: status::BAD_LEADING_DIMENSION,
+                what: "leading dimension",
+                found: block.leading_dimension as i64,
+                wanted: block.n as i64,
+            });
+        }
+        let density = block.density.into();
+        let has_mass = density > 0.0 && density < f64::INFINITY;
+        if !block.wave_speed.is_null() && !has_mass {
+            return Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0" });
+        }
+        let request = Request {
+            stress: !block.stress[0].is_null(),
+            energies: !block.energies.is_null(),
+            invariants: !block.invariants.is_null(),
+            failure: !block.failure.is_null(),
+            modes: !block.modes.is_null(),
+            wave_modulus: !block.wave_speed.is_null(),
+            shear: self.shears(),
+        };
+        let level = block.level.unwrap_or_else(Level::best).min(Level::best());
+        // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+        Ok(unsafe { T::dispatch(level, self, block, request) })
+    }
+}
+
+/// A set of instructions to run the lanes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Level {
+    /// What every processor of the architecture has.
+    Baseline,
+    /// AVX2 and FMA: x86-64-v3.
+    Avx2,
+    /// AVX-512 F, DQ and VL.
+    Avx512,
+}
+
+impl Level {
+    /// All levels, from the lowest.
+    pub const ALL: [Level; 3] = [Level::Baseline, Level::Avx2, Level::Avx512];
+
+    /// The name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Baseline => "baseline",
+            Level::Avx2 => "avx2",
+            Level::Avx512 => "avx512",
+        }
+    }
+
+    /// The best one that this processor has.
+    pub fn best() -> Level {
+        #[cfg(target_arch = "x86_64")]
+        {
+            // The only global state of the library: what the processor can do, found out once.
+            cpufeatures::new!(has_avx512, "avx512f", "avx512dq", "avx512vl", "avx2", "fma");
+            cpufeatures::new!(has_avx2, "avx2", "fma");
+            if has_avx512::get() {
+                return Level::Avx512;
+            }
+            if has_avx2::get() {
+                return Level::Avx2;
+            }
+        }
+        Level::Baseline
+    }
+}
+
+/// Points side by side in lanes that are loaded from and stored to arrays of T.
+pub trait Lanes<T>: Real {
+    /// How many points.
+    const COUNT: usize;
+    /// # Safety
+    /// `from` points to `COUNT` values.
+    unsafe fn load(from: *const T) -> Self;
+    /// # Safety
+    /// `to` has room for `COUNT` values.
+    unsafe fn store(self, to: *mut T);
+    /// Stores small integers.
+    ///
+    /// # Safety
+    /// `to` has room for `COUNT` values.
+    unsafe fn store_integers(self, to: *mut i32);
+}
+
+/// A precision that the block kernel is built for.
+pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq {
+    /// Runs the kernel at a level.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
+}
+
+macro_rules! precision {
+    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty) => {
+        impl Lanes<$t> for $t {
+            const COUNT: usize = 1;
+            #[inline(always)]
+            unsafe fn load(from: *const $t) -> Self {
+                // SAFETY: the caller's promise.
+                unsafe { *from }
+            }
+            #[inline(always)]
+            unsafe fn store(self, to: *mut $t) {
+                // SAFETY: the caller's promise.
+                unsafe { *to = self }
+            }
+            #[inline(always)]
+            unsafe fn store_integers(self, to: *mut i32) {
+                // SAFETY: the caller's promise.
+                unsafe { *to = self as i32 }
+            }
+        }
+
+        impl Precision for $t {
+            unsafe fn dispatch(level: Level, law: &Hyperelastic<$t>, block: &Pointers<$t>, request: Request) -> i32 {
+                #[cfg(target_arch = "x86_64")]
+                {
+                    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+                    unsafe fn avx512<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { sweep::<$t, $avx512, WANT>(law, block) }
+                    }
+                    #[target_feature(enable = "avx2,fma")]
+                    unsafe fn avx2<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { sweep::<$t, $avx2, WANT>(law, block) }
+                    }
+                    // SAFETY: the caller has found the instructions.
+                    unsafe {
+                        match level {
+                            Level::Avx512 => specialised!(avx512, law, block, request),
+                            Level::Avx2 => specialised!(avx2, law, block, request),
+                            Level::Baseline => sweep::<$t, $baseline, AS_ASKED>(law, block),
+                        }
+                    }
+                }
+                #[cfg(not(target_arch = "x86_64"))]
+                {
+                    let _ = (level, request);
+                    // SAFETY: the caller's promise.
+                    unsafe { sweep::<$t, $t, AS_ASKED>(law, block) }
+                }
+            }
+        }
+    };
+}
+
+// What a kernel is built for, so that a loop holds no decision about it.
+const ENERGIES: u8 = 1;
+const HISTORY: u8 = 2; // invariants and failure
+const SHEAR: u8 = 4;
+const FIBRES: u8 = 8; // a fibre direction for each point
+/// The kernel that asks the block at every turn.
+const AS_ASKED: u8 = 128;
+
+/// Calls the kernel built for exactly what is asked, or the one that asks at every turn.
+#[cfg(target_arch = "x86_64")]
+macro_rules! specialised {
+    ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
+        let Request { stress, energies, invariants, failure, modes, wave_modulus, shear } = $request;
+        let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
+        let fibres = !$block.fibre[0].is_null();
+        match (usual, energies, invariants && failure, invariants || failure) {
+            (true, false, false, false) => specialised!($kernel, $law, $block, shear, fibres, 0),
+            (true, true, false, false) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES),
+            (true, true, true, true) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES + HISTORY),
+            _ => $kernel::<AS_ASKED>($law, $block),
+        }
+    }};
+    ($kernel:ident, $law:ident, $block:ident, $shear:ident, $fibres:ident, $want:expr) => {
+        match ($shear, $fibres) {
+            (false, false) => $kernel::<{ $want }>($law, $block),
+            (true, false) => $kernel::<{ $want + SHEAR }>($law, $block),
+            (false, true) => $kernel::<{ $want + FIBRES }>($law, $block),
+            (true, true) => $kernel::<{ $want + SHEAR + FIBRES }>($law, $block),
+        }
+    };
+}
+#[cfg(target_arch = "x86_64")]
+precision!(f64: x86::F64x2, x86::F64x4, x86::F64x8);
+#[cfg(target_arch = "x86_64")]
+precision!(f32: x86::F32x4, x86::F32x8, x86::F32x16);
+#[cfg(not(target_arch = "x86_64"))]
+precision!(f64: f64, f64, f64);
+#[cfg(not(target_arch = "x86_64"))]
+precision!(f32: f32, f32, f32);
+
+/// The kernel: full lanes in the arrays themselves, then what is left in arrays of its own, by the same code.
+///
+/// # Safety
+/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions; `WANT` asks for nothing that the
+/// block leaves out.
+#[inline(always)]
+unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
+    let lanes = law.lanes::<R>();
+    let density = R::splat(block.density.into());
+    let mut worst = R::splat(0.0);
+    let mut left_over = LeftOver::new();
+    let mut part = Pointers { n: block.n - block.n % R::COUNT, ..*block };
+    loop {
+        let mut i = 0;
+        while i < part.n {
+            // SAFETY: i + COUNT ≤ n, and the caller's promise.
+            unsafe { evaluate::<T, R, WANT>(&lanes, &part, density, i, &mut worst) };
+            i += R::COUNT;
+        }
+        if left_over.count > 0 {
+            // SAFETY: the caller's promise.
+            unsafe { left_over.put(block) };
+            break;
+        }
+        if part.n == block.n {
+            break;
+        }
+        // SAFETY: the caller's promise.
+        part = unsafe { left_over.fetch(block, part.n, R::COUNT) };
+    }
+    let mut codes = [0; WIDEST];
+    // SAFETY: there is room for the widest lanes.
+    unsafe { worst.store_integers(codes.as_mut_ptr()) };
+    let mut code = status::OK;
+    for &one in codes.iter().take(R::COUNT) {
+        code = code.min(one);
+    }
+    code
+}
+
+/// The most lanes that there are.
+const WIDEST: usize = 16;
+
+/// Evaluates the points from `i` on, as many as there are lanes.
+///
+/// # Safety
+/// As for [`sweep`], with i + COUNT ≤ n.
+#[inline(always)]
+unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    density: R,
+    i: usize,
+    worst: &mut R,
+) {
+    let zero = R::splat(0.0);
+    let asked = WANT == AS_ASKED;
+    let request = Request {
+        stress: !asked || !block.stress[0].is_null(),
+        energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
+        invariants: if asked { !block.invariants.is_null() } else { WANT & HISTORY != 0 },
+        failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
+        modes: asked && !block.modes.is_null(),
+        wave_modulus: asked && !block.wave_speed.is_null(),
+        shear: asked || WANT & SHEAR != 0,
+    };
+    let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
+    let stride = block.leading_dimension;
+    let always = zero.le(zero);
+    // Which lanes keep an old value that is not finite.
+    let mut dropped = !always;
+
+    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
+    unsafe {
+        let f = &block.deformation_gradient;
+        let f = [
+            [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
+            [R::load(f[3].add(i)), R::load(f[4].add(i)), R::load(f[5].add(i))],
+            [R::load(f[6].add(i)), R::load(f[7].add(i)), R::load(f[8].add(i))],
+        ];
+        let (frame, usable) = if fibres {
+            let m = &block.fibre;
+            FibreFrame::new([R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))])
+        } else {
+            (law.frame, always)
+        };
+        let latch = if block.failure_old.is_null() { zero } else { R::load(block.failure_old.add(stride + i)) };
+        let r = law.evaluate(&f, &frame, usable, latch, request);
+
+        if request.stress {
+            for c in 0..6 {
+                r.stress[c].store(block.stress[c].add(i));
+            }
+        }
+        if request.energies {
+            for c in 0..4 {
+                let new = kept(block.energies_old, c * stride + i, r.energies[c], r.kept, &mut dropped);
+                new.store(block.energies.add(c * stride + i));
+            }
+        }
+        if request.invariants {
+            for c in 0..4 {
+                let new = kept(block.invariants_old, c * stride + i, r.invariants[c], r.kept, &mut dropped);
+                new.store(block.invariants.add(c * stride + i));
+            }
+        }
+        if request.failure {
+            kept(block.failure_old, i, r.failure_index, r.kept, &mut dropped).store(block.failure.add(i));
+            r.failed.store(block.failure.add(stride + i));
+            (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
+        }
+        if request.modes {
+            for (mode, s) in r.modes.iter().enumerate() {
+                for (c, &value) in s.iter().enumerate() {
+                    value.store(block.modes.add((6 * mode + c) * stride + i));
+                }
+            }
+        }
+        if request.wave_modulus {
+            (r.wave_modulus / density).sqrt().store(block.wave_speed.add(i));
+        }
+        let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
+        if !asked || !block.status.is_null() {
+            code.store_integers(block.status.add(i));
+        }
+        *worst = R::select(code.lt(*worst), code, *worst);
+    }
+}
+
+/// The new value, or the old one where the point keeps it; what is not finite there is reported and dropped.
+///
+/// # Safety
+/// `old` is null or has the lanes from `at` on.
+#[inline(always)]
+unsafe fn kept<T, R: Lanes<T>>(old: *const T, at: usize, new: R, keeps: R::Mask, dropped: &mut R::Mask) -> R {
+    let zero = R::splat(0.0);
+    if old.is_null() {
+        return R::select(keeps, zero, new);
+    }
+    // SAFETY: the caller's promise.
+    let old = unsafe { R::load(old.add(at)) };
+    let finite = (old * zero).le(zero);
+    *dropped = *dropped | (keeps & !finite);
+    R::select(keeps, R::select(finite, old, zero), new)
+}
+
+/// The points at the end of a block that do not fill the lanes: copied to arrays of their own, evaluated there, and copied
+/// back. The lanes left over repeat the last point.
+struct LeftOver<T> {
+    rows: [MaybeUninit<T>; ROWS * WIDEST],
+    codes: [i32; WIDEST],
+    first: usize,
+    count: usize,
+    lanes: usize,
+}
+
+/// Where the components stand in the copy; the state is evaluated in place.
+const FIBRE_ROW: usize = 9;
+const ENERGY_ROW: usize = 12;
+const INVARIANT_ROW: usize = 16;
+const FAILURE_ROW: usize = 20;
+const STRESS_ROW: usize = 23;
+const MODE_ROW: usize = 29;
+const WAVE_ROW: usize = 53;
+const ROWS: usize = 54;
+
+impl<T: Precision> LeftOver<T> {
+    fn new() -> Self {
+        LeftOver { rows: [MaybeUninit::uninit(); ROWS * WIDEST], codes: [0; WIDEST], first: 0, count: 0, lanes: 0 }
+    }
+
+    fn row(&mut self, row: usize) -> *mut T {
+        self.rows.as_mut_ptr().cast::<T>().wrapping_add(row * self.lanes)
+    }
+
+    /// Copies the inputs of the points from `first` on, and hands out the copy as a block of `lanes` points.
+    ///
+    /// # Safety
+    /// As for [`sweep`], with first < n and n − first < lanes ≤ WIDEST.
+    #[inline(never)]
+    unsafe fn fetch(&mut self, block: &Pointers<T>, first: usize, lanes: usize) -> Pointers<T> {
+        (self.first, self.count, self.lanes) = (first, block.n - first, lanes);
+        let stride = block.leading_dimension;
+        // SAFETY: the caller's promise.
+        unsafe {
+            for c in 0..9 {
+                self.fetch_row(c, block.deformation_gradient[c]);
+            }
+            for c in 0..3 {
+                self.fetch_row(FIBRE_ROW + c, block.fibre[c]);
+                self.fetch_row(FAILURE_ROW + c, component(block.failure_old, c, stride));
+            }
+            for c in 0..4 {
+                self.fetch_row(ENERGY_ROW + c, component(block.energies_old, c, stride));
+                self.fetch_row(INVARIANT_ROW + c, component(block.invariants_old, c, stride));
+            }
+        }
+        let copy = self.row(0);
+        // Null stays null.
+        let input =
+            |present: *const T, row: usize| if present.is_null() { present } else { copy.wrapping_add(row * lanes) };
+        let output =
+            |present: *mut T, row: usize| if present.is_null() { present } else { copy.wrapping_add(row * lanes) };
+        let mut part = Pointers {
+            n: lanes,
+            leading_dimension: lanes,
+            energies_old: input(block.energies_old, ENERGY_ROW),
+            invariants_old: input(block.invariants_old, INVARIANT_ROW),
+            failure_old: input(block.failure_old, FAILURE_ROW),
+            energies: output(block.energies, ENERGY_ROW),
+            invariants: output(block.invariants, INVARIANT_ROW),
+            failure: output(block.failure, FAILURE_ROW),
+            modes: output(block.modes, MODE_ROW),
+            wave_speed: output(block.wave_speed, WAVE_ROW),
+            status: if block.status.is_null() { block.status } else { self.codes.as_mut_ptr() },
+            ..*block
+        };
+        for (c, pointer) in part.deformation_gradient.iter_mut().enumerate() {
+            *pointer = input(*pointer, c);
+        }
+        for (c, pointer) in part.fibre.iter_mut().enumerate() {
+            *pointer = input(*pointer, FIBRE_ROW + c);
+        }
+        for (c, pointer) in part.stress.iter_mut().enumerate() {
+            *pointer = output(*pointer, STRESS_ROW + c);
+        }
+        part
+    }
+
+    /// # Safety
+    /// `from` is null or has the points.
+    unsafe fn fetch_row(&mut self, row: usize, from: *const T) {
+        if !from.is_null() {
+            let to = self.row(row);
+            for j in 0..self.lanes {
+                // SAFETY: the caller's promise, and there is room for the widest lanes.
+                unsafe { *to.add(j) = *from.add(self.first + j.min(self.count - 1)) };
+            }
+        }
+    }
+
+    /// Copies the outputs back.
+    ///
+    /// # Safety
+    /// As for [`LeftOver::fetch`], which has been called.
+    #[inline(never)]
+    unsafe fn put(&mut self, block: &Pointers<T>) {
+        let stride = block.leading_dimension;
+        let component = |array: *mut T, c: usize| component(array.cast_const(), c, stride).cast_mut();
+        // SAFETY: the caller's promise.
+        unsafe {
+            for c in 0..6 {
+                self.put_row(block.stress[c], STRESS_ROW + c);
+            }
+            for c in 0..4 {
+                self.put_row(component(block.energies, c), ENERGY_ROW + c);
+                self.put_row(component(block.invariants, c), INVARIANT_ROW + c);
+            }
+            for c in 0..3 {
+                self.put_row(component(block.failure, c), FAILURE_ROW + c);
+            }
+            for c in 0..24 {
+                self.put_row(component(block.modes, c), MODE_ROW + c);
+            }
+            self.put_row(block.wave_speed, WAVE_ROW);
+            if !block.status.is_null() {
+                for (j, &code) in self.codes.iter().take(self.count).enumerate() {
+                    *block.status.add(self.first + j) = code;
+                }
+            }
+        }
+    }
+
+    /// # Safety
+    /// `to` is null or has the points.
+    unsafe fn put_row(&mut self, to: *mut T, row: usize) {
+        if !to.is_null() {
+            let from = self.row(row);
+            for j in 0..self.count {
+                // SAFETY: the caller's promise.
+                unsafe { *to.add(self.first + j) = *from.add(j) };
+            }
+        }
+    }
+}
+
+/// Component `c` of an array; null where the array is.
+fn component<T>(array: *const T, c: usize, leading_dimension: usize) -> *const T {
+    if array.is_null() { array } else { array.wrapping_add(c.wrapping_mul(leading_dimension)) }
+}

@@ -1,0 +1,356 @@
+//! The lanes of x86-64: SSE2, which every such processor has, AVX2 with FMA, and AVX-512.
+//!
+//! Each type is a register of numbers and every operation one or a few instructions; what they compute is written in
+//! [`Real`]. The operations may only run where the processor has the instructions: the block's dispatch sees to that, and
+//! nothing else makes these types.
+
+// In SSE2 the operations are safe on their own.
+#![allow(unused_unsafe)]
+
+use core::arch::x86_64::*;
+use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use super::Lanes;
+use crate::law::elementary::{EXP_F32, EXP_F64, LN_F32, LN_F64};
+use crate::law::real::Real;
+
+/// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
+macro_rules! register {
+    (
+        $(#[$doc:meta])*
+        $name:ident: $t:ident as $bits:ident x $count:literal in $f:ident / $i:ident;
+        mask $mask:ident;
+        arithmetic $set1:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident;
+        bits $to:ident $from:ident $iset1:ident $iadd:ident $iand:ident $ior:ident $srl:ident $sll:ident;
+        memory $load:ident $store:ident;
+        integers ($x:ident, $to_int:ident) $store_integers:expr;
+        compare ($l:ident, $r:ident) $lt:expr, $le:expr;
+        select ($m:ident, $yes:ident, $no:ident) $select:expr;
+        mul_add ($fa:ident, $fb:ident, $fc:ident) $mul_add:expr;
+        difference ($da:ident, $db:ident, $dc:ident, $dd:ident) $difference:expr;
+        series $ln:ident $exp:ident
+    ) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy)]
+        pub struct $name($f);
+
+        // SAFETY (all of the impls below): these values exist only inside functions that the dispatch calls after it
+        // has found the instructions.
+        impl Add for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                $name(unsafe { $add(self.0, other.0) })
+            }
+        }
+        impl Sub for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                $name(unsafe { $sub(self.0, other.0) })
+            }
+        }
+        impl Mul for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                $name(unsafe { $mul(self.0, other.0) })
+            }
+        }
+        impl Div for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                $name(unsafe { $div(self.0, other.0) })
+            }
+        }
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                // A change of sign, zeros included, as for a scalar.
+                const SIGN: $bits = 1 << ($bits::BITS - 1);
+                $name(unsafe {
+                    let bits = $to(self.0);
+                    let sign = $iset1(SIGN as _);
+                    // x ^ sign = x + sign, modulo the register's width.
+                    $from($iadd(bits, sign))
+                })
+            }
+        }
+
+        impl Real for $name {
+            type Mask = $mask;
+            const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
+            const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
+            const LN: &'static [f64] = &$ln;
+            const EXP: &'static [f64] = &$exp;
+
+            #[inline(always)]
+            fn splat(x: f64) -> Self {
+                $name(unsafe { $set1(x as $t) })
+            }
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                let ($fa, $fb, $fc) = (self.0, a.0, b.0);
+                $name(unsafe { $mul_add })
+            }
+            #[inline(always)]
+            fn difference_of_products($da: Self, $db: Self, $dc: Self, $dd: Self) -> Self {
+                $difference
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $name(unsafe { $sqrt(self.0) })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                const MAGNITUDE: $bits = $bits::MAX >> 1;
+                $name(unsafe { $from($iand($to(self.0), $iset1(MAGNITUDE as _))) })
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                $name(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> $mask {
+                let ($l, $r) = (self.0, other.0);
+                unsafe { $lt }
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> $mask {
+                let ($l, $r) = (self.0, other.0);
+                unsafe { $le }
+            }
+            #[inline(always)]
+            fn select($m: $mask, a: Self, b: Self) -> Self {
+                let ($yes, $no) = (a.0, b.0);
+                $name(unsafe { $select })
+            }
+            #[inline(always)]
+            fn split_exponent(self) -> (Self, Self) {
+                const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
+                const ONE: $bits = (1.0 as $t).to_bits();
+                const ROOT_HALF: $bits = (core::f64::consts::FRAC_1_SQRT_2 as $t).to_bits();
+                // An integer below 2^MANTISSA is the mantissa of itself plus this power of two.
+                const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
+                unsafe {
+                    let shifted = $iadd($to(self.0), $iset1((ONE - ROOT_HALF) as _));
+                    let mantissa = $iand(shifted, $iset1((((1 as $bits) << MANTISSA) - 1) as _));
+                    let z = $from($iadd(mantissa, $iset1(ROOT_HALF as _)));
+                    let exponent = $ior($srl::<{ MANTISSA as _ }>(shifted), $iset1(INTEGER.to_bits() as _));
+                    let bias = $set1(INTEGER + ($t::MAX_EXP - 1) as $t);
+                    ($name(z), $name($sub($from(exponent), bias)))
+                }
+            }
+            #[inline(always)]
+            fn round(self) -> Self {
+                let shift = Self::splat(1.5 * ((1 as $bits) << ($t::MANTISSA_DIGITS - 1)) as f64);
+                (self + shift) - shift
+            }
+            #[inline(always)]
+            fn power_of_two(self) -> Self {
+                const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
+                const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
+                unsafe {
+                    let biased = $add(self.0, $set1(INTEGER + ($t::MAX_EXP - 1) as $t));
+                    $name($from($sll::<{ MANTISSA as _ }>($to(biased))))
+                }
+            }
+        }
+
+        impl Lanes<$t> for $name {
+            const COUNT: usize = $count;
+            #[inline(always)]
+            unsafe fn load(from: *const $t) -> Self {
+                $name(unsafe { $load(from) })
+            }
+            #[inline(always)]
+            unsafe fn store(self, to: *mut $t) {
+                unsafe { $store(to, self.0) }
+            }
+            #[inline(always)]
+            unsafe fn store_integers(self, $to_int: *mut i32) {
+                let $x = self.0;
+                unsafe { $store_integers }
+            }
+        }
+    };
+}
+
+/// A mask of full-width lanes, all ones or all zeros.
+macro_rules! wide_mask {
+    ($mask:ident($f:ident), $and:ident $or:ident $xor:ident, $ones:expr) => {
+        #[derive(Clone, Copy)]
+        pub struct $mask($f);
+        // SAFETY: as for the registers.
+        impl BitAnd for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn bitand(self, other: Self) -> Self {
+                $mask(unsafe { $and(self.0, other.0) })
+            }
+        }
+        impl BitOr for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn bitor(self, other: Self) -> Self {
+                $mask(unsafe { $or(self.0, other.0) })
+            }
+        }
+        impl Not for $mask {
+            type Output = Self;
+            #[inline(always)]
+            fn not(self) -> Self {
+                $mask(unsafe { $xor(self.0, $ones) })
+            }
+        }
+    };
+}
+
+wide_mask!(Mask64x2(__m128d), _mm_and_pd _mm_or_pd _mm_xor_pd, _mm_castsi128_pd(_mm_set1_epi64x(-1)));
+wide_mask!(Mask32x4(__m128), _mm_and_ps _mm_or_ps _mm_xor_ps, _mm_castsi128_ps(_mm_set1_epi32(-1)));
+wide_mask!(Mask64x4(__m256d), _mm256_and_pd _mm256_or_pd _mm256_xor_pd, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)));
+wide_mask!(Mask32x8(__m256), _mm256_and_ps _mm256_or_ps _mm256_xor_ps, _mm256_castsi256_ps(_mm256_set1_epi32(-1)));
+
+/// a b − c d with a fused multiply-add: the rounding error of one product is known exactly (Kahan).
+#[inline(always)]
+fn fused_difference<R: Real>(a: R, b: R, c: R, d: R) -> R {
+    let product = c * d;
+    let error = c.mul_add(d, -product);
+    a.mul_add(b, -product) - error
+}
+
+/// The 26 leading bits of each number.
+#[inline(always)]
+fn leading_half(x: F64x2) -> F64x2 {
+    // SAFETY: as for the registers.
+    F64x2(unsafe { _mm_and_pd(x.0, _mm_castsi128_pd(_mm_set1_epi64x(!0x7ff_ffff))) })
+}
+
+/// A product and its rounding error, as the scalar does it.
+#[inline(always)]
+fn two_product(a: F64x2, b: F64x2) -> (F64x2, F64x2) {
+    let (a_high, b_high) = (leading_half(a), leading_half(b));
+    let (a_low, b_low) = (a - a_high, b - b_high);
+    let product = a * b;
+    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
+/// a b − c d without a fused multiply-add, as the scalar does it.
+#[inline(always)]
+fn split_difference(a: F64x2, b: F64x2, c: F64x2, d: F64x2) -> F64x2 {
+    let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
+    (p - q) + (p_error - q_error)
+}
+
+/// a b − c d of two numbers in single precision, through double precision.
+#[inline(always)]
+fn widened_half(a: __m128, b: __m128, c: __m128, d: __m128) -> __m128 {
+    // SAFETY: as for the registers.
+    unsafe {
+        let (a, b, c, d) = (_mm_cvtps_pd(a), _mm_cvtps_pd(b), _mm_cvtps_pd(c), _mm_cvtps_pd(d));
+        _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
+    }
+}
+
+/// a b − c d in single precision, through double precision as the scalar does it.
+#[inline(always)]
+fn widened_difference(a: F32x4, b: F32x4, c: F32x4, d: F32x4) -> F32x4 {
+    let (F32x4(a), F32x4(b), F32x4(c), F32x4(d)) = (a, b, c, d);
+    // SAFETY: as for the registers.
+    F32x4(unsafe {
+        let high = widened_half(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c), _mm_movehl_ps(d, d));
+        _mm_movelh_ps(widened_half(a, b, c, d), high)
+    })
+}
+
+register! {
+    /// 2 numbers of double precision, SSE2.
+    F64x2: f64 as u64 x 2 in __m128d / __m128i;
+    mask Mask64x2;
+    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd;
+    bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
+    memory _mm_loadu_pd _mm_storeu_pd;
+    integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
+    compare (a, b) Mask64x2(_mm_cmplt_pd(a, b)), Mask64x2(_mm_cmple_pd(a, b));
+    select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
+    mul_add (a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
+    difference (a, b, c, d) split_difference(a, b, c, d);
+    series LN_F64 EXP_F64
+}
+
+register! {
+    /// 4 numbers of single precision, SSE2.
+    F32x4: f32 as u32 x 4 in __m128 / __m128i;
+    mask Mask32x4;
+    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps;
+    bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
+    memory _mm_loadu_ps _mm_storeu_ps;
+    integers (x, to) _mm_storeu_si128(to.cast(), _mm_cvttps_epi32(x));
+    compare (a, b) Mask32x4(_mm_cmplt_ps(a, b)), Mask32x4(_mm_cmple_ps(a, b));
+    select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
+    mul_add (a, b, c) _mm_add_ps(_mm_mul_ps(a, b), c);
+    difference (a, b, c, d) widened_difference(a, b, c, d);
+    series LN_F32 EXP_F32
+}
+
+register! {
+    /// 4 numbers of double precision, AVX2 with FMA.
+    F64x4: f64 as u64 x 4 in __m256d / __m256i;
+    mask Mask64x4;
+    arithmetic _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_max_pd;
+    bits _mm256_castpd_si256 _mm256_castsi256_pd _mm256_set1_epi64x _mm256_add_epi64 _mm256_and_si256 _mm256_or_si256 _mm256_srli_epi64 _mm256_slli_epi64;
+    memory _mm256_loadu_pd _mm256_storeu_pd;
+    integers (x, to) _mm_storeu_si128(to.cast(), _mm256_cvttpd_epi32(x));
+    compare (a, b) Mask64x4(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x4(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b));
+    select (mask, a, b) _mm256_blendv_pd(b, a, mask.0);
+    mul_add (a, b, c) _mm256_fmadd_pd(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    series LN_F64 EXP_F64
+}
+
+register! {
+    /// 8 numbers of single precision, AVX2 with FMA.
+    F32x8: f32 as u32 x 8 in __m256 / __m256i;
+    mask Mask32x8;
+    arithmetic _mm256_set1_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps _mm256_sqrt_ps _mm256_max_ps;
+    bits _mm256_castps_si256 _mm256_castsi256_ps _mm256_set1_epi32 _mm256_add_epi32 _mm256_and_si256 _mm256_or_si256 _mm256_srli_epi32 _mm256_slli_epi32;
+    memory _mm256_loadu_ps _mm256_storeu_ps;
+    integers (x, to) _mm256_storeu_si256(to.cast(), _mm256_cvttps_epi32(x));
+    compare (a, b) Mask32x8(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x8(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
+    select (mask, a, b) _mm256_blendv_ps(b, a, mask.0);
+    mul_add (a, b, c) _mm256_fmadd_ps(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    series LN_F32 EXP_F32
+}
+
+register! {
+    /// 8 numbers of double precision, AVX-512.
+    F64x8: f64 as u64 x 8 in __m512d / __m512i;
+    mask __mmask8;
+    arithmetic _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_max_pd;
+    bits _mm512_castpd_si512 _mm512_castsi512_pd _mm512_set1_epi64 _mm512_add_epi64 _mm512_and_si512 _mm512_or_si512 _mm512_srli_epi64 _mm512_slli_epi64;
+    memory _mm512_loadu_pd _mm512_storeu_pd;
+    integers (x, to) _mm256_storeu_si256(to.cast(), _mm512_cvttpd_epi32(x));
+    compare (a, b) _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b);
+    select (mask, a, b) _mm512_mask_blend_pd(mask, b, a);
+    mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    series LN_F64 EXP_F64
+}
+
+register! {
+    /// 16 numbers of single precision, AVX-512.
+    F32x16: f32 as u32 x 16 in __m512 / __m512i;
+    mask __mmask16;
+    arithmetic _mm512_set1_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps _mm512_sqrt_ps _mm512_max_ps;
+    bits _mm512_castps_si512 _mm512_castsi512_ps _mm512_set1_epi32 _mm512_add_epi32 _mm512_and_si512 _mm512_or_si512 _mm512_srli_epi32 _mm512_slli_epi32;
+    memory _mm512_loadu_ps _mm512_storeu_ps;
+    integers (x, to) _mm512_storeu_si512(to.cast(), _mm512_cvttps_epi32(x));
+    compare (a, b) _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b);
+    select (mask, a, b) _mm512_mask_blend_ps(mask, b, a);
+    mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    series LN_F32 EXP_F32
+}

@@ -1,0 +1,226 @@
+//! The truth table, 256 points computed in 140-digit arithmetic, and the measure of an answer against it.
+//!
+//! A result is as good as its input allows where its error is about one rounding of the value plus what one rounding
+//! of each entry of F does to it, the sensitivity K; `epsilon` is that one part. Per category the worst of
+//!
+//! - `back`: |σ − truth|/(ε (|truth| + K)), and `forward`: |σ − truth|/|truth|;
+//! - `invariants`: error/(ε (|truth| + K)), the worst of the four;
+//! - `energies`: error/(ε (|truth| + |dW/dI| K)), the worst of the four;
+//! - `modes`: |S_mode − truth|/Σ|S_mode|;
+//! - `wrong`: failure flags that differ although the margin to the limit exceeds `flag_margin` · I_lim.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use nalgebra::Matrix3;
+use serde::Deserialize;
+use toron::law::hyperelastic::Point;
+use toron::law::parameters::HYPERELASTIC_PROPERTIES;
+use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
+
+use super::{Exact, decimal, exact, rounded};
+
+/// A true value, written with some twenty digits.
+#[derive(Deserialize)]
+#[serde(from = "String")]
+pub struct Truth(Exact);
+
+impl From<String> for Truth {
+    fn from(text: String) -> Self {
+        Truth(decimal(&text))
+    }
+}
+
+impl Truth {
+    pub fn value(&self) -> f64 {
+        rounded(&self.0)
+    }
+
+    /// |x − truth|, subtracted exactly; what is no number is as wrong as can be.
+    pub fn error(&self, x: f64) -> f64 {
+        if x.is_finite() { rounded(&(exact(x) - &self.0)).abs() } else { 1e300 }
+    }
+}
+
+#[derive(Deserialize)]
+pub struct Parameters {
+    pub kel: f64,
+    pub ktc: f64,
+    pub p: f64,
+    pub ktd: f64,
+    pub kld: f64,
+    pub eps_lim: f64,
+    pub alpha: f64,
+    pub beta: f64,
+}
+
+/// One line of the table. Tensors there are 11 22 33 12 13 23.
+#[derive(Deserialize)]
+pub struct Case {
+    pub id: usize,
+    pub category: String,
+    #[serde(rename = "F")]
+    pub f: Matrix,
+    pub m: [f64; 3],
+    pub params: Parameters,
+    iel: Truth,
+    itc: Truth,
+    itd: Truth,
+    ild: Truth,
+    wel: Truth,
+    wtc: Truth,
+    wtd: Truth,
+    wld: Truth,
+    fail_margin: Truth,
+    pub failed: bool,
+    sigma: [Truth; 6],
+    #[serde(rename = "Sel")]
+    s_el: [Truth; 6],
+    #[serde(rename = "Stc")]
+    s_tc: [Truth; 6],
+    #[serde(rename = "Std")]
+    s_td: [Truth; 6],
+    #[serde(rename = "Sld")]
+    s_ld: [Truth; 6],
+    sensitivity: Truth,
+    sensitivity_invariants: [Truth; 4],
+}
+
+/// Rows of a matrix.
+pub type Matrix = [[f64; 3]; 3];
+
+impl Case {
+    pub fn deformation_gradient(&self) -> Matrix3<f64> {
+        Matrix3::from_fn(|i, j| self.f[i][j])
+    }
+
+    /// In the order of the table of properties.
+    pub fn properties(&self) -> [f64; HYPERELASTIC_PROPERTIES] {
+        let p = &self.params;
+        let [m_1, m_2, m_3] = self.m;
+        [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m_1, m_2, m_3]
+    }
+}
+
+/// Every case of the table.
+pub fn cases() -> Vec<Case> {
+    include_str!("../truth/points.jsonl").lines().map(|line| serde_json::from_str(line).expect("a case")).collect()
+}
+
+/// What is measured, in the library's order of components: 11 22 33 12 23 31.
+pub struct Answer {
+    pub stress: [f64; 6],
+    pub energies: [f64; 4],
+    pub invariants: [f64; 4],
+    pub modes: Option<[[f64; 6]; 4]>,
+    pub failed: bool,
+}
+
+impl<T: Copy + Into<f64>> From<&Point<T>> for Answer {
+    fn from(point: &Point<T>) -> Self {
+        let state = point.state.map(Into::into);
+        Answer {
+            stress: point.stress.map(Into::into),
+            energies: state[ENERGIES..INVARIANTS].try_into().expect("four"),
+            invariants: state[INVARIANTS..FAILURE_INDEX].try_into().expect("four"),
+            modes: Some(point.modes.map(|mode| mode.map(Into::into))),
+            failed: state[FAILED] == 1.0,
+        }
+    }
+}
+
+/// The worst of a category.
+#[derive(Clone, Copy, Default)]
+pub struct Worst {
+    pub cases: usize,
+    pub back: f64,
+    pub forward: f64,
+    pub invariants: f64,
+    pub energies: f64,
+    pub modes: f64,
+    pub wrong: usize,
+}
+
+/// How an implementation does, category by category.
+pub struct Score {
+    pub epsilon: f64,
+    pub flag_margin: f64,
+    pub worst: BTreeMap<String, Worst>,
+}
+
+impl Score {
+    pub fn new(epsilon: f64, flag_margin: f64) -> Self {
+        Score { epsilon, flag_margin, worst: BTreeMap::new() }
+    }
+
+    pub fn add(&mut self, case: &Case, answer: &Answer) {
+        let worst = self.worst.entry(case.category.clone()).or_default();
+        worst.cases += 1;
+        let (epsilon, p) = (self.epsilon, &case.params);
+
+        let (error, size) = (distance(&case.sigma, &answer.stress), magnitude(&case.sigma));
+        worst.back = worst.back.max(ratio(error, epsilon * (size + case.sensitivity.value())));
+        if size > 0.0 {
+            worst.forward = worst.forward.max(error / size);
+        }
+
+        // dW/dI where a kink within rounding counts as crossed.
+        let mut near = [0.0; 4];
+        let invariants = [&case.iel, &case.itc, &case.itd, &case.ild];
+        for (k, (truth, sensitivity)) in invariants.into_iter().zip(&case.sensitivity_invariants).enumerate() {
+            let (size, sensitivity) = (truth.value().abs(), sensitivity.value());
+            near[k] = size + 4.0 * epsilon * sensitivity;
+            let error = ratio(truth.error(answer.invariants[k]), epsilon * (size + sensitivity));
+            worst.invariants = worst.invariants.max(error);
+        }
+        let slopes = [p.kel * near[0], p.p * p.ktc * near[1].powf(p.p - 1.0), p.ktd * near[2], p.kld * near[3]];
+        for (k, truth) in [&case.wel, &case.wtc, &case.wtd, &case.wld].into_iter().enumerate() {
+            let allowance = truth.value().abs() + slopes[k] * case.sensitivity_invariants[k].value();
+            worst.energies = worst.energies.max(ratio(truth.error(answer.energies[k]), epsilon * allowance));
+        }
+
+        if let Some(modes) = &answer.modes {
+            let truths = [&case.s_el, &case.s_tc, &case.s_td, &case.s_ld];
+            let total: f64 = truths.iter().map(|truth| magnitude(truth)).sum();
+            for (truth, mode) in truths.into_iter().zip(modes) {
+                worst.modes = worst.modes.max(ratio(distance(truth, mode), total));
+            }
+        }
+
+        let margin = case.fail_margin.value().abs();
+        if margin > self.flag_margin * p.eps_lim.ln_1p() && answer.failed != case.failed {
+            worst.wrong += 1;
+        }
+    }
+}
+
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let head = ["back", "forward", "invariants", "energies", "modes", "wrong"];
+        writeln!(f, "{:<20}{:>6}{}", "category", "cases", head.map(|name| format!("{name:>12}")).concat())?;
+        for (category, w) in &self.worst {
+            let numbers = [w.back, w.forward, w.invariants, w.energies, w.modes].map(|x| format!("{x:>12.2e}"));
+            writeln!(f, "{category:<20}{:>6}{}{:>12}", w.cases, numbers.concat(), w.wrong)?;
+        }
+        Ok(())
+    }
+}
+
+/// The norm of a symmetric tensor.
+fn norm(v: [f64; 6]) -> f64 {
+    v.iter().enumerate().map(|(k, x)| if k < 3 { x * x } else { 2.0 * x * x }).sum::<f64>().sqrt()
+}
+
+fn magnitude(truth: &[Truth; 6]) -> f64 {
+    norm(truth.each_ref().map(Truth::value))
+}
+
+/// The norm of the error; `answer` is 11 22 33 12 23 31.
+fn distance(truth: &[Truth; 6], answer: &[f64; 6]) -> f64 {
+    let in_truth_order = [0, 1, 2, 3, 5, 4];
+    norm(std::array::from_fn(|k| truth[k].error(answer[in_truth_order[k]])))
+}
+
+fn ratio(error: f64, scale: f64) -> f64 {
+    if error == 0.0 { 0.0 } else { error / scale }
+}
