@@ -111,19 +111,18 @@ impl Error {
 
     /// Hands the message to `sink`, piece by piece. Formatting machinery of the standard library can panic; this cannot.
     pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
-        let mut integer = itoa::Buffer::new();
         match *self {
             Error::Count { what, found, wanted, .. } => {
                 sink(what);
                 sink(": ");
-                sink(integer.format(found));
+                describe_integer(found, sink);
                 sink(" given, ");
-                sink(integer.format(wanted));
+                describe_integer(wanted, sink);
                 sink(" needed");
             }
             Error::Property { index, property, value, .. } => {
                 sink("property ");
-                sink(integer.format(index + 1));
+                describe_integer(index as i64 + 1, sink);
                 sink(" (");
                 sink(property.name);
                 sink(", ");
@@ -135,9 +134,9 @@ impl Error {
             }
             Error::Direction { index, name, value, wanted } => {
                 sink("properties ");
-                sink(integer.format(index + 1));
+                describe_integer(index as i64 + 1, sink);
                 sink(" to ");
-                sink(integer.format(index + 3));
+                describe_integer(index as i64 + 3, sink);
                 sink(" (");
                 sink(name);
                 sink(") are ");
@@ -161,10 +160,26 @@ impl Error {
                 Some(text) => sink(text),
                 None => {
                     sink("no such status code: ");
-                    sink(integer.format(code));
+                    describe_integer(i64::from(code), sink);
                 }
             },
         }
+    }
+}
+
+/// Digit by digit: the bounds checks inside `itoa` stay in the program, and with them a panic that C could reach.
+fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
+    const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+    if value < 0 {
+        sink("-");
+    }
+    let magnitude = value.unsigned_abs();
+    let mut place = 10_u64.pow(19);
+    while place > 0 {
+        if place == 1 || place <= magnitude {
+            sink(DIGITS[(magnitude / place % 10) as usize]);
+        }
+        place /= 10;
     }
 }
 

@@ -1,0 +1,453 @@
+/* The entries behind UMAT, VUMAT, umat41 and umat41v, called as the solvers' routines are. */
+#include "check.h"
+
+/* ---- LS-DYNA */
+
+enum { HISTORY = STATE + 9 };
+
+static void lsdyna_scalar(void)
+{
+    for (const truth *t = cases; t < cases + case_count; t++) {
+        real *cm = copied(t->properties, PROPERTIES), *sig = reals(6), *hsv = filled(0, HISTORY);
+        int *failel = guarded(sizeof *failel);
+        for (int i = 0; i < 9; i++)
+            hsv[STATE + i] = (real)t->f[i];
+        int32_t status = ENTRY(toron_lsdyna_umat)(cm, sig, hsv, STATE, failel);
+        CHECK(status == TORON_OK, "case %d: %d", t->id, status);
+        check_stress(t, sig, 1);
+        check_state(t, hsv, 1);
+        CHECK(*failel == (hsv[FAILED] == 1), "case %d", t->id);
+        for (int i = 0; i < 9; i++)
+            CHECK(hsv[STATE + i] == (real)t->f[i], "case %d: F is read only", t->id);
+        release();
+    }
+}
+
+/* Arrays of nlq elements: `before` of them are below lft, two beyond llt. */
+typedef struct {
+    int n, lft, llt, nlq;
+    real *cm, *sig[6], *hsvs;
+    int *failels;
+} vector_block;
+
+static vector_block allocate(const truth *first, int n)
+{
+    enum { BEFORE = 4 };
+    vector_block v = {.n = n, .lft = BEFORE + 1, .llt = BEFORE + n, .nlq = BEFORE + n + 2};
+    v.cm = copied(first->properties, PROPERTIES);
+    for (int c = 0; c < 6; c++)
+        v.sig[c] = reals((size_t)v.nlq);
+    v.hsvs = reals((size_t)(HISTORY * v.nlq));
+    v.failels = guarded((size_t)v.nlq * sizeof(int));
+    for (int i = v.lft - 1; i < v.llt; i++) {
+        const truth *t = first + (i - v.lft + 1);
+        for (int j = 0; j < HISTORY; j++)
+            v.hsvs[j * v.nlq + i] = j < STATE ? 0 : (real)t->f[j - STATE];
+    }
+    return v;
+}
+
+static int32_t umat_vector(const vector_block *v)
+{
+    return ENTRY(toron_lsdyna_umat_vector)(v->cm, v->sig[0], v->sig[1], v->sig[2], v->sig[3], v->sig[4], v->sig[5],
+                                           v->hsvs, STATE, v->lft, v->llt, v->nlq, v->failels);
+}
+
+static void check_outside(const vector_block *v)
+{
+    for (int i = 0; i < v->nlq; i++) {
+        if (i == v->lft - 1)
+            i = v->llt;
+        for (int c = 0; c < 6; c++)
+            CHECK(untouched(&v->sig[c][i], sizeof(real)), "element %d", i + 1);
+        for (int j = 0; j < HISTORY; j++)
+            CHECK(untouched(&v->hsvs[j * v->nlq + i], sizeof(real)), "element %d", i + 1);
+        CHECK(untouched(&v->failels[i], sizeof(int)), "element %d", i + 1);
+    }
+}
+
+/* The six components of element i, side by side. */
+static const real *stress_of(const vector_block *v, int i)
+{
+    static real stress[6];
+    for (int c = 0; c < 6; c++)
+        stress[c] = v->sig[c][i];
+    return stress;
+}
+
+static void lsdyna_vector(void)
+{
+    for (int first = 0; first < case_count;) {
+        int n = run_of_cases(first, PROPERTIES);
+        vector_block v = allocate(&cases[first], n);
+        int32_t status = umat_vector(&v);
+        CHECK(status == TORON_OK, "%d", status);
+        for (int i = v.lft - 1; i < v.llt; i++) {
+            const truth *t = &cases[first + i - v.lft + 1];
+            check_stress(t, stress_of(&v, i), 1);
+            check_state(t, v.hsvs + i, (size_t)v.nlq);
+            CHECK(v.failels[i] == (v.hsvs[FAILED * v.nlq + i] == 1), "case %d", t->id);
+        }
+        check_outside(&v);
+        release();
+        first += n;
+    }
+}
+
+static void lsdyna_bad_elements(void)
+{
+    const truth *first = cases;
+    while (run_of_cases((int)(first - cases), PROPERTIES) < 70)
+        first++;
+    vector_block v = allocate(first, 70), good = allocate(first, 70);
+    umat_vector(&good);
+    const int not_finite = v.lft + 10, inverted = v.lft + 66; /* in either chunk of 64 */
+    v.hsvs[(STATE + 2) * v.nlq + not_finite] = NAN;
+    for (int c = 0; c < 3; c++)
+        v.hsvs[(STATE + c) * v.nlq + inverted] *= -1;
+    v.hsvs[ENERGIES * v.nlq + inverted] = 3;
+    CHECK(umat_vector(&v) == TORON_NOT_FINITE, "the most negative code");
+    for (int i = v.lft - 1; i < v.llt; i++) {
+        int bad = i == not_finite || i == inverted;
+        CHECK(v.failels[i] == (bad || good.failels[i]), "element %d", i + 1);
+        for (int c = 0; c < 6; c++)
+            CHECK(bad ? v.sig[c][i] == 0 : memcmp(&v.sig[c][i], &good.sig[c][i], sizeof(real)) == 0, "element %d", i + 1);
+    }
+    CHECK(v.hsvs[ENERGIES * v.nlq + inverted] == 3, "the energy stays");
+    CHECK(v.hsvs[FAILED * v.nlq + inverted] == 1 && v.hsvs[ALIVE * v.nlq + inverted] == 0, "it fails");
+    check_outside(&v);
+    release();
+}
+
+static void lsdyna_refused(vector_block v, int32_t wanted)
+{
+    CHECK(umat_vector(&v) == wanted, "wanted %d", wanted);
+    CHECK(untouched(v.sig[0], sizeof(real) * 6), "status %d", wanted);
+    CHECK(untouched(v.failels, sizeof(int) * 6), "status %d", wanted);
+}
+
+static void lsdyna_wrong_calls(void)
+{
+    const vector_block good = allocate(cases, 2);
+    vector_block v = good;
+    v.lft = 0;
+    lsdyna_refused(v, TORON_BAD_COUNT);
+    v = good, v.llt = v.lft - 2;
+    lsdyna_refused(v, TORON_BAD_COUNT);
+    v = good, v.llt = v.lft - 1; /* no element */
+    lsdyna_refused(v, TORON_OK);
+    v = good, v.nlq = v.llt - 1;
+    lsdyna_refused(v, TORON_BAD_LEADING_DIMENSION);
+    v = good, v.cm = NULL;
+    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    v = good, v.hsvs = NULL;
+    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    v = good, v.sig[4] = NULL;
+    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    v = good, v.cm = filled(-1, PROPERTIES);
+    lsdyna_refused(v, TORON_PROPERTY_OUT_OF_BOUNDS);
+    real *sig = reals(6), *hsv = filled(0, HISTORY);
+    int *failel = guarded(sizeof *failel);
+    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE - 1, failel) == TORON_STATE_COUNT, "NHV");
+    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, NULL) == TORON_NULL_ARGUMENT, "failel");
+    CHECK(ENTRY(toron_lsdyna_umat)(NULL, sig, hsv, STATE, failel) == TORON_NULL_ARGUMENT, "cm");
+    CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
+    /* F = 0: the slots of a card without IHYPER. */
+    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, failel) == TORON_INVERTED && *failel == 1, "F = 0");
+    release();
+}
+
+static void lsdyna_moduli(void)
+{
+    double bulk = 0, shear = 0;
+    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, &bulk, &shear) == TORON_OK, "moduli");
+    double wave = bulk + 4 * shear / 3, fibre = cases[0].properties[0];
+    CHECK(fabs(wave - fibre) <= 1e-15 * fibre && bulk > 0 && shear > 0, "%g, %g", bulk, shear);
+    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, 3, &bulk, &shear) == TORON_PROPERTY_COUNT, "count");
+    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, NULL, &shear) == TORON_NULL_ARGUMENT, "bulk");
+    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, &bulk, NULL) == TORON_NULL_ARGUMENT, "shear");
+}
+
+/* ---- VUMAT */
+
+enum { VUMAT_STATE = STATE + 2 };
+
+/* The stretch of a point: the truth's F where that is symmetric, else ½1 + FᵀF/|F|², positive in either precision. */
+static int stretch(const truth *t, double u[6])
+{
+    const double *f = t->f;
+    int symmetric = f[1] == f[3] && f[2] == f[6] && f[5] == f[7];
+    const int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}};
+    double square = 0;
+    for (int i = 0; i < 9; i++)
+        square += f[i] * f[i];
+    for (int c = 0; c < 6; c++) {
+        const double *a = f + 3 * pairs[c][0], *b = f + 3 * pairs[c][1];
+        u[c] = symmetric ? a[pairs[c][1]] : (c < 3 ? 0.5 : 0) + (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / square;
+    }
+    return symmetric;
+}
+
+typedef struct {
+    toron_vumat block;
+    real *strain_inc, *stretch_new, *stress_new, *state_old, *state_new, *energy_new, *inelastic_new;
+} vumat_arrays;
+
+static vumat_arrays vumat_block(const truth *first, int n)
+{
+    size_t count = (size_t)n;
+    real *stretch_old = filled(0, 6 * count), *density = reals(count);
+    vumat_arrays v = {.strain_inc = filled(0, 6 * count), .stretch_new = reals(6 * count),
+                      .stress_new = reals(6 * count), .state_old = filled(0, VUMAT_STATE * count),
+                      .state_new = reals(VUMAT_STATE * count), .energy_new = reals(count),
+                      .inelastic_new = reals(count)};
+    for (int i = 0; i < n; i++) {
+        double u[6];
+        stretch(first + i, u);
+        for (int c = 0; c < 6; c++) {
+            v.stretch_new[c * n + i] = (real)u[c];
+            stretch_old[c * n + i] = (real)u[c];
+        }
+        /* The step keeps its stretch, so that the middle's density is ρ0/det U, with ρ0 = 2. */
+        double volume = u[0] * (u[1] * u[2] - u[4] * u[4]) - u[3] * (u[3] * u[2] - u[4] * u[5])
+            + u[5] * (u[3] * u[4] - u[1] * u[5]);
+        density[i] = (real)(2 / volume);
+        for (int j = STATE; j < VUMAT_STATE; j++)
+            v.state_old[j * n + i] = (real)(j + i);
+    }
+    v.block = (toron_vumat){.nblock = n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
+                            .step_time = (real)1e-6, .total_time = (real)1e-6,
+                            .props = copied(first->properties, PROPERTIES), .density = density,
+                            .strain_inc = v.strain_inc, .stretch_old = stretch_old, .stretch_new = v.stretch_new,
+                            .stress_old = filled(5, 6 * count), .state_old = v.state_old,
+                            .ener_intern_old = filled(7, count), .ener_inelas_old = filled(9, count),
+                            .stress_new = v.stress_new, .state_new = v.state_new, .ener_intern_new = v.energy_new,
+                            .ener_inelas_new = v.inelastic_new};
+    return v;
+}
+
+/* Bit for bit what the law says at F = U, whose stress is the corotational one. */
+static void check_corotational(const vumat_arrays *v, int i, const truth *t)
+{
+    int n = v->block.nblock;
+    double u[6];
+    stretch(t, u);
+    const double f[9] = {u[0], u[3], u[5], u[3], u[1], u[4], u[5], u[4], u[2]};
+    real columns[9], properties[PROPERTIES], state[STATE], stress[6];
+    for (int c = 0; c < 9; c++)
+        columns[c] = (real)f[c];
+    for (int c = 0; c < PROPERTIES; c++)
+        properties[c] = (real)t->properties[c];
+    ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, columns, NULL, NULL, state, stress, NULL, 0, NULL);
+    for (int c = 0; c < 6; c++)
+        CHECK(memcmp(&stress[c], &v->stress_new[c * n + i], sizeof(real)) == 0, "case %d", t->id);
+    double energy = 0;
+    for (int j = 0; j < STATE; j++) {
+        CHECK(memcmp(&state[j], &v->state_new[j * n + i], sizeof(real)) == 0, "case %d, state %d", t->id, j);
+        energy += j < INVARIANTS ? state[j] : 0;
+    }
+    /* W/ρ0 to some roundings of the volume, which is a sum of products of stretches. */
+    double volume = 2 / (double)v->block.density[i], sizes = u[0] * u[1] * u[2] + fabs(2 * u[3] * u[4] * u[5])
+        + u[0] * u[4] * u[4] + u[1] * u[5] * u[5] + u[2] * u[3] * u[3];
+    double allowed = (sizeof(real) == 4 ? 0x1p-24 : 0x1p-53) * 16 * sizes / volume;
+    CHECK(fabs(v->energy_new[i] - energy / 2) <= allowed * energy, "case %d: energy %g, wanted %g, allowed %g", t->id,
+          v->energy_new[i], energy / 2, allowed);
+}
+
+static void vumat(void)
+{
+    int against_truth = 0;
+    for (int first = 0; first < case_count;) {
+        int n = run_of_cases(first, PROPERTIES);
+        vumat_arrays v = vumat_block(&cases[first], n);
+        int32_t status = ENTRY(toron_abaqus_vumat)(&v.block);
+        CHECK(status == TORON_OK, "%d", status);
+        for (int i = 0; i < n; i++) {
+            const truth *t = &cases[first + i];
+            double u[6];
+            check_corotational(&v, i, t);
+            if (stretch(t, u)) {
+                check_stress(t, v.stress_new + i, (size_t)n);
+                check_state(t, v.state_new + i, (size_t)n);
+                against_truth++;
+            }
+            for (int j = STATE; j < VUMAT_STATE; j++)
+                CHECK(v.state_new[j * n + i] == (real)(j + i), "what is not the law's goes over");
+            CHECK(v.inelastic_new[i] == 9, "so does the inelastic energy");
+        }
+        release();
+        first += n;
+    }
+    CHECK(against_truth > 40, "%d stretches in the truth", against_truth);
+}
+
+static void vumat_data_check(void)
+{
+    vumat_arrays v = vumat_block(cases, 2);
+    v.block.step_time = v.block.total_time = 0;
+    const real strain = (real)1e-4, k_el = v.block.props[0];
+    v.strain_inc[0] = strain;         /* point 1, along 11 */
+    v.strain_inc[3 * 2 + 1] = strain; /* point 2, tensor shear 12 */
+    CHECK(ENTRY(toron_abaqus_vumat)(&v.block) == TORON_OK, "data check");
+    double tolerance = sizeof(real) == 4 ? 1e-6 : 1e-15;
+    CHECK(fabs((v.stress_new[0] - 5) / (k_el * strain) - 1) <= tolerance, "the fibre's wave: %g", v.stress_new[0]);
+    CHECK(fabs((v.stress_new[3 * 2 + 1] - 5) / (0.75 * k_el * strain) - 1) <= tolerance, "2 G ε");
+    for (int i = 0; i < 2; i++)
+        CHECK(v.state_new[ALIVE * 2 + i] == 1 && v.state_new[FAILED * 2 + i] == 0 && v.energy_new[i] == 7, "alive");
+    release();
+}
+
+static void vumat_refused(toron_vumat block, int32_t wanted)
+{
+    CHECK(ENTRY(toron_abaqus_vumat)(&block) == wanted, "wanted %d", wanted);
+    if (block.stress_new != NULL)
+        CHECK(untouched(block.stress_new, 6 * sizeof(real)), "status %d", wanted);
+    CHECK(untouched(block.state_new, VUMAT_STATE * sizeof(real)), "status %d", wanted);
+}
+
+static void vumat_wrong_calls(void)
+{
+    const toron_vumat good = vumat_block(cases, 1).block;
+    toron_vumat block = good;
+    block.nshr = 1;
+    vumat_refused(block, TORON_BAD_COUNT);
+    block = good, block.ndir = 2;
+    vumat_refused(block, TORON_BAD_COUNT);
+    block = good, block.nblock = -1;
+    vumat_refused(block, TORON_BAD_COUNT);
+    block = good, block.nblock = 0;
+    vumat_refused(block, TORON_OK);
+    block = good, block.nstatev = STATE - 1;
+    vumat_refused(block, TORON_STATE_COUNT);
+    block = good, block.nprops = PROPERTIES - 1;
+    vumat_refused(block, TORON_PROPERTY_COUNT);
+    block = good, block.nprops = -1;
+    vumat_refused(block, TORON_PROPERTY_COUNT);
+    block = good, block.stress_new = NULL;
+    vumat_refused(block, TORON_NULL_ARGUMENT);
+    block = good, block.stretch_new = NULL;
+    vumat_refused(block, TORON_NULL_ARGUMENT);
+    block = good, block.props = filled(NAN, PROPERTIES);
+    vumat_refused(block, TORON_PROPERTY_NOT_FINITE);
+    CHECK(ENTRY(toron_abaqus_vumat)(NULL) == TORON_NULL_ARGUMENT, "no block");
+    release();
+
+    /* Points that cannot be evaluated are deleted; their neighbours do not notice. */
+    vumat_arrays v = vumat_block(cases, 3);
+    v.stretch_new[1] = NAN;
+    v.state_old[ENERGIES * 3 + 1] = 4;
+    CHECK(ENTRY(toron_abaqus_vumat)(&v.block) == TORON_NOT_FINITE, "NaN");
+    CHECK(v.stress_new[1] == 0 && v.state_new[FAILED * 3 + 1] == 1 && v.state_new[ALIVE * 3 + 1] == 0, "deleted");
+    CHECK(v.state_new[ENERGIES * 3 + 1] == 4 && v.energy_new[1] == 7, "energies stay");
+    check_corotational(&v, 0, &cases[0]);
+    check_corotational(&v, 2, &cases[2]);
+    release();
+}
+
+/* ---- UMAT: double precision only */
+
+#ifndef SINGLE
+static const int order_standard[6] = {0, 1, 2, 3, 5, 4}; /* 11 22 33 12 13 23 */
+
+typedef struct {
+    double *stress, *statev, *sse, *pnewdt, *stran, *dstran, *dfgrd1, *props;
+    int32_t nprops, nstatv, ndi, nshr;
+} umat_arguments;
+
+static umat_arguments umat_point(const truth *t)
+{
+    umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .sse = reals(1), .pnewdt = filled(1, 1),
+                        .stran = filled(0, 6), .dstran = filled(1e-3, 6), .dfgrd1 = copied(t->f, 9),
+                        .props = copied(t->properties, PROPERTIES), .nprops = PROPERTIES, .nstatv = STATE, .ndi = 3,
+                        .nshr = 3};
+    return a;
+}
+
+static int32_t call_umat(const umat_arguments *a)
+{
+    return toron_abaqus_umat_f64(a->stress, a->statev, a->sse, a->pnewdt, a->stran, a->dstran, a->dfgrd1, a->props,
+                                 a->nprops, a->nstatv, a->ndi, a->nshr);
+}
+
+static void umat(void)
+{
+    for (const truth *t = cases; t < cases + case_count; t++) {
+        umat_arguments a = umat_point(t);
+        for (int i = 0; i < 6; i++)
+            a.dstran[i] = 0;
+        int32_t status = call_umat(&a);
+        CHECK(status == TORON_OK, "case %d: %d", t->id, status);
+        double stress[6], energy = 0, jacobian = determinant(t->f);
+        for (int c = 0; c < 6; c++)
+            stress[c] = a.stress[order_standard[c]];
+        check_stress(t, stress, 1);
+        check_state(t, a.statev, 1);
+        for (int k = 0; k < 4; k++)
+            energy += a.statev[ENERGIES + k];
+        CHECK(fabs(*a.sse * jacobian - energy) <= 1e-12 * energy, "case %d: SSE %g", t->id, *a.sse);
+        CHECK(*a.pnewdt == 1, "case %d: PNEWDT %g", t->id, *a.pnewdt);
+        release();
+    }
+}
+
+static void umat_refused(umat_arguments a, int32_t wanted)
+{
+    CHECK(call_umat(&a) == wanted, "wanted %d", wanted);
+    if (a.stress != NULL)
+        CHECK(untouched(a.stress, 6 * sizeof(double)), "status %d", wanted);
+    CHECK(untouched(a.sse, sizeof(double)) && *a.pnewdt == 1, "status %d", wanted);
+}
+
+static void umat_wrong_calls(void)
+{
+    const truth rest = cases[0];
+    const umat_arguments good = umat_point(&rest);
+    umat_refused(good, TORON_NO_DEFORMATION_GRADIENT); /* F = 1 although there are strains */
+    umat_arguments a = good;
+    a.ndi = 2;
+    umat_refused(a, TORON_BAD_COUNT);
+    a = good, a.nshr = 1;
+    umat_refused(a, TORON_BAD_COUNT);
+    a = good, a.nstatv = STATE - 1;
+    umat_refused(a, TORON_STATE_COUNT);
+    a = good, a.nprops = PROPERTIES + 1;
+    umat_refused(a, TORON_PROPERTY_COUNT);
+    a = good, a.nprops = -1;
+    umat_refused(a, TORON_PROPERTY_COUNT);
+    a = good, a.props = NULL;
+    umat_refused(a, TORON_NULL_ARGUMENT);
+    a = good, a.stress = NULL;
+    umat_refused(a, TORON_NULL_ARGUMENT);
+    a = good, a.props = filled(-1, PROPERTIES);
+    umat_refused(a, TORON_PROPERTY_OUT_OF_BOUNDS);
+
+    /* An inverted point keeps its state and asks for a smaller increment, but never for a larger one. */
+    a = good;
+    a.dfgrd1 = copied(rest.f, 9);
+    a.dfgrd1[0] = -1;
+    a.statev[ENERGIES] = 3;
+    CHECK(call_umat(&a) == TORON_INVERTED && *a.pnewdt == 0.25, "PNEWDT %g", *a.pnewdt);
+    *a.pnewdt = 0.125;
+    CHECK(call_umat(&a) == TORON_INVERTED && *a.pnewdt == 0.125, "PNEWDT %g", *a.pnewdt);
+    CHECK(a.statev[ENERGIES] == 3 && a.stress[0] == 0 && untouched(a.sse, sizeof(double)), "the state stays");
+    release();
+}
+#endif
+
+int main(int argc, char **argv)
+{
+    read_cases(argc, argv);
+    lsdyna_scalar();
+    lsdyna_vector();
+    lsdyna_bad_elements();
+    lsdyna_wrong_calls();
+    lsdyna_moduli();
+    vumat();
+    vumat_data_check();
+    vumat_wrong_calls();
+#ifndef SINGLE
+    umat();
+    umat_wrong_calls();
+#endif
+    return finish();
+}

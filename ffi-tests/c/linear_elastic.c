@@ -1,0 +1,135 @@
+/* The linear elastic law: axes, steps and increments, failure, and what is refused. */
+#include "check.h"
+
+enum { N = TORON_LINEAR_ELASTIC_PROPERTIES, M = TORON_LINEAR_ELASTIC_STATE, WORK = 7, FAILED_AT = 8, ALIVE_AT = 9 };
+
+static const double e_1 = 79.414, limit = 3.637;
+static const double at_rest[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static double *yarn(void)
+{
+    double *properties = guarded(N * sizeof *properties);
+    toron_preset_f64("kevlar-km2-600-linear", "mm-kg-ms", properties, N, NULL);
+    return properties;
+}
+
+static double *array(const double *values, size_t count)
+{
+    double *copy = guarded(count * sizeof *copy);
+    memcpy(copy, values, count * sizeof *copy);
+    return copy;
+}
+
+static void axes(void)
+{
+    double *properties = yarn(), *a = guarded(9 * sizeof *a);
+    properties[4] = 0, properties[5] = 0, properties[6] = 5; /* the fibre, any length */
+    properties[7] = 3;                                       /* the second axis */
+    CHECK(toron_linear_elastic_axes_f64(properties, N, a) == TORON_OK, "axes");
+    const double wanted[9] = {0, 0, 1, 1, 0, 0, 0, 1, 0};
+    for (int i = 0; i < 9; i++)
+        CHECK(fabs(a[i] - wanted[i]) <= 1e-15, "axes[%d] = %g", i, a[i]);
+    CHECK(toron_linear_elastic_axes_f64(properties, N, NULL) == TORON_NULL_ARGUMENT, "no room");
+    CHECK(toron_linear_elastic_axes_f64(properties, 9, a) == TORON_PROPERTY_COUNT, "count");
+    release();
+}
+
+/* F = diag(λ, 1, 1) in equal steps: σ11 = E1 ln λ in any frame, and failure at ln λ = σ_lim/E1. */
+static void pull(int32_t rotation)
+{
+    enum { STEPS = 10 };
+    double *properties = yarn(), *state = guarded(M * sizeof *state), *stress = guarded(6 * sizeof *stress);
+    double *turning = guarded(9 * sizeof *turning), *f_old = array(at_rest, 9), *f_new = array(at_rest, 9);
+    memset(state, 0, M * sizeof *state);
+    toron_linear_elastic_axes_f64(properties, N, turning);
+    const double strain_at_failure = limit / e_1;
+    for (int step = 1; step <= STEPS; step++) {
+        f_old[0] = f_new[0];
+        f_new[0] = exp(1.05 * strain_at_failure * step / STEPS); /* past the limit in the last step only */
+        int32_t status = toron_linear_elastic_step_f64(properties, N, f_old, f_new, state, state, stress, rotation,
+                                                       TORON_CRITERION_PRINCIPAL, turning);
+        double wanted = e_1 * log(f_new[0]);
+        CHECK(status == TORON_OK, "%d", status);
+        CHECK(fabs(stress[0] - wanted) <= 1e-14 * e_1, "frame %d, step %d: %.17g, wanted %.17g", rotation, step,
+              stress[0], wanted);
+        CHECK(state[FAILED_AT] == (wanted >= limit) && state[ALIVE_AT] == 1 - state[FAILED_AT], "step %d", step);
+    }
+    CHECK(state[FAILED_AT] == 1 && state[WORK] > 0, "failed in the end");
+    toron_linear_elastic_step_f64(properties, N, f_new, f_new, state, state, stress, rotation, 0, turning);
+    CHECK(stress[0] == 0 && state[0] == 0 && state[FAILED_AT] == 1, "and stays failed, without stress");
+    release();
+}
+
+/* A plain increment: engineering shears are twice the tensor's, the work is weighed by J. */
+static void increment(void)
+{
+    double *properties = yarn(), *state = guarded(M * sizeof *state), *stress = guarded(6 * sizeof *stress);
+    const double values[6] = {1e-3, 2e-3, -1e-3, 5e-4, 0, -5e-4};
+    double *strain = array(values, 6);
+    const double wanted[6] = {79.414e-3, 0.794 * 2e-3, -0.794e-3, 0.126e-3, 0, -0.126e-3};
+    int32_t status = toron_linear_elastic_increment_f64(properties, N, strain, 2, NULL, state, stress, 0);
+    CHECK(status == TORON_OK, "%d", status);
+    double work = 0;
+    for (int i = 0; i < 6; i++) {
+        CHECK(fabs(stress[i] - wanted[i]) <= 1e-15 * e_1, "stress %d is %.17g", i, stress[i]);
+        CHECK(state[i] == stress[i], "the state holds the stress");
+        work += 0.5 * wanted[i] * values[i] * (i < 3 ? 1 : 2);
+    }
+    CHECK(fabs(state[WORK] - 2 * work) <= 1e-14 * work, "work %g, wanted %g", state[WORK], 2 * work);
+    /* The principal stress exceeds the fibre's where there is shear: only the first criterion sees a limit between. */
+    strain[0] = 0.9 * limit / e_1, strain[3] = 2 * limit / 0.126;
+    toron_linear_elastic_increment_f64(properties, N, strain, 1, NULL, state, NULL, TORON_CRITERION_FIBRE);
+    CHECK(state[FAILED_AT] == 0, "fibre stress");
+    toron_linear_elastic_increment_f64(properties, N, strain, 1, NULL, state, NULL, TORON_CRITERION_PRINCIPAL);
+    CHECK(state[FAILED_AT] == 1, "principal stress");
+    release();
+}
+
+static void refused(void)
+{
+    double *properties = yarn(), *state = guarded(M * sizeof *state), *stress = guarded(6 * sizeof *stress);
+    double *f = array(at_rest, 9), *bad = array(at_rest, 9);
+    bad[0] = -1;
+#define STEP(values, count, old, new, rotation, criterion) \
+    toron_linear_elastic_step_f64(values, count, old, new, NULL, state, stress, rotation, criterion, NULL)
+    CHECK(STEP(properties, N, f, f, 3, 0) == TORON_BAD_ARGUMENT, "rotation");
+    CHECK(STEP(properties, N, f, f, -1, 0) == TORON_BAD_ARGUMENT, "rotation");
+    CHECK(STEP(properties, N, f, f, 0, 2) == TORON_BAD_ARGUMENT, "criterion");
+    CHECK(STEP(properties, N, NULL, f, 0, 0) == TORON_NULL_ARGUMENT, "F old");
+    CHECK(STEP(properties, N, f, NULL, 0, 0) == TORON_NULL_ARGUMENT, "F new");
+    CHECK(STEP(properties, N, f, f, TORON_ROTATION_SPIN, 0) == TORON_NULL_ARGUMENT, "axes");
+    CHECK(STEP(NULL, N, f, f, 0, 0) == TORON_NULL_ARGUMENT, "properties");
+    CHECK(STEP(properties, 11, f, f, 0, 0) == TORON_PROPERTY_COUNT, "count");
+    CHECK(toron_linear_elastic_increment_f64(properties, N, NULL, 1, NULL, state, stress, 0) == TORON_NULL_ARGUMENT,
+          "strain");
+    CHECK(toron_linear_elastic_increment_f64(properties, N, f, 1, NULL, state, stress, 9) == TORON_BAD_ARGUMENT,
+          "criterion");
+    CHECK(untouched(state, M * sizeof *state) && untouched(stress, 6 * sizeof *stress), "nothing is written");
+    CHECK(STEP(properties, N, f, bad, 0, 0) == TORON_INVERTED && stress[0] == 0, "inverted");
+    bad[0] = NAN;
+    CHECK(STEP(properties, N, f, bad, 1, 0) == TORON_NOT_FINITE, "NaN");
+    bad[0] = 100;
+    CHECK(STEP(properties, N, f, bad, 0, 0) == TORON_INCREMENT_TOO_LARGE, "a stretch by 100");
+
+    char *message = guarded(160);
+    int32_t code = 0;
+    properties[7] = -2; /* the second axis along the fibre */
+    size_t length = toron_linear_elastic_validate_f64(properties, N, message, 160, &code);
+    CHECK(code == TORON_PROPERTY_DIRECTION && length == strlen(message), "%d: %s", code, message);
+    CHECK(strcmp(message, "properties 8 to 10 (second axis) are -2.0, 0.0, 0.0; allowed: any vector that is not along "
+                          "the fibre, or zero") == 0, "%s", message);
+    properties[7] = 0;
+    CHECK(toron_linear_elastic_validate_f64(properties, N, message, 160, &code) == 0 && code == TORON_OK, "%s", message);
+    release();
+}
+
+int main(void)
+{
+    axes();
+    pull(TORON_ROTATION_FIBRE);
+    pull(TORON_ROTATION_POLAR);
+    pull(TORON_ROTATION_SPIN);
+    increment();
+    refused();
+    return finish();
+}

@@ -1,0 +1,162 @@
+! The shims lsdyna_umat41.f and lsdyna_umat41v.f, called as LS-DYNA does, with the default kinds of the build.
+program lsdyna_test
+  use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int64_t
+  use cases
+  implicit none
+  external :: umat41, umat41v
+
+  real, parameter :: mark = -7.25
+  logical, parameter :: single = kind(mark) == c_float
+  integer, parameter :: nhv = 11, history = nhv + 9, before = 4, behind = 2
+  real, allocatable :: sig(:, :), hsvs(:, :)
+  logical, allocatable :: failels(:)
+  real :: cm(48)
+  integer :: first, last, i
+
+  call read_cases
+  close (6)
+  open (unit=6, status='scratch')
+  do i = 1, number_of_cases
+    call scalar(table(i))
+  end do
+  first = 1
+  do while (first <= number_of_cases)
+    last = last_of_run(first)
+    call compare
+    first = last + 1
+  end do
+  call bad_element
+  call check(stops == 0, 'no stop', 0)
+
+  cm(1:11) = real(table(1)%properties)
+  cm(3) = 0.5
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a finite number > 1')
+  cm(3) = 2
+  cm(9:11) = 0
+  call refused('properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero')
+  call finish
+
+contains
+
+  ! One element between marks.
+  subroutine scalar(t)
+    type(truth), intent(in) :: t
+    real :: stress(1 - before:6 + behind), hsv(1 - before:history + behind)
+    logical :: failel(3)
+    cm = mark
+    cm(1:11) = real(t%properties)
+    stress = mark
+    hsv = mark
+    hsv(1:nhv) = 0
+    hsv(nhv + 1:history) = real(t%f)
+    failel = [.true., .true., .false.]
+    call call_scalar(stress(1), hsv(1), failel(2))
+    call check_answer(t, real(stress(1:6), c_double), real(hsv(1:nhv), c_double), single)
+    call check(failel(2) .eqv. hsv(10) > 0.5, 'failel', t%id)
+    call check(all(hsv(nhv + 1:history) == real(t%f)), 'F is read only', t%id)
+    call check(all(stress(:0) == mark) .and. all(stress(7:) == mark), 'around sig', t%id)
+    call check(all(hsv(:0) == mark) .and. all(hsv(history + 1:) == mark), 'around hsv', t%id)
+    call check(failel(1) .and. .not. failel(3), 'around failel', t%id)
+  end subroutine
+
+  subroutine call_scalar(stress, hsv, failel)
+    real, intent(inout) :: stress(*), hsv(*)
+    logical, intent(inout) :: failel
+    real :: zero(9)
+    integer :: nnpcrv(1)
+    logical :: reject
+    zero = 0
+    nnpcrv = 0
+    reject = .false.
+    call umat41(cm, zero, stress, zero, hsv, zero, zero, 'solid', zero, zero, failel, zero, nnpcrv, zero, zero, zero, &
+      1_c_int64_t, reject)
+    call check(.not. reject, 'reject', 0)
+  end subroutine
+
+  ! Elements before + 1 .. before + n of arrays that have more.
+  subroutine prepare(n)
+    integer, intent(in) :: n
+    integer :: k
+    if (allocated(sig)) deallocate (sig, hsvs, failels)
+    allocate (sig(before + n + behind, 6), hsvs(before + n + behind, history), source=mark)
+    allocate (failels(before + n + behind), source=.true.)
+    cm(1:11) = real(table(first)%properties)
+    do k = 1, n
+      hsvs(before + k, :nhv) = 0
+      hsvs(before + k, nhv + 1:) = real(table(first + k - 1)%f)
+    end do
+  end subroutine
+
+  subroutine call_vector(n)
+    integer, intent(in) :: n
+    real, allocatable :: zero(:)
+    integer(c_int64_t), allocatable :: idelev(:)
+    integer :: nnpcrv(1), nlq
+    logical :: reject
+    nlq = size(failels)
+    allocate (zero(9 * nlq), source=0.0)
+    allocate (idelev(nlq), source=1_c_int64_t)
+    nnpcrv = 0
+    reject = .false.
+    call umat41v(cm, zero, zero, zero, zero, zero, zero, sig(:, 1), sig(:, 2), sig(:, 3), sig(:, 4), sig(:, 5), &
+      sig(:, 6), zero, hsvs, before + 1, before + n, zero, zero, 'solid', zero, zero, failels, nlq, zero, nnpcrv, zero, &
+      zero, zero, idelev, reject)
+    call check(all(sig(:before, :) == mark) .and. all(sig(before + n + 1:, :) == mark), 'sig outside', first)
+    call check(all(hsvs(:before, :) == mark) .and. all(hsvs(before + n + 1:, :) == mark), 'hsvs outside', first)
+    call check(all(failels(:before)) .and. all(failels(before + n + 1:)), 'failels outside', first)
+    call check(.not. reject, 'reject', 0)
+  end subroutine
+
+  subroutine compare
+    integer :: n, k, element
+    n = last - first + 1
+    call prepare(n)
+    call call_vector(n)
+    do k = 1, n
+      element = before + k
+      call check_answer(table(first + k - 1), real(sig(element, :), c_double), real(hsvs(element, :nhv), c_double), single)
+      call check(failels(element) .eqv. hsvs(element, 10) > 0.5, 'failels', table(first + k - 1)%id)
+    end do
+  end subroutine
+
+  ! An inverted element fails; its neighbours do not notice, and the job goes on.
+  subroutine bad_element
+    real :: stress(3, 6)
+    first = 1
+    call prepare(3)
+    call call_vector(3)
+    stress = sig(before + 1:before + 3, :)
+    call prepare(3)
+    hsvs(before + 2, nhv + 1:nhv + 3) = -hsvs(before + 2, nhv + 1:nhv + 3)
+    call call_vector(3)
+    call check(all(failels(before + 1:before + 3) .eqv. [.false., .true., .false.]), 'it fails', 0)
+    call check(all(sig(before + 2, :) == 0), 'it has no stress', 0)
+    call check(all(sig([before + 1, before + 3], :) == stress([1, 3], :)), 'its neighbours', 0)
+  end subroutine
+
+  ! A wrong deck stops the job with this message, and nothing is written.
+  subroutine refused(message)
+    character(len=*), intent(in) :: message
+    real :: kept(11), stress(6), hsv(history)
+    logical :: failel
+    integer :: before_call
+    before_call = stops
+    stress = mark
+    hsv = mark
+    failel = .false.
+    call call_scalar(stress, hsv, failel)
+    call check(stops == before_call + 1, 'umat41: ' // message, 0)
+    call check_written(6, message)
+    call check(all(stress == mark) .and. all(hsv == mark) .and. .not. failel, 'nothing is written: ' // message, 0)
+    close (6)
+    open (unit=6, status='scratch')
+    kept = cm(1:11)
+    first = 1
+    call prepare(1)
+    cm(1:11) = kept
+    call call_vector(1)
+    call check(stops == before_call + 2, 'umat41v: ' // message, 0)
+    call check_written(6, message)
+    call check(all(sig == mark) .and. all(failels), 'nothing is written: ' // message, 0)
+  end subroutine
+end program

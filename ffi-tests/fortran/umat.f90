@@ -1,0 +1,98 @@
+! The shim abaqus_umat.f, called as Abaqus/Standard does.
+program umat_test
+  use, intrinsic :: iso_c_binding, only: c_double
+  use cases
+  implicit none
+  external :: umat
+
+  real(c_double), parameter :: mark = -7.25
+  integer, parameter :: guard = 4
+  ! With room around what the routine may touch.
+  real(c_double) :: stress(1 - guard:6 + guard), statev(1 - guard:12 + guard), ddsdde(1 - guard:36 + guard)
+  real(c_double) :: sse(1 - guard:1 + guard), pnewdt(1 - guard:1 + guard)
+  real(c_double) :: props(11), f(9), dstran(6)
+  integer :: i
+
+  call read_cases
+  open (unit=7, status='scratch')
+  do i = 1, number_of_cases
+    call prepare(table(i))
+    call call_umat(11, 12, 3, 3)
+    ! Abaqus/Standard has 11 22 33 12 13 23.
+    call check_answer(table(i), stress([1, 2, 3, 4, 6, 5]), statev(1:11), .false.)
+    call check_guards
+    call check(all(ddsdde == mark), 'DDSDDE untouched', i)
+    call check(statev(12) == mark, 'a state variable that is not the law''s', i)
+    call check(pnewdt(1) == 1, 'PNEWDT', i)
+  end do
+  call check(stops == 0, 'no stop', 0)
+
+  ! An inverted point asks for a smaller increment and says nothing.
+  call prepare(table(1))
+  f(1:3) = -f(1:3)
+  call call_umat(11, 12, 3, 3)
+  call check(stops == 0 .and. pnewdt(1) == 0.25, 'inverted', 0)
+  call check(all(stress(1:6) == 0), 'no stress', 0)
+
+  call refused('NLGEOM', 11, 12, 3)
+  call prepare(table(1))
+  props(3) = 0.5
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a finite number > 1', 11, 12, 3)
+  call refused('number of properties: 10 given, 11 needed', 10, 12, 3)
+  props(3) = 2
+  call refused('fewer state variables', 11, 10, 3)
+  call refused('a count is not what this entry can serve', 11, 12, 1)
+  call check_written(7, 'material FIBRE:')
+  call finish
+
+contains
+
+  subroutine prepare(t)
+    type(truth), intent(in) :: t
+    stress = mark
+    statev = mark
+    statev(1:11) = 0
+    ddsdde = mark
+    sse = mark
+    pnewdt = mark
+    pnewdt(1) = 1
+    props = t%properties
+    f = t%f
+    dstran = 0
+  end subroutine
+
+  subroutine call_umat(nprops, nstatv, ndi, nshr)
+    integer, intent(in) :: nprops, nstatv, ndi, nshr
+    real(c_double) :: zero(36)
+    integer :: jstep(4)
+    character(len=80) :: cmname
+    cmname = 'FIBRE'
+    zero = 0
+    jstep = 1
+    call umat(stress(1), statev(1), ddsdde(1), sse(1), zero, zero, zero, zero, zero, zero, zero, dstran, zero, zero, &
+      zero, zero, zero, zero, cmname, ndi, nshr, ndi + nshr, nstatv, props, nprops, zero, zero, pnewdt(1), zero, zero, &
+      f, 1, 1, 1, 1, jstep, 1)
+  end subroutine
+
+  subroutine check_guards
+    call check(all(stress(:0) == mark) .and. all(stress(7:) == mark), 'around STRESS', 0)
+    call check(all(statev(:0) == mark) .and. all(statev(13:) == mark), 'around STATEV', 0)
+    call check(all(sse(:0) == mark) .and. all(sse(2:) == mark), 'around SSE', 0)
+    call check(all(pnewdt(:0) == mark) .and. all(pnewdt(2:) == mark), 'around PNEWDT', 0)
+  end subroutine
+
+  ! A wrong deck stops the job with this message, and nothing is written.
+  subroutine refused(message, nprops, nstatv, nshr)
+    character(len=*), intent(in) :: message
+    integer, intent(in) :: nprops, nstatv, nshr
+    integer :: before
+    before = stops
+    stress = mark
+    f = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    dstran = 1e-3_c_double
+    call call_umat(nprops, nstatv, 3, nshr)
+    call check(stops == before + 1, 'stop: ' // message, 0)
+    call check_written(7, message)
+    call check(all(stress == mark), 'nothing is written: ' // message, 0)
+  end subroutine
+end program

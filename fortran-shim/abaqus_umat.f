@@ -1,0 +1,85 @@
+! UMAT of Abaqus/Standard for the hyperelastic yarn law of libtoron.
+!
+! Solids (NDI = 3, NSHR = 3) with NLGEOM=YES and no *ORIENTATION; 11 or more state variables, 11 properties: see docs.
+! Not for Standard yet: DDSDDE is not written. Single integration points and explicit drivers need none.
+!
+! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
+      subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl,       &
+     &  ddsddt, drplde, drpldt, stran, dstran, time, dtime, temp,       &
+     &  dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props,  &
+     &  nprops, coords, drot, pnewdt, celent, dfgrd0, dfgrd1, noel, npt,&
+     &  layer, kspt, jstep, kinc)
+      use, intrinsic :: iso_c_binding, only: c_char, c_double,          &
+     &  c_int32_t, c_size_t
+      implicit none
+      character(len=80) :: cmname
+      integer :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer
+      integer :: kspt, jstep(*), kinc
+      real(c_double) :: stress(ntens), statev(nstatv)
+      real(c_double) :: ddsdde(ntens, ntens), sse, spd, scd, rpl
+      real(c_double) :: ddsddt(ntens), drplde(ntens), drpldt
+      real(c_double) :: stran(ntens), dstran(ntens), time(2), dtime
+      real(c_double) :: temp, dtemp, predef(*), dpred(*), props(nprops)
+      real(c_double) :: coords(3), drot(3, 3), pnewdt, celent
+      real(c_double) :: dfgrd0(3, 3), dfgrd1(3, 3)
+      integer(c_int32_t) :: status
+
+      interface
+        function toron_abaqus_umat_f64(stress, statev, sse, pnewdt,     &
+     &    stran, dstran, dfgrd1, props, nprops, nstatv, ndi, nshr)      &
+     &    bind(c) result(status)
+          import :: c_double, c_int32_t
+          real(c_double), intent(inout) :: stress(*), statev(*), sse
+          real(c_double), intent(inout) :: pnewdt
+          real(c_double), intent(in) :: stran(*), dstran(*), dfgrd1(*)
+          real(c_double), intent(in) :: props(*)
+          integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
+          integer(c_int32_t) :: status
+        end function
+        function toron_hyperelastic_validate_f64(values, count, text,   &
+     &    capacity, status) bind(c) result(length)
+          import :: c_char, c_double, c_int32_t, c_size_t
+          real(c_double), intent(in) :: values(*)
+          integer(c_size_t), value :: count, capacity
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_int32_t), intent(inout) :: status
+          integer(c_size_t) :: length
+        end function
+        function toron_status_message(status, text, capacity)           &
+     &    bind(c) result(length)
+          import :: c_char, c_int32_t, c_size_t
+          integer(c_int32_t), value :: status
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_size_t), value :: capacity
+          integer(c_size_t) :: length
+        end function
+      end interface
+
+      status = toron_abaqus_umat_f64(stress, statev, sse, pnewdt,       &
+     &  stran, dstran, dfgrd1, props, int(nprops, c_int32_t),           &
+     &  int(nstatv, c_int32_t), int(ndi, c_int32_t),                    &
+     &  int(nshr, c_int32_t))
+!     Below -300 the point is at fault, and the library has lowered PNEWDT; above, the deck is.
+      if (status < 0 .and. status > -300) call refuse
+
+      contains
+
+      subroutine refuse
+      integer(c_size_t), parameter :: capacity = 300
+      character(kind=c_char, len=capacity) :: text
+      integer(c_size_t) :: length
+      integer(c_int32_t) :: code
+      integer :: unit
+      length = toron_hyperelastic_validate_f64(props,                   &
+     &  int(nprops, c_size_t), text, capacity, code)
+      if (code /= status)                                               &
+     &  length = toron_status_message(status, text, capacity)
+      length = min(length, capacity - 1)
+!     The .dat and the .msg file.
+      do unit = 6, 7
+        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),      &
+     &    ': ', text(1:length)
+      end do
+      call xit
+      end subroutine
+      end subroutine

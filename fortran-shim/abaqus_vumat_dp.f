@@ -1,0 +1,110 @@
+! VUMAT of Abaqus/Explicit for the hyperelastic yarn law of libtoron: jobs in double precision (double=both).
+!
+! Solids (NDIR = 3, NSHR = 3); 11 or more state variables, 11 properties, *DEPVAR, DELETE=11: see docs.
+!
+! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
+      subroutine vumat(nblock, ndir, nshr, nstatev, nfieldv, nprops,    &
+     &  lanneal, steptime, totaltime, dt, cmname, coordmp, charlength,  &
+     &  props, density, straininc, relspininc, tempold, stretchold,     &
+     &  defgradold, fieldold, stressold, stateold, enerinternold,       &
+     &  enerinelasold, tempnew, stretchnew, defgradnew, fieldnew,       &
+     &  stressnew, statenew, enerinternnew, enerinelasnew)
+      use, intrinsic :: iso_c_binding, only: c_char, c_double,          &
+     &  c_int32_t, c_loc, c_ptr, c_size_t
+      implicit none
+      character(len=80) :: cmname
+      integer :: nblock, ndir, nshr, nstatev, nfieldv, nprops, lanneal
+      real(c_double) :: steptime, totaltime, dt, coordmp(*)
+      real(c_double) :: charlength(*), relspininc(*), tempold(*)
+      real(c_double) :: defgradold(*), fieldold(*), tempnew(*)
+      real(c_double) :: defgradnew(*), fieldnew(*)
+!     What the library reads and writes; arrays are (nblock, components).
+      real(c_double), target :: props(*), density(*), straininc(*)
+      real(c_double), target :: stretchold(*), stretchnew(*)
+      real(c_double), target :: stressold(*), stateold(*)
+      real(c_double), target :: enerinternold(*), enerinelasold(*)
+      real(c_double), target :: stressnew(*), statenew(*)
+      real(c_double), target :: enerinternnew(*), enerinelasnew(*)
+
+      type, bind(c) :: arguments
+        integer(c_int32_t) :: nblock, ndir, nshr, nstatev, nprops
+        real(c_double) :: step_time, total_time
+        type(c_ptr) :: props, density, strain_inc
+        type(c_ptr) :: stretch_old, stretch_new, stress_old, state_old
+        type(c_ptr) :: ener_intern_old, ener_inelas_old
+        type(c_ptr) :: stress_new, state_new
+        type(c_ptr) :: ener_intern_new, ener_inelas_new
+      end type
+      type(arguments) :: block
+      integer(c_int32_t) :: status
+
+      interface
+        function toron_abaqus_vumat_f64(block) bind(c) result(status)
+          import :: arguments, c_int32_t
+          type(arguments), intent(in) :: block
+          integer(c_int32_t) :: status
+        end function
+        function toron_hyperelastic_validate_f64(values, count, text,   &
+     &    capacity, status) bind(c) result(length)
+          import :: c_char, c_double, c_int32_t, c_size_t
+          real(c_double), intent(in) :: values(*)
+          integer(c_size_t), value :: count, capacity
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_int32_t), intent(inout) :: status
+          integer(c_size_t) :: length
+        end function
+        function toron_status_message(status, text, capacity)           &
+     &    bind(c) result(length)
+          import :: c_char, c_int32_t, c_size_t
+          integer(c_int32_t), value :: status
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_size_t), value :: capacity
+          integer(c_size_t) :: length
+        end function
+      end interface
+
+      block%nblock = int(nblock, c_int32_t)
+      block%ndir = int(ndir, c_int32_t)
+      block%nshr = int(nshr, c_int32_t)
+      block%nstatev = int(nstatev, c_int32_t)
+      block%nprops = int(nprops, c_int32_t)
+      block%step_time = steptime
+      block%total_time = totaltime
+      block%props = c_loc(props)
+      block%density = c_loc(density)
+      block%strain_inc = c_loc(straininc)
+      block%stretch_old = c_loc(stretchold)
+      block%stretch_new = c_loc(stretchnew)
+      block%stress_old = c_loc(stressold)
+      block%state_old = c_loc(stateold)
+      block%ener_intern_old = c_loc(enerinternold)
+      block%ener_inelas_old = c_loc(enerinelasold)
+      block%stress_new = c_loc(stressnew)
+      block%state_new = c_loc(statenew)
+      block%ener_intern_new = c_loc(enerinternnew)
+      block%ener_inelas_new = c_loc(enerinelasnew)
+      status = toron_abaqus_vumat_f64(block)
+!     Below -300 a point is at fault, and the library has deleted it; above, the deck is.
+      if (status < 0 .and. status > -300) call refuse
+
+      contains
+
+      subroutine refuse
+      integer(c_size_t), parameter :: capacity = 300
+      character(kind=c_char, len=capacity) :: text
+      integer(c_size_t) :: length
+      integer(c_int32_t) :: code
+      integer :: unit
+      length = toron_hyperelastic_validate_f64(props,                   &
+     &  int(nprops, c_size_t), text, capacity, code)
+      if (code /= status)                                               &
+     &  length = toron_status_message(status, text, capacity)
+      length = min(length, capacity - 1)
+!     The .log or .sta and the .msg file.
+      do unit = 6, 7
+        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),      &
+     &    ': ', text(1:length)
+      end do
+      call xplb_exit
+      end subroutine
+      end subroutine

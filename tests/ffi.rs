@@ -1,0 +1,199 @@
+//! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is shipped,
+//! against the truth's numbers.
+
+use std::ffi::OsStr;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+use serde_json::Value;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
+
+/// What the static library needs of the system.
+const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
+
+/// The folder of libtoron.a and libtoron.so, built from today's source as a user builds them.
+static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| {
+    let folder = Path::new(BUILD).join("library");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--manifest-path"]);
+    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")).arg("--target-dir").arg(&folder), "cargo");
+    folder.join("release")
+});
+
+/// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads.
+static CASES: LazyLock<PathBuf> = LazyLock::new(|| {
+    let table = std::fs::read_to_string(Path::new(ROOT).join("tests/truth/points.jsonl")).expect("points.jsonl");
+    let lines: String = table.lines().map(|line| case(&serde_json::from_str(line).expect("JSON"))).collect();
+    let path = Path::new(BUILD).join("cases.txt");
+    std::fs::write(&path, lines).expect("cases.txt is writable");
+    path
+});
+
+/// A number of the table, which writes true values as strings of some twenty digits.
+fn number(value: &Value) -> f64 {
+    value.as_f64().or_else(|| value.as_str()?.parse().ok()).expect("a number")
+}
+
+fn numbers<const N: usize>(case: &Value, keys: [&str; N]) -> [f64; N] {
+    keys.map(|key| number(&case[key]))
+}
+
+/// 11 22 33 12 23 31 of a tensor, which the table writes as 11 22 33 12 13 23.
+fn tensor(value: &Value) -> [f64; 6] {
+    [0, 1, 2, 3, 5, 4].map(|c| number(&value[c]))
+}
+
+/// One case as a line: id, properties, columns of F, stress and its scale, energies and theirs in double and in single
+/// precision, invariants and theirs, S by mode, and three flags. A scale is |truth| plus what rounding F does to it.
+fn case(t: &Value) -> String {
+    const SINGLE: f64 = 6e-8;
+    const MODERATE: [&str; 6] = ["small", "degenerate", "moderate", "failure", "units", "fibre_direction"];
+    let p = numbers(&t["params"], ["kel", "ktc", "p", "ktd", "kld", "eps_lim", "alpha", "beta"]);
+    let f: [f64; 9] = std::array::from_fn(|i| number(&t["F"][i % 3][i / 3]));
+    let stress = tensor(&t["sigma"]);
+    let size = (stress.iter().enumerate().map(|(c, s)| if c < 3 { s * s } else { 2.0 * s * s }).sum::<f64>()).sqrt();
+    let energies = numbers(t, ["wel", "wtc", "wtd", "wld"]);
+    let invariants = numbers(t, ["iel", "itc", "itd", "ild"]);
+    let sensitivity: [f64; 4] = std::array::from_fn(|k| number(&t["sensitivity_invariants"][k]));
+    let energy_scales = [f64::EPSILON / 2.0, SINGLE].map(|epsilon| {
+        // dW/dI where the invariant may be, since a kink within rounding counts.
+        let near: [f64; 4] = std::array::from_fn(|k| invariants[k].abs() + 4.0 * epsilon * sensitivity[k]);
+        let slopes = [p[0] * near[0], p[2] * p[1] * near[1].powf(p[2] - 1.0), p[3] * near[2], p[4] * near[3]];
+        std::array::from_fn::<f64, 4, _>(|k| energies[k].abs() + slopes[k] * sensitivity[k])
+    });
+    let invariant_scales: [f64; 4] = std::array::from_fn(|k| invariants[k].abs() + sensitivity[k]);
+    let modes = ["Sel", "Stc", "Std", "Sld"].map(|key| tensor(&t[key]));
+    let flags = [
+        MODERATE.contains(&t["category"].as_str().expect("a category")),
+        t["failed"].as_bool().expect("a flag"),
+        number(&t["fail_margin"]).abs() > 1e-6 * p[5].ln_1p(),
+    ];
+
+    let mut line = t["id"].to_string();
+    let fibre: [f64; 3] = std::array::from_fn(|i| number(&t["m"][i]));
+    let state = [energies, energy_scales[0], energy_scales[1], invariants, invariant_scales];
+    let groups = [&p[..], &fibre, &f, &stress, &[size + number(&t["sensitivity"])], state.as_flattened()];
+    for x in groups.into_iter().flatten().chain(modes.as_flattened()) {
+        write!(line, " {x:e}").expect("a string");
+    }
+    for flag in flags {
+        write!(line, " {}", i32::from(flag)).expect("a string");
+    }
+    line + "\n"
+}
+
+/// Runs a command to its end, which must be a good one.
+fn run(command: &mut Command, package: &str) -> Output {
+    let output = command.output().unwrap_or_else(|error| {
+        panic!("{}: {error}; on Debian or Ubuntu: apt-get install {package}", command.get_program().display())
+    });
+    let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(output.status.success(), "{command:?}: {}\n{stdout}\n{stderr}", output.status);
+    output
+}
+
+/// A new folder, named after the program in it.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(BUILD).join(name);
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Compiles and runs a program of `ffi-tests/c`.
+fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], reads_cases: bool) {
+    let program = folder(&format!("c-{name}{}{}", options.concat(), libraries.len())).join("program");
+    let mut gcc = Command::new("gcc");
+    gcc.args(["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O1"]).args(options);
+    gcc.arg(concat!("-DEXPECTED_VERSION=\"", env!("CARGO_PKG_VERSION"), "\""));
+    gcc.arg(format!("-I{ROOT}/include")).arg(format!("{ROOT}/ffi-tests/c/{name}.c"));
+    run(gcc.args(libraries).args(SYSTEM).arg("-o").arg(&program), "gcc");
+    let mut program = Command::new(program);
+    if reads_cases {
+        program.arg(&*CASES);
+    }
+    run(&mut program, "");
+}
+
+#[test]
+fn c_programs() {
+    let library = [LIBRARY.join("libtoron.a")];
+    for precision in [&[][..], &["-DSINGLE"]] {
+        c_program("about", precision, &library, false);
+        for name in ["points", "hosts", "threads"] {
+            c_program(name, precision, &library, true);
+        }
+    }
+    c_program("linear_elastic", &[], &library, false);
+}
+
+#[test]
+fn c_programs_with_the_shared_library() {
+    let folder = LIBRARY.display();
+    let library = [format!("-L{folder}"), "-ltoron".into(), format!("-Wl,-rpath,{folder}")];
+    c_program("points", &[], &library, true);
+    c_program("hosts", &[], &library, true);
+}
+
+/// The shims' own flags: they name all arguments that the solver passes, and use few.
+const SHIM_WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Wno-unused-dummy-argument", "-Werror"];
+
+/// Kinds of a solver's build.
+const INTEGERS_64: &str = "-fdefault-integer-8";
+const REALS_64: &str = "-fdefault-real-8";
+
+fn shim(name: &str) -> PathBuf {
+    Path::new(ROOT).join("fortran-shim").join(name)
+}
+
+/// Compiles and runs a program of `ffi-tests/fortran` with these sources.
+fn fortran_program(name: &str, options: &[&str], sources: &[PathBuf]) {
+    let folder = folder(&format!("fortran-{name}{}", options.concat()));
+    let program = folder.join("program");
+    let fortran = Path::new(ROOT).join("ffi-tests/fortran");
+    let mut gfortran = Command::new("gfortran");
+    gfortran.args(["-std=f2018", "-O1", "-fcheck=bounds", "-Wno-compare-reals"]).args(SHIM_WARNINGS).args(options);
+    gfortran.arg("-J").arg(&folder).args(sources).arg(fortran.join("cases.f90")).arg(fortran.join(name));
+    run(gfortran.arg(LIBRARY.join("libtoron.a")).args(SYSTEM).arg("-o").arg(&program), "gfortran");
+    run(Command::new(program).arg(&*CASES), "");
+}
+
+#[test]
+fn fortran_module() {
+    fortran_program("module.f90", &[], &[Path::new(ROOT).join("include/toron.f90")]);
+}
+
+#[test]
+fn shims_of_abaqus() {
+    for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
+        fortran_program("umat.f90", kinds, &[shim("abaqus_umat.f")]);
+        fortran_program("vumat.F90", kinds, &[shim("abaqus_vumat_dp.f")]);
+        fortran_program("vumat.F90", &[kinds, &["-DSINGLE"]].concat(), &[shim("abaqus_vumat_sp.f")]);
+    }
+}
+
+#[test]
+fn shims_of_lsdyna() {
+    let sources = ["lsdyna_umat41.f", "lsdyna_umat41v.f"].map(shim);
+    for kinds in [&[][..], &[INTEGERS_64], &[REALS_64], &[INTEGERS_64, REALS_64]] {
+        fortran_program("lsdyna.f90", kinds, &sources);
+    }
+}
+
+#[test]
+fn shims_read_in_fixed_and_in_free_form() {
+    let shims = std::fs::read_dir(Path::new(ROOT).join("fortran-shim")).expect("fortran-shim");
+    let shims: Vec<_> =
+        shims.map(|entry| entry.expect("a file").path()).filter(|p| p.extension() == Some("f".as_ref())).collect();
+    assert_eq!(shims.len(), 5);
+    for form in ["-ffixed-form", "-ffree-form"] {
+        for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
+            let mut gfortran = Command::new("gfortran");
+            gfortran.args(["-std=f2008", "-fsyntax-only", form]).args(SHIM_WARNINGS).args(kinds).args(&shims);
+            run(&mut gfortran, "gfortran");
+        }
+    }
+}
