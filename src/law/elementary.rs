@@ -59,8 +59,9 @@ fn ln_2<R: Real>() -> (R, R) {
 
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
-    let mut sum = R::splat(0.0);
-    for &c in coefficients.iter().rev() {
+    let mut rest = coefficients.iter().rev();
+    let mut sum = R::splat(rest.next().copied().unwrap_or(0.0));
+    for &c in rest {
         sum = sum.mul_add(x, R::splat(c));
     }
     sum

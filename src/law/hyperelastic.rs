@@ -13,7 +13,7 @@ use nalgebra::Matrix3;
 
 use super::elementary::{Exponent, ln_1p, power};
 use super::failure::Failure;
-use super::kinematics::{Deformation, FibreFrame};
+use super::kinematics::{Decomposition, FibreFrame, Strain};
 use super::parameters::{self, FIBRE};
 use super::real::{Real, along, scale};
 use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
@@ -158,15 +158,14 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The factors of the four modes in the Kirchhoff stress.
     #[inline(always)]
-    pub fn kirchhoff(&self, d: &Deformation<R>) -> Kirchhoff<R> {
+    pub fn kirchhoff(&self, d: &Decomposition<R>, strain: &Strain<R>) -> Kirchhoff<R> {
         let zero = R::splat(0.0);
-        let [i_el, i_tc, _, _] = d.invariants;
-        let compaction = (-i_tc).max(zero);
+        let compaction = (-strain.i_tc).max(zero);
         let powered = self.k_tc * power(compaction, self.exponent);
         Kirchhoff {
-            tension: self.k_el * i_el.max(zero),
+            tension: self.k_el * strain.i_el.max(zero),
             pressure: R::splat(0.5) * self.p * powered,
-            distortion: R::splat(0.25) * self.k_td * d.asinh_ratio,
+            distortion: R::splat(0.25) * self.k_td * strain.asinh_ratio,
             shear: self.k_ld * d.inverse_lambda * d.inverse_lambda,
             compaction_energy: powered * compaction,
         }
@@ -174,9 +173,9 @@ impl<R: Real> Hyperelastic<R> {
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, d: &Deformation<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
+    pub fn energies(&self, invariants: &[R; 4], k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
-        let [i_el, _, i_td, i_ld] = d.invariants;
+        let [i_el, _, i_td, i_ld] = *invariants;
         [
             half * k.tension * i_el.max(zero),
             k.compaction_energy,
@@ -186,36 +185,37 @@ impl<R: Real> Hyperelastic<R> {
     }
 
     /// Cauchy stress 11 22 33 12 23 31.
+    ///
+    /// With q2⊗q2 = 1 − e⊗e − q1⊗q1 the stress is −(p + d1) 1 + (t + p + d1) e⊗e + q1⊗v + v⊗q1, v = d1 q1 + d2 q2.
     #[inline(always)]
-    pub fn cauchy(&self, d: &Deformation<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 6] {
+    pub fn cauchy(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 6] {
         let inverse_j = d.inverse_jacobian;
-        let tension = k.tension * inverse_j;
-        let pressure = k.pressure * inverse_j;
         let distortion = k.distortion * inverse_j;
         let (d1, d2) = (distortion * d.d1, distortion * d.d2);
-        // The tractions on e, q1 and q2: each meets its axis once.
-        let mut on_e = scale(tension, d.e);
-        let mut on_q1 = along(scale(d1 - pressure, d.q1), d2, d.q2);
-        let mut on_q2 = along(scale(-(d1 + pressure), d.q2), d2, d.q1);
+        let across = k.pressure.mul_add(inverse_j, d1);
+        let (e, q1, q2) = (d.e, d.q1, d.q2());
+        let mut v = along(scale(d1, q1), d2, q2);
+        // e⊗w + w⊗e, w = ½ (t + p + d1) e.
+        let mut w = scale(R::splat(0.5) * k.tension.mul_add(inverse_j, across), e);
         if shear {
             let [t12, t13] = shear_components(d, k.shear * inverse_j);
-            on_e = along(along(on_e, t12, d.q1), t13, d.q2);
-            on_q1 = along(on_q1, t12, d.e);
-            on_q2 = along(on_q2, t13, d.e);
+            v = along(v, t12, e);
+            w = along(w, t13, q2);
         }
+        let two = R::splat(2.0);
         [
-            d.e[0].mul_add(on_e[0], d.q1[0].mul_add(on_q1[0], d.q2[0] * on_q2[0])),
-            d.e[1].mul_add(on_e[1], d.q1[1].mul_add(on_q1[1], d.q2[1] * on_q2[1])),
-            d.e[2].mul_add(on_e[2], d.q1[2].mul_add(on_q1[2], d.q2[2] * on_q2[2])),
-            d.e[0].mul_add(on_e[1], d.q1[0].mul_add(on_q1[1], d.q2[0] * on_q2[1])),
-            d.e[1].mul_add(on_e[2], d.q1[1].mul_add(on_q1[2], d.q2[1] * on_q2[2])),
-            d.e[2].mul_add(on_e[0], d.q1[2].mul_add(on_q1[0], d.q2[2] * on_q2[0])),
+            two.mul_add(e[0].mul_add(w[0], q1[0] * v[0]), -across),
+            two.mul_add(e[1].mul_add(w[1], q1[1] * v[1]), -across),
+            two.mul_add(e[2].mul_add(w[2], q1[2] * v[2]), -across),
+            e[0].mul_add(w[1], e[1].mul_add(w[0], q1[0].mul_add(v[1], q1[1] * v[0]))),
+            e[1].mul_add(w[2], e[2].mul_add(w[1], q1[1].mul_add(v[2], q1[2] * v[1]))),
+            e[2].mul_add(w[0], e[0].mul_add(w[2], q1[2].mul_add(v[0], q1[0] * v[2]))),
         ]
     }
 
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
     #[inline(always)]
-    pub fn modes(&self, d: &Deformation<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
+    pub fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
         let one = R::splat(1.0);
         let (inverse_11, inverse_22) = (one / d.r11, one / d.r22);
         // F⁻¹e, F⁻¹q1, F⁻¹q2.
@@ -235,37 +235,58 @@ impl<R: Real> Hyperelastic<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The law at a point: columns of F, the material frame and where it is usable, the latch of the old state; `shear`
-    /// says whether there is a longitudinal-shear stiffness whose terms are to be computed.
+    /// Why a point cannot be evaluated, as a status code, or 0; `usable` says whether its fibre direction is.
+    #[inline(always)]
+    pub fn flaw(&self, d: &Decomposition<R>, usable: R::Mask) -> R {
+        let zero = R::splat(0.0);
+        let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
+        // A number times zero is zero unless it is NaN or infinite.
+        let finite = (d.size * zero).le(zero);
+        // The first reason that applies, from the last to the first.
+        let flaw = R::select(upright, zero, R::splat(status::INVERTED as f64));
+        let flaw = R::select(usable, flaw, R::splat(status::FIBRE_DIRECTION as f64));
+        R::select(finite, flaw, R::splat(status::NOT_FINITE as f64))
+    }
+
+    /// The answer for a point, given its kinematics, its flaw and the latch of the old state; `shear` says whether there is
+    /// a longitudinal-shear stiffness whose terms are to be computed.
     ///
     /// No NaN or infinity leaves in the stress, the modes, the latch, the wave modulus or the status; energies,
     /// invariants and index are to be replaced by the old ones where `kept` says so.
     #[inline(always)]
-    pub fn evaluate(
+    #[allow(clippy::too_many_arguments)]
+    pub fn respond(
         &self,
-        f: &[[R; 3]; 3],
+        d: &Decomposition<R>,
+        strain: &Strain<R>,
+        k: &Kirchhoff<R>,
         frame: &FibreFrame<R>,
-        usable: R::Mask,
+        flaw: R,
         latch: R,
         request: Request,
         shear: bool,
     ) -> Response<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let latched = Failure::latched(latch);
+        let invariants = [strain.i_el, strain.i_tc, strain.i_td, d.shear_invariant()];
+        let mut stress = if request.stress { self.cauchy(d, k, shear) } else { [zero; 6] };
+        let energies = if request.energies { self.energies(&invariants, k, shear) } else { [zero; 4] };
+        let mut modes = if request.modes { self.modes(d, k, frame) } else { [[zero; 6]; 4] };
+        let wave = if request.wave_modulus { self.wave_modulus(d, strain, k) } else { self.k_el };
+        let index = if request.failure { self.failure.index(&invariants) } else { zero };
 
-        let d = Deformation::new(f, frame);
-        let k = self.kirchhoff(&d);
-        let mut stress = if request.stress { self.cauchy(&d, &k, shear) } else { [zero; 6] };
-        let energies = if request.energies { self.energies(&d, &k, shear) } else { [zero; 4] };
-        let mut modes = if request.modes { self.modes(&d, &k, frame) } else { [[zero; 6]; 4] };
-        let wave = if request.wave_modulus { self.wave_modulus(&d, &k) } else { self.k_el };
-        let index = if request.failure { self.failure.index(&d.invariants) } else { zero };
-
-        // A number times zero is zero unless it is NaN or infinite.
+        // Whether all that was asked for is a finite number: their sum times zero is zero.
         let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
-        probe = probe + (energies[0] + energies[1]) + (energies[2] + energies[3]) + index;
+        if request.energies {
+            probe = probe + (energies[0] + energies[1]) + energies[2];
+            if shear {
+                probe = probe + energies[3];
+            }
+        }
         if request.invariants {
-            probe = probe + (d.invariants[0] + d.invariants[1]) + (d.invariants[2] + d.invariants[3]);
+            probe = probe + (invariants[0] + invariants[1]) + (invariants[2] + invariants[3]);
+        }
+        if request.failure {
+            probe = probe + index;
         }
         if request.wave_modulus {
             probe = probe + wave;
@@ -278,24 +299,11 @@ impl<R: Real> Hyperelastic<R> {
             }
         }
         let representable = (probe * zero).le(zero);
-        let mut entries = zero;
-        for column in f {
-            for &x in column {
-                entries = x.mul_add(zero, entries);
-            }
-        }
-        let finite = entries.le(zero);
-        let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
 
-        // The first reason that applies, from the last to the first.
-        let mut status = R::select(representable, zero, R::splat(status::OVERFLOW as f64));
-        status = R::select(upright, status, R::splat(status::INVERTED as f64));
-        status = R::select(usable, status, R::splat(status::FIBRE_DIRECTION as f64));
-        status = R::select(finite, status, R::splat(status::NOT_FINITE as f64));
-        let intact_state = (latch * zero).le(zero);
-        let unknown = R::select(intact_state, zero, R::splat(status::STATE_NOT_FINITE as f64));
-        status = R::select(latched, unknown, status);
-
+        let latched = Failure::latched(latch);
+        let status = R::select(flaw.lt(zero) | representable, flaw, R::splat(status::OVERFLOW as f64));
+        let unknown = R::select((latch * zero).le(zero), zero, R::splat(status::STATE_NOT_FINITE as f64));
+        let status = R::select(latched, unknown, status);
         let kept = latched | status.lt(zero);
         let fails = Failure::reached(index) & !kept;
         for x in &mut stress {
@@ -307,7 +315,7 @@ impl<R: Real> Hyperelastic<R> {
         Response {
             stress,
             energies,
-            invariants: d.invariants,
+            invariants,
             failure_index: index,
             failed: R::select(latched | fails, one, zero),
             modes,
@@ -340,7 +348,7 @@ fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
 
 /// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · P b e.
 #[inline(always)]
-pub(super) fn shear_components<R: Real>(d: &Deformation<R>, factor: R) -> [R; 2] {
+pub(super) fn shear_components<R: Real>(d: &Decomposition<R>, factor: R) -> [R; 2] {
     [factor * d.f_a.mul_add(d.r11, d.f_b * d.r12), factor * d.f_b * d.r22]
 }
 
@@ -374,7 +382,11 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         T: nalgebra::Scalar,
     {
         let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
-        let r = self.evaluate(&columns, &self.frame, true, state[FAILED], request, self.shears());
+        let d = Decomposition::new(&columns, &self.frame);
+        let strain = Strain::new(&d);
+        let k = self.kirchhoff(&d, &strain);
+        let flaw = self.flaw(&d, true);
+        let r = self.respond(&d, &strain, &k, &self.frame, flaw, state[FAILED], request, self.shears());
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

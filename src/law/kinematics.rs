@@ -15,7 +15,11 @@
 //! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact, and C − 1 follows
 //! from it without cancellation; far from it the sums over F itself round best. Both are the same formula,
 //! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0: the choice is a number,
-//! not a branch.
+//! not a branch. The images of the transverse axes less their parts along e are a = σ t1 + δ2 and b = σ t2 + δ3 with
+//! δ2 = g_2 − f_a e, δ3 = g_3 − f_b e, and a·a − σ = δ2·(a + σ t1).
+//!
+//! The work comes in two stages, algebra ([`Decomposition`]) and logarithms ([`Strain`]), which a block runs one after the
+//! other over several points: either has a chain of operations short enough for the processor to overlap points.
 
 use super::elementary::{Asinh, Logarithm, reciprocals};
 use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
@@ -57,13 +61,12 @@ impl<R: Real> FibreFrame<R> {
     }
 }
 
-/// What the law needs to know of a deformation gradient.
+/// The algebra of a deformation gradient: F N = Q R, and what the logarithms are taken of.
 #[derive(Clone, Copy, Debug)]
-pub struct Deformation<R> {
-    /// Current fibre direction and two axes across it, as vectors in space.
+pub struct Decomposition<R> {
+    /// Current fibre direction and first axis across it, as vectors in space; the second one is [`q2`](Self::q2).
     pub e: [R; 3],
     pub q1: [R; 3],
-    pub q2: [R; 3],
     /// The upper triangle of R, see the module's text, and 1/λ.
     pub lambda: R,
     pub inverse_lambda: R,
@@ -76,19 +79,20 @@ pub struct Deformation<R> {
     pub jacobian: R,
     pub inverse_jacobian: R,
     pub area_ratio: R,
-    /// Elongation, compaction, distortion and longitudinal-shear invariant (Eq. 4.9).
-    pub invariants: [R; 4],
-    /// The deviator of B/J_t on (q1, q2), its magnitude s, asinh s = 2 I_td, asinh s/s, and x = √(1 + s²) = cosh 2 I_td.
+    /// The deviator of B/J_t on (q1, q2): (d1, d2; d2, −d1).
     pub d1: R,
     pub d2: R,
-    pub s: R,
-    pub asinh_s: R,
-    pub asinh_ratio: R,
-    pub cosh: R,
+    /// λ² and J_t², and what rounding took from them, relative to them.
+    stretch_square: R,
+    stretch_lost: R,
+    area_square: R,
+    area_lost: R,
+    /// Σ (F − 1)²: finite where every entry of F is, and is not too large to be squared.
+    pub size: R,
 }
 
-impl<R: Real> Deformation<R> {
-    /// The deformation of `f` (columns of F) seen from the material frame `n`.
+impl<R: Real> Decomposition<R> {
+    /// The decomposition of `f` (columns of F) in the material frame `n`.
     ///
     /// Meaningful where F is finite, det F > 0 and the fibre's image is not zero; other points give NaN or infinities
     /// and must be masked out by the caller.
@@ -101,19 +105,22 @@ impl<R: Real> Deformation<R> {
         let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
         let h = [f[0][0] - one, f[1][1] - one, f[2][2] - one];
-        let off_diagonal = dot([f[0][1], f[0][2], f[1][2]], [f[0][1], f[0][2], f[1][2]])
-            + dot([f[1][0], f[2][0], f[2][1]], [f[1][0], f[2][0], f[2][1]]);
-        let near = (dot(h, h) + off_diagonal).lt(R::splat(NEAR_REFERENCE));
+        let size = dot(h, h)
+            + (dot([f[0][1], f[0][2], f[1][2]], [f[0][1], f[0][2], f[1][2]])
+                + dot([f[1][0], f[2][0], f[2][1]], [f[1][0], f[2][0], f[2][1]]));
+        let near = size.lt(R::splat(NEAR_REFERENCE));
         let sigma = R::select(near, one, zero);
 
-        // g_i = (F − σ1) n_i, c_i = F n_i.
-        let diagonal = [R::select(near, h[0], f[0][0]), R::select(near, h[1], f[1][1]), R::select(near, h[2], f[2][2])];
-        let columns =
-            [[diagonal[0], f[0][1], f[0][2]], [f[1][0], diagonal[1], f[1][2]], [f[2][0], f[2][1], diagonal[2]]];
+        // g_i = (F − σ1) n_i.
+        let columns = [
+            [R::select(near, h[0], f[0][0]), f[0][1], f[0][2]],
+            [f[1][0], R::select(near, h[1], f[1][1]), f[1][2]],
+            [f[2][0], f[2][1], R::select(near, h[2], f[2][2])],
+        ];
         let (g1, g2, g3) = (image(&columns, n.m), image(&columns, n.t1), image(&columns, n.t2));
-        let (c1, c2, c3) = (along(g1, sigma, n.m), along(g2, sigma, n.t1), along(g3, sigma, n.t2));
 
         // Along the fibre.
+        let c1 = along(g1, sigma, n.m);
         let u11 = dot(g1, along(c1, sigma, n.m));
         let stretch_square = sigma + u11;
         let lambda = stretch_square.sqrt();
@@ -123,68 +130,91 @@ impl<R: Real> Deformation<R> {
         // Longitudinal shear.
         let f_a = sigma.mul_add(dot(n.t1, g1), dot(c1, g2)) * inverse_lambda;
         let f_b = sigma.mul_add(dot(n.t2, g1), dot(c1, g3)) * inverse_lambda;
-        let i_ld = f_a.mul_add(f_a, f_b * f_b).sqrt() * inverse_lambda;
 
-        // Across the fibre: x_ij = a_i·a_j − σ δ_ij for the images a_i of the transverse axes less their part along e.
-        let a = along(c2, -f_a, e);
-        let b = along(c3, -f_b, e);
-        let (twice_1, twice_2) = (along(c2, sigma, n.t1), along(c3, sigma, n.t2));
-        let x22 = R::select(near, dot(g2, twice_1) - f_a * f_a, dot(a, a));
-        let x33 = R::select(near, dot(g3, twice_2) - f_b * f_b, dot(b, b));
-        let x23 = R::select(near, dot(c2, g3) + dot(n.t2, g2) - f_a * f_b, dot(a, b));
-        let r11_square = sigma + x22;
-        let r11 = r11_square.sqrt();
+        // Across the fibre: x_ij = a_i·a_j − σ δ_ij for a_1 = a, a_2 = b.
+        let (delta_2, delta_3) = (along(g2, -f_a, e), along(g3, -f_b, e));
+        let a = along(delta_2, sigma, n.t1);
+        let x22 = dot(delta_2, along(a, sigma, n.t1));
+        let x33 = dot(delta_3, along(delta_3, sigma + sigma, n.t2));
+        let x23 = sigma.mul_add(dot(n.t2, delta_2), dot(a, delta_3));
+        let r11 = (sigma + x22).sqrt();
         let inverse_r11 = one / r11;
         let area_ratio = jacobian * inverse_lambda;
         let inverse_area = lambda * inverse_jacobian;
         let r12 = x23 * inverse_r11;
-        let r22 = area_ratio * inverse_r11;
 
-        // Compaction: ¼ ln det X near the reference, ½ ln J_t away from it.
+        // J_t² = det X near the reference, where its distance from 1 holds more digits than J.
         let growth = x22 + x33 + x22.mul_add(x33, -(x23 * x23));
         let area_square = R::select(near, one + growth, area_ratio * area_ratio);
 
-        // Distortion.
-        let d1 = half.mul_add(x22 - x33, r12 * r12) * inverse_area;
-        let d2 = r12 * inverse_r11;
-        let s = d1.mul_add(d1, d2 * d2).sqrt();
-
-        // Two logarithms and an inverse hyperbolic sine share one division. Near the reference 1 + u has lost digits of u
-        // that the logarithm needs: they follow as a correction.
-        let (elongation, compaction, distortion) =
-            (Logarithm::new(stretch_square), Logarithm::new(area_square), Asinh::new(s));
-        let [a_1, a_2] = distortion.denominators();
-        let [over_el, over_tc, over_1, over_2] =
-            reciprocals([elongation.denominator(), compaction.denominator(), a_1, a_2]);
-        let lost_el = u11 - (stretch_square - sigma);
-        let lost_tc = R::select(near, growth - (area_square - one), zero);
-        let i_el = half * elongation.finish(over_el, lost_el * inverse_lambda * inverse_lambda);
-        let i_tc = R::splat(0.25) * compaction.finish(over_tc, lost_tc * inverse_area * inverse_area);
-        let (asinh_s, asinh_ratio) = distortion.finish([over_1, over_2]);
-
-        let q1 = scale(inverse_r11, a);
-        let q2 = cross(e, q1);
-        Deformation {
+        Decomposition {
             e,
-            q1,
-            q2,
+            q1: scale(inverse_r11, a),
             lambda,
             inverse_lambda,
             f_a,
             f_b,
             r11,
             r12,
-            r22,
+            r22: area_ratio * inverse_r11,
             jacobian,
             inverse_jacobian,
             area_ratio,
-            invariants: [i_el, i_tc, half * asinh_s, i_ld],
-            d1,
-            d2,
-            s,
-            asinh_s,
+            d1: half.mul_add(x22 - x33, r12 * r12) * inverse_area,
+            d2: r12 * inverse_r11,
+            stretch_square,
+            stretch_lost: (u11 - (stretch_square - sigma)) * inverse_lambda * inverse_lambda,
+            area_square,
+            area_lost: R::select(near, growth - (area_square - one), zero) * inverse_area * inverse_area,
+            size,
+        }
+    }
+
+    /// The second axis across the fibre.
+    #[inline(always)]
+    pub fn q2(&self) -> [R; 3] {
+        cross(self.e, self.q1)
+    }
+
+    /// The longitudinal-shear invariant I_ld, the only one that needs no logarithm.
+    #[inline(always)]
+    pub fn shear_invariant(&self) -> R {
+        self.f_a.mul_add(self.f_a, self.f_b * self.f_b).sqrt() * self.inverse_lambda
+    }
+}
+
+/// What the logarithms of a decomposition give.
+#[derive(Clone, Copy, Debug)]
+pub struct Strain<R> {
+    /// Elongation, compaction and distortion invariant (Eq. 4.9).
+    pub i_el: R,
+    pub i_tc: R,
+    pub i_td: R,
+    /// a/s and cosh a for a = asinh s = 2 I_td, s² = d1² + d2².
+    pub asinh_ratio: R,
+    pub cosh: R,
+    pub s: R,
+}
+
+impl<R: Real> Strain<R> {
+    /// Two logarithms and an inverse hyperbolic sine, which share one division.
+    #[inline(always)]
+    pub fn new(d: &Decomposition<R>) -> Self {
+        let s = d.d1.mul_add(d.d1, d.d2 * d.d2).sqrt();
+        let (elongation, compaction, distortion) =
+            (Logarithm::new(d.stretch_square), Logarithm::new(d.area_square), Asinh::new(s));
+        let [a_1, a_2] = distortion.denominators();
+        let [over_el, over_tc, over_1, over_2] =
+            reciprocals([elongation.denominator(), compaction.denominator(), a_1, a_2]);
+        let (asinh_s, asinh_ratio) = distortion.finish([over_1, over_2]);
+        let half = R::splat(0.5);
+        Strain {
+            i_el: half * elongation.finish(over_el, d.stretch_lost),
+            i_tc: R::splat(0.25) * compaction.finish(over_tc, d.area_lost),
+            i_td: half * asinh_s,
             asinh_ratio,
             cosh: distortion.cosh(),
+            s,
         }
     }
 }

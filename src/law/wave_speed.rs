@@ -17,7 +17,7 @@
 
 use super::elementary::{Exponent, power};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
-use super::kinematics::Deformation;
+use super::kinematics::{Decomposition, Strain};
 use super::real::Real;
 
 /// Below this compaction the stiffness W″ of an exponent p < 2 is held, since it is infinite at 0.
@@ -26,12 +26,11 @@ pub(super) const COMPACTION_FLOOR: f64 = 1e-8;
 impl<R: Real> Hyperelastic<R> {
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
-    pub fn wave_modulus(&self, d: &Deformation<R>, k: &Kirchhoff<R>) -> R {
+    pub fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
-        let [i_el, i_tc, _, _] = d.invariants;
 
         // |W′| = 2 · pressure; W″ = (p − 1)|W′|/i, or with i held at its floor.
-        let compaction = -i_tc;
+        let compaction = -strain.i_tc;
         let floor = R::splat(COMPACTION_FLOOR);
         let above = floor.lt(compaction);
         let slope = R::splat(2.0) * k.pressure;
@@ -45,13 +44,13 @@ impl<R: Real> Hyperelastic<R> {
         let active = zero.le(compaction);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
-        let grown = d.s + d.cosh; // eᵃ
-        let distorting = k.distortion * grown + quarter * self.k_td * d.asinh_s;
+        let grown = strain.s + strain.cosh; // eᵃ
+        let distorting = k.distortion * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         let [on_q1, on_q2] = shear_components(d, k.shear);
         let coupling = R::splat(4.0) * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
 
-        let across = self.k_el.mul_add(i_el.max(zero), compacting + distorting + shearing);
+        let across = self.k_el.mul_add(strain.i_el.max(zero), compacting + distorting + shearing);
         across.max(self.k_el) + coupling
     }
 }

@@ -19,8 +19,8 @@ mod x86;
 
 use core::mem::MaybeUninit;
 
-use super::hyperelastic::{Hyperelastic, Request};
-use super::kinematics::FibreFrame;
+use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
+use super::kinematics::{Decomposition, FibreFrame, Strain};
 use super::real::Real;
 use super::status::{self, Error};
 
@@ -356,16 +356,16 @@ precision!(f32: f32, f32, f32);
 #[inline(always)]
 unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
     let lanes = law.lanes::<R>();
-    let density = R::splat(block.density.into());
     let mut worst = R::splat(0.0);
     let mut left_over = LeftOver::new();
     let mut part = Pointers { n: block.n - block.n % R::COUNT, ..*block };
     loop {
         let mut i = 0;
         while i < part.n {
-            // SAFETY: i + COUNT ≤ n, and the caller's promise.
-            unsafe { evaluate::<T, R, WANT>(&lanes, &part, density, i, &mut worst) };
-            i += R::COUNT;
+            let count = STAGED.min((part.n - i) / R::COUNT);
+            // SAFETY: i + count COUNT ≤ n, and the caller's promise.
+            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
+            i += count * R::COUNT;
         }
         if left_over.count > 0 {
             // SAFETY: the caller's promise.
@@ -391,16 +391,102 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
 /// The most lanes that there are.
 const WIDEST: usize = 16;
 
-/// Evaluates the points from `i` on, as many as there are lanes.
+/// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
+/// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
+const STAGED: usize = 8;
+
+/// Evaluates `count` registers of points from `i` on, stage by stage.
 ///
 /// # Safety
-/// As for [`sweep`], with i + COUNT ≤ n.
+/// As for [`sweep`], with i + count COUNT ≤ n and count ≤ STAGED.
 #[inline(always)]
 unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
-    density: R,
     i: usize,
+    count: usize,
+    worst: &mut R,
+) {
+    let mut decompositions = [const { MaybeUninit::<(Decomposition<R>, R)>::uninit() }; STAGED];
+    let mut strains = [const { MaybeUninit::<Strain<R>>::uninit() }; STAGED];
+    let mut stresses = [const { MaybeUninit::<Kirchhoff<R>>::uninit() }; STAGED];
+    let asked = WANT == AS_ASKED;
+    let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
+    // SAFETY: the pointers that the block has are valid for the lanes from i on; each stage reads what the one before has
+    // written.
+    unsafe {
+        for (k, place) in decompositions.iter_mut().take(count).enumerate() {
+            let at = i + k * R::COUNT;
+            let (frame, usable) = frame(law, block, at, fibres);
+            let d = Decomposition::new(&gradient(block, at), &frame);
+            place.write((d, law.flaw(&d, usable)));
+        }
+        for (place, d) in strains.iter_mut().zip(&decompositions).take(count) {
+            place.write(Strain::new(&d.assume_init_ref().0));
+        }
+        for ((place, d), strain) in stresses.iter_mut().zip(&decompositions).zip(&strains).take(count) {
+            place.write(law.kirchhoff(&d.assume_init_ref().0, strain.assume_init_ref()));
+        }
+        for (k, ((d, strain), stress)) in decompositions.iter().zip(&strains).zip(&stresses).take(count).enumerate() {
+            let (d, flaw) = d.assume_init_ref();
+            let (strain, stress) = (strain.assume_init_ref(), stress.assume_init_ref());
+            finish::<T, R, WANT>(law, block, i + k * R::COUNT, d, strain, stress, *flaw, worst);
+        }
+    }
+}
+
+/// The columns of F.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3] {
+    let f = &block.deformation_gradient;
+    // SAFETY: the caller's promise.
+    unsafe {
+        [
+            [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
+            [R::load(f[3].add(i)), R::load(f[4].add(i)), R::load(f[5].add(i))],
+            [R::load(f[6].add(i)), R::load(f[7].add(i)), R::load(f[8].add(i))],
+        ]
+    }
+}
+
+/// The material frame, of the property or of the points, and where it is usable.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn frame<T, R: Lanes<T>>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    fibres: bool,
+) -> (FibreFrame<R>, R::Mask) {
+    if fibres {
+        let m = &block.fibre;
+        // SAFETY: the caller's promise.
+        FibreFrame::new(unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] })
+    } else {
+        let zero = R::splat(0.0);
+        (law.frame, zero.le(zero))
+    }
+}
+
+/// The last stage: the answer, stored.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    d: &Decomposition<R>,
+    strain: &Strain<R>,
+    stress: &Kirchhoff<R>,
+    flaw: R,
     worst: &mut R,
 ) {
     let zero = R::splat(0.0);
@@ -414,28 +500,16 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
         wave_modulus: asked && !block.wave_speed.is_null(),
     };
     let shear = asked || WANT & SHEAR != 0;
-    let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
     let stride = block.leading_dimension;
-    let always = zero.le(zero);
     // Which lanes keep an old value that is not finite.
-    let mut dropped = !always;
+    let mut dropped = zero.lt(zero);
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
-        let f = &block.deformation_gradient;
-        let f = [
-            [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
-            [R::load(f[3].add(i)), R::load(f[4].add(i)), R::load(f[5].add(i))],
-            [R::load(f[6].add(i)), R::load(f[7].add(i)), R::load(f[8].add(i))],
-        ];
-        let (frame, usable) = if fibres {
-            let m = &block.fibre;
-            FibreFrame::new([R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))])
-        } else {
-            (law.frame, always)
-        };
         let latch = if block.failure_old.is_null() { zero } else { R::load(block.failure_old.add(stride + i)) };
-        let r = law.evaluate(&f, &frame, usable, latch, request, shear);
+        // The modes alone want the frame again.
+        let frame = if request.modes { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
+        let r = law.respond(d, strain, stress, &frame, flaw, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
@@ -467,6 +541,7 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
             }
         }
         if request.wave_modulus {
+            let density = R::splat(block.density.into());
             (r.wave_modulus / density).sqrt().store(block.wave_speed.add(i));
         }
         let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
