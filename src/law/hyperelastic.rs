@@ -286,10 +286,12 @@ impl<R: Real> Hyperelastic<R> {
         }
         let finite = entries.le(zero);
         let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
+        let inverted = d.jacobian.le(zero) | d.lambda.le(zero);
 
-        // The first reason that applies, from the last to the first.
-        let mut status = R::select(representable, zero, R::splat(status::OVERFLOW as f64));
-        status = R::select(upright, status, R::splat(status::INVERTED as f64));
+        // The first reason that applies, from the last to the first. A determinant that overflows on its way is NaN:
+        // neither upright nor inverted.
+        let mut status = R::select(representable & upright, zero, R::splat(status::OVERFLOW as f64));
+        status = R::select(inverted, R::splat(status::INVERTED as f64), status);
         status = R::select(usable, status, R::splat(status::FIBRE_DIRECTION as f64));
         status = R::select(finite, status, R::splat(status::NOT_FINITE as f64));
         let intact_state = (latch * zero).le(zero);
