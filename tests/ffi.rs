@@ -1,28 +1,17 @@
 //! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is shipped,
 //! against the truth's numbers.
 
+#[path = "common/library.rs"]
+mod library;
+
 use std::ffi::OsStr;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 use std::sync::LazyLock;
 
+use library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 use serde_json::Value;
-
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
-const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
-
-/// What the static library needs of the system.
-const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
-
-/// The folder of libtoron.a and libtoron.so, built from today's source as a user builds them.
-static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| {
-    let folder = Path::new(BUILD).join("library");
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--manifest-path"]);
-    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")).arg("--target-dir").arg(&folder), "cargo");
-    folder.join("release")
-});
 
 /// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads.
 static CASES: LazyLock<PathBuf> = LazyLock::new(|| {
@@ -84,23 +73,6 @@ fn case(t: &Value) -> String {
         write!(line, " {}", i32::from(flag)).expect("a string");
     }
     line + "\n"
-}
-
-/// Runs a command to its end, which must be a good one.
-fn run(command: &mut Command, package: &str) -> Output {
-    let output = command.output().unwrap_or_else(|error| {
-        panic!("{}: {error}; on Debian or Ubuntu: apt-get install {package}", command.get_program().display())
-    });
-    let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
-    assert!(output.status.success(), "{command:?}: {}\n{stdout}\n{stderr}", output.status);
-    output
-}
-
-/// A new folder, named after the program in it.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(BUILD).join(name);
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
 }
 
 /// Compiles and runs a program of `ffi-tests/c`.

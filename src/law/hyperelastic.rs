@@ -240,12 +240,13 @@ impl<R: Real> Hyperelastic<R> {
     pub fn flaw(&self, d: &Decomposition<R>, usable: R::Mask) -> R {
         let zero = R::splat(0.0);
         let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
-        // A number times zero is zero unless it is NaN or infinite.
-        let finite = (d.size * zero).le(zero);
-        // The first reason that applies, from the last to the first.
-        let flaw = R::select(upright, zero, R::splat(status::INVERTED as f64));
+        let inverted = d.jacobian.le(zero) | d.lambda.le(zero);
+        // The first reason that applies, from the last to the first. A determinant that overflows on its way is NaN:
+        // neither upright nor inverted.
+        let flaw = R::select(upright, zero, R::splat(status::OVERFLOW as f64));
+        let flaw = R::select(inverted, R::splat(status::INVERTED as f64), flaw);
         let flaw = R::select(usable, flaw, R::splat(status::FIBRE_DIRECTION as f64));
-        R::select(finite, flaw, R::splat(status::NOT_FINITE as f64))
+        R::select(d.finite.le(zero), flaw, R::splat(status::NOT_FINITE as f64))
     }
 
     /// The answer for a point, given its kinematics, its flaw and the latch of the old state; `shear` says whether there is

@@ -87,8 +87,8 @@ pub struct Decomposition<R> {
     stretch_lost: R,
     area_square: R,
     area_lost: R,
-    /// Σ (F − 1)²: finite where every entry of F is, and is not too large to be squared.
-    pub size: R,
+    /// 0 where every entry of F is finite, else NaN.
+    pub finite: R,
 }
 
 impl<R: Real> Decomposition<R> {
@@ -110,6 +110,14 @@ impl<R: Real> Decomposition<R> {
                 + dot([f[1][0], f[2][0], f[2][1]], [f[1][0], f[2][0], f[2][1]]));
         let near = size.lt(R::splat(NEAR_REFERENCE));
         let sigma = R::select(near, one, zero);
+
+        // A number times zero is zero unless it is NaN or infinite.
+        let mut finite = zero;
+        for column in f {
+            for &entry in column {
+                finite = entry.mul_add(zero, finite);
+            }
+        }
 
         // g_i = (F − σ1) n_i.
         let columns = [
@@ -166,7 +174,7 @@ impl<R: Real> Decomposition<R> {
             stretch_lost: (u11 - (stretch_square - sigma)) * inverse_lambda * inverse_lambda,
             area_square,
             area_lost: R::select(near, growth - (area_square - one), zero) * inverse_area * inverse_area,
-            size,
+            finite,
         }
     }
 
