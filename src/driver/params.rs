@@ -7,6 +7,7 @@ use super::unit_names::unit;
 use super::{Error, print};
 use crate::host::c_api::TORON_ABI_VERSION;
 use crate::host::units::UnitSystem;
+use crate::law::hyperelastic::Hyperelastic;
 use crate::law::parameters::{
     self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Preset, Property,
 };
@@ -115,15 +116,14 @@ fn deck(preset: &Preset, units: &UnitSystem) -> String {
     let density = units.from_si(preset.density, DENSITY);
     let [length, mass, time] = units.names();
     let heading = format!("{}, in {length}, {mass}, {time}", preset.source);
-    let moduli = bulk_and_shear(values[0]);
-    let cards = ls_dyna(preset, &heading, density, &values, moduli);
-    format!("{cards}\n{}", abaqus(preset, &heading, density, &values))
-}
-
-/// The bulk and shear moduli that LS-DYNA wants for contact stiffness and time step: K = k/2, G = 3k/8, so that
-/// K + 4G/3 = k, the modulus of the fibre's wave and the first property of either law.
-fn bulk_and_shear(fibre: f64) -> [f64; 2] {
-    [fibre / 2.0, 3.0 * fibre / 8.0]
+    match Hyperelastic::new(&values) {
+        Ok(law) if std::ptr::eq(preset.table, HYPERELASTIC.as_slice()) => {
+            let cards = ls_dyna(preset, &heading, density, &values, law.bulk_and_shear());
+            format!("{cards}\n{}", abaqus(preset, &heading, density, &values))
+        }
+        // The linear law goes into a host by the C interface, not by a deck: the same card would run the other law.
+        _ => format!("{heading}\n{}", preset_table(preset, units)),
+    }
 }
 
 /// `*MAT_USER_DEFINED_MATERIAL_MODELS`: the properties as P1…, then the bulk and the shear modulus.

@@ -1,0 +1,28 @@
+#!/bin/sh
+# Runs every test on a fresh machine: installs the compilers and tools that the tests call, where they are missing, then
+# `cargo test`. Arguments go to `cargo test`.
+set -eu
+cd "$(dirname "$0")"
+
+missing=""
+for tool in gcc:gcc gfortran:gfortran objdump:binutils valgrind:valgrind; do
+    command -v "${tool%%:*}" >/dev/null 2>&1 || missing="$missing ${tool#*:}"
+done
+if [ -n "$missing" ]; then
+    sudo=""
+    [ "$(id -u)" -eq 0 ] || sudo=sudo
+    if command -v apt-get >/dev/null 2>&1; then
+        echo "installing$missing"
+        $sudo apt-get update -qq
+        # shellcheck disable=SC2086
+        $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing libc6-dev >/dev/null
+    else
+        echo "please install:$missing" >&2
+        exit 1
+    fi
+fi
+if ! command -v cargo >/dev/null 2>&1; then
+    echo "please install Rust 1.89 or later: https://rustup.rs" >&2
+    exit 1
+fi
+cargo test --locked "$@"
