@@ -179,8 +179,36 @@ impl<T: Precision> Hyperelastic<T> {
             wave_modulus: !block.wave_speed.is_null(),
         };
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
+        let mut block = *block;
         // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
-        Ok(unsafe { T::dispatch(level, self, block, request) })
+        unsafe {
+            block.start_fresh();
+            Ok(T::dispatch(level, self, &block, request))
+        }
+    }
+}
+
+impl<T: Precision> Pointers<T> {
+    /// Where there is no old state, makes one of zeros in the arrays of the new: the loops need not ask for it.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`].
+    unsafe fn start_fresh(&mut self) {
+        let (n, stride) = (self.n, self.leading_dimension);
+        let groups = [
+            (&mut self.energies_old, self.energies, 4),
+            (&mut self.invariants_old, self.invariants, 4),
+            (&mut self.failure_old, self.failure, 3),
+        ];
+        for (old, new, components) in groups {
+            if old.is_null() && !new.is_null() {
+                for c in 0..components {
+                    // SAFETY: the caller's promise; a number whose bytes are all 0 is 0.
+                    unsafe { new.add(c * stride).write_bytes(0, n) };
+                }
+                *old = new;
+            }
+        }
     }
 }
 
@@ -309,7 +337,7 @@ macro_rules! precision {
 
 // What a kernel is built for, so that a loop holds no decision about it.
 const ENERGIES: u8 = 1;
-const HISTORY: u8 = 2; // invariants and failure
+const HISTORY: u8 = 2; // invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
 /// The kernel that asks the block at every turn.
@@ -323,7 +351,8 @@ macro_rules! specialised {
         let shear = $law.shears();
         let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
         let fibres = !$block.fibre[0].is_null();
-        match (usual, energies, invariants && failure, invariants || failure) {
+        let latch = !$block.failure_old.is_null();
+        match (usual, energies, invariants && failure, invariants || latch) {
             (true, false, false, false) => specialised!($kernel, $law, $block, shear, fibres, 0),
             (true, true, false, false) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES),
             (true, true, true, true) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES + HISTORY),
@@ -412,24 +441,26 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
     let mut stresses = [const { MaybeUninit::<Kirchhoff<R>>::uninit() }; STAGED];
     let asked = WANT == AS_ASKED;
     let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
-    // SAFETY: the pointers that the block has are valid for the lanes from i on; each stage reads what the one before has
-    // written.
+    // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
+    // what the one before has written. Without bounds a stage's loop has one way out.
     unsafe {
-        for (k, place) in decompositions.iter_mut().take(count).enumerate() {
-            let at = i + k * R::COUNT;
-            let (frame, usable) = frame(law, block, at, fibres);
-            let d = Decomposition::new(&gradient(block, at), &frame);
-            place.write((d, law.flaw(&d, usable)));
+        for k in 0..count {
+            let (frame, usable) = frame(law, block, i + k * R::COUNT, fibres);
+            let d = Decomposition::new(&gradient(block, i + k * R::COUNT), &frame);
+            decompositions.get_unchecked_mut(k).write((d, law.flaw(&d, usable)));
         }
-        for (place, d) in strains.iter_mut().zip(&decompositions).take(count) {
-            place.write(Strain::new(&d.assume_init_ref().0));
+        for k in 0..count {
+            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
+            strains.get_unchecked_mut(k).write(Strain::new(d));
         }
-        for ((place, d), strain) in stresses.iter_mut().zip(&decompositions).zip(&strains).take(count) {
-            place.write(law.kirchhoff(&d.assume_init_ref().0, strain.assume_init_ref()));
+        for k in 0..count {
+            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
+            stresses.get_unchecked_mut(k).write(law.kirchhoff(d, strains.get_unchecked(k).assume_init_ref()));
         }
-        for (k, ((d, strain), stress)) in decompositions.iter().zip(&strains).zip(&stresses).take(count).enumerate() {
-            let (d, flaw) = d.assume_init_ref();
-            let (strain, stress) = (strain.assume_init_ref(), stress.assume_init_ref());
+        for k in 0..count {
+            let (d, flaw) = decompositions.get_unchecked(k).assume_init_ref();
+            let strain = strains.get_unchecked(k).assume_init_ref();
+            let stress = stresses.get_unchecked(k).assume_init_ref();
             finish::<T, R, WANT>(law, block, i + k * R::COUNT, d, strain, stress, *flaw, worst);
         }
     }
@@ -506,7 +537,8 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
-        let latch = if block.failure_old.is_null() { zero } else { R::load(block.failure_old.add(stride + i)) };
+        let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
+        let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
         // The modes alone want the frame again.
         let frame = if request.modes { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
         let r = law.respond(d, strain, stress, &frame, flaw, latch, request, shear);
@@ -555,13 +587,10 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 /// The new value, or the old one where the point keeps it; what is not finite there is reported and dropped.
 ///
 /// # Safety
-/// `old` is null or has the lanes from `at` on.
+/// `old` has the lanes from `at` on.
 #[inline(always)]
 unsafe fn kept<T, R: Lanes<T>>(old: *const T, at: usize, new: R, keeps: R::Mask, dropped: &mut R::Mask) -> R {
     let zero = R::splat(0.0);
-    if old.is_null() {
-        return R::select(keeps, zero, new);
-    }
     // SAFETY: the caller's promise.
     let old = unsafe { R::load(old.add(at)) };
     let finite = (old * zero).le(zero);
