@@ -320,6 +320,7 @@ macro_rules! precision {
                         match level {
                             Level::Avx512 => specialised!(avx512, law, block, request),
                             Level::Avx2 => specialised!(avx2, law, block, request),
+                            Level::Baseline if law.shears() => sweep::<$t, $baseline, { AS_ASKED + SHEAR }>(law, block),
                             Level::Baseline => sweep::<$t, $baseline, AS_ASKED>(law, block),
                         }
                     }
@@ -328,7 +329,12 @@ macro_rules! precision {
                 {
                     let _ = (level, request);
                     // SAFETY: the caller's promise.
-                    unsafe { sweep::<$t, $t, AS_ASKED>(law, block) }
+                    unsafe {
+                        match law.shears() {
+                            true => sweep::<$t, $t, { AS_ASKED + SHEAR }>(law, block),
+                            false => sweep::<$t, $t, AS_ASKED>(law, block),
+                        }
+                    }
                 }
             }
         }
@@ -340,7 +346,7 @@ const ENERGIES: u8 = 1;
 const HISTORY: u8 = 2; // invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
-/// The kernel that asks the block at every turn.
+/// The kernel that asks the block at every turn, but for the shear.
 const AS_ASKED: u8 = 128;
 
 /// Calls the kernel built for exactly what is asked, or the one that asks at every turn.
@@ -356,6 +362,7 @@ macro_rules! specialised {
             (true, false, false, false) => specialised!($kernel, $law, $block, shear, fibres, 0),
             (true, true, false, false) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES),
             (true, true, true, true) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES + HISTORY),
+            _ if shear => $kernel::<{ AS_ASKED + SHEAR }>($law, $block),
             _ => $kernel::<AS_ASKED>($law, $block),
         }
     }};
@@ -439,7 +446,7 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
     let mut decompositions = [const { MaybeUninit::<(Decomposition<R>, R)>::uninit() }; STAGED];
     let mut strains = [const { MaybeUninit::<Strain<R>>::uninit() }; STAGED];
     let mut stresses = [const { MaybeUninit::<Kirchhoff<R>>::uninit() }; STAGED];
-    let asked = WANT == AS_ASKED;
+    let asked = WANT & AS_ASKED != 0;
     let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the one before has written. Without bounds a stage's loop has one way out.
@@ -521,7 +528,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     worst: &mut R,
 ) {
     let zero = R::splat(0.0);
-    let asked = WANT == AS_ASKED;
+    let asked = WANT & AS_ASKED != 0;
     let request = Request {
         stress: !asked || !block.stress[0].is_null(),
         energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
@@ -530,7 +537,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         modes: asked && !block.modes.is_null(),
         wave_modulus: asked && !block.wave_speed.is_null(),
     };
-    let shear = asked || WANT & SHEAR != 0;
+    let shear = WANT & SHEAR != 0;
     let stride = block.leading_dimension;
     // Which lanes keep an old value that is not finite.
     let mut dropped = zero.lt(zero);
