@@ -166,9 +166,13 @@ impl<T: Precision> Hyperelastic<T> {
             });
         }
         let density = block.density.into();
-        let has_mass = density > 0.0 && density < f64::INFINITY;
+        let has_mass = density >= T::MIN_POSITIVE && density < f64::INFINITY;
         if !block.wave_speed.is_null() && !has_mass {
-            return Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0" });
+            return Err(Error::Argument {
+                name: "density",
+                value: density,
+                wanted: "a finite number > 0, not subnormal",
+            });
         }
         let request = Request {
             stress: !block.stress[0].is_null(),
@@ -581,7 +585,8 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
         if request.wave_modulus {
             let density = R::splat(block.density.into());
-            (r.wave_modulus / density).sqrt().store(block.wave_speed.add(i));
+            // The ratio of two numbers may leave the range; that of their roots does not.
+            (r.wave_modulus.sqrt() / density.sqrt()).store(block.wave_speed.add(i));
         }
         let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
         if !asked || !block.status.is_null() {
