@@ -310,8 +310,10 @@ impl<R: Real> Hyperelastic<R> {
         for x in &mut stress {
             *x = R::select(kept, zero, *x);
         }
-        for x in modes.iter_mut().flatten() {
-            *x = R::select(kept, zero, *x);
+        if request.modes {
+            for x in modes.iter_mut().flatten() {
+                *x = R::select(kept, zero, *x);
+            }
         }
         Response {
             stress,

@@ -166,9 +166,13 @@ impl<T: Precision> Hyperelastic<T> {
             });
         }
         let density = block.density.into();
-        let has_mass = density > 0.0 && density < f64::INFINITY;
+        let has_mass = density >= T::MIN_POSITIVE && density < f64::INFINITY;
         if !block.wave_speed.is_null() && !has_mass {
-            return Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0" });
+            return Err(Error::Argument {
+                name: "density",
+                value: density,
+                wanted: "a finite number > 0, not subnormal",
+            });
         }
         let request = Request {
             stress: !block.stress[0].is_null(),
@@ -179,8 +183,36 @@ impl<T: Precision> Hyperelastic<T> {
             wave_modulus: !block.wave_speed.is_null(),
         };
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
+        let mut block = *block;
         // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
-        Ok(unsafe { T::dispatch(level, self, block, request) })
+        unsafe {
+            block.start_fresh();
+            Ok(T::dispatch(level, self, &block, request))
+        }
+    }
+}
+
+impl<T: Precision> Pointers<T> {
+    /// Where there is no old state, makes one of zeros in the arrays of the new: the loops need not ask for it.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`].
+    unsafe fn start_fresh(&mut self) {
+        let (n, stride) = (self.n, self.leading_dimension);
+        let groups = [
+            (&mut self.energies_old, self.energies, 4),
+            (&mut self.invariants_old, self.invariants, 4),
+            (&mut self.failure_old, self.failure, 3),
+        ];
+        for (old, new, components) in groups {
+            if old.is_null() && !new.is_null() {
+                for c in 0..components {
+                    // SAFETY: the caller's promise; a number whose bytes are all 0 is 0.
+                    unsafe { new.add(c * stride).write_bytes(0, n) };
+                }
+                *old = new;
+            }
+        }
     }
 }
 
@@ -292,6 +324,7 @@ macro_rules! precision {
                         match level {
                             Level::Avx512 => specialised!(avx512, law, block, request),
                             Level::Avx2 => specialised!(avx2, law, block, request),
+                            Level::Baseline if law.shears() => sweep::<$t, $baseline, { AS_ASKED + SHEAR }>(law, block),
                             Level::Baseline => sweep::<$t, $baseline, AS_ASKED>(law, block),
                         }
                     }
@@ -300,7 +333,12 @@ macro_rules! precision {
                 {
                     let _ = (level, request);
                     // SAFETY: the caller's promise.
-                    unsafe { sweep::<$t, $t, AS_ASKED>(law, block) }
+                    unsafe {
+                        match law.shears() {
+                            true => sweep::<$t, $t, { AS_ASKED + SHEAR }>(law, block),
+                            false => sweep::<$t, $t, AS_ASKED>(law, block),
+                        }
+                    }
                 }
             }
         }
@@ -309,10 +347,10 @@ macro_rules! precision {
 
 // What a kernel is built for, so that a loop holds no decision about it.
 const ENERGIES: u8 = 1;
-const HISTORY: u8 = 2; // invariants and failure
+const HISTORY: u8 = 2; // invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
-/// The kernel that asks the block at every turn.
+/// The kernel that asks the block at every turn, but for the shear.
 const AS_ASKED: u8 = 128;
 
 /// Calls the kernel built for exactly what is asked, or the one that asks at every turn.
@@ -323,10 +361,12 @@ macro_rules! specialised {
         let shear = $law.shears();
         let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
         let fibres = !$block.fibre[0].is_null();
-        match (usual, energies, invariants && failure, invariants || failure) {
+        let latch = !$block.failure_old.is_null();
+        match (usual, energies, invariants && failure, invariants || latch) {
             (true, false, false, false) => specialised!($kernel, $law, $block, shear, fibres, 0),
             (true, true, false, false) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES),
             (true, true, true, true) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES + HISTORY),
+            _ if shear => $kernel::<{ AS_ASKED + SHEAR }>($law, $block),
             _ => $kernel::<AS_ASKED>($law, $block),
         }
     }};
@@ -410,26 +450,28 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
     let mut decompositions = [const { MaybeUninit::<(Decomposition<R>, R)>::uninit() }; STAGED];
     let mut strains = [const { MaybeUninit::<Strain<R>>::uninit() }; STAGED];
     let mut stresses = [const { MaybeUninit::<Kirchhoff<R>>::uninit() }; STAGED];
-    let asked = WANT == AS_ASKED;
+    let asked = WANT & AS_ASKED != 0;
     let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
-    // SAFETY: the pointers that the block has are valid for the lanes from i on; each stage reads what the one before has
-    // written.
+    // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
+    // what the one before has written. Without bounds a stage's loop has one way out.
     unsafe {
-        for (k, place) in decompositions.iter_mut().take(count).enumerate() {
-            let at = i + k * R::COUNT;
-            let (frame, usable) = frame(law, block, at, fibres);
-            let d = Decomposition::new(&gradient(block, at), &frame);
-            place.write((d, law.flaw(&d, usable)));
+        for k in 0..count {
+            let (frame, usable) = frame(law, block, i + k * R::COUNT, fibres);
+            let d = Decomposition::new(&gradient(block, i + k * R::COUNT), &frame);
+            decompositions.get_unchecked_mut(k).write((d, law.flaw(&d, usable)));
         }
-        for (place, d) in strains.iter_mut().zip(&decompositions).take(count) {
-            place.write(Strain::new(&d.assume_init_ref().0));
+        for k in 0..count {
+            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
+            strains.get_unchecked_mut(k).write(Strain::new(d));
         }
-        for ((place, d), strain) in stresses.iter_mut().zip(&decompositions).zip(&strains).take(count) {
-            place.write(law.kirchhoff(&d.assume_init_ref().0, strain.assume_init_ref()));
+        for k in 0..count {
+            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
+            stresses.get_unchecked_mut(k).write(law.kirchhoff(d, strains.get_unchecked(k).assume_init_ref()));
         }
-        for (k, ((d, strain), stress)) in decompositions.iter().zip(&strains).zip(&stresses).take(count).enumerate() {
-            let (d, flaw) = d.assume_init_ref();
-            let (strain, stress) = (strain.assume_init_ref(), stress.assume_init_ref());
+        for k in 0..count {
+            let (d, flaw) = decompositions.get_unchecked(k).assume_init_ref();
+            let strain = strains.get_unchecked(k).assume_init_ref();
+            let stress = stresses.get_unchecked(k).assume_init_ref();
             finish::<T, R, WANT>(law, block, i + k * R::COUNT, d, strain, stress, *flaw, worst);
         }
     }
@@ -490,7 +532,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     worst: &mut R,
 ) {
     let zero = R::splat(0.0);
-    let asked = WANT == AS_ASKED;
+    let asked = WANT & AS_ASKED != 0;
     let request = Request {
         stress: !asked || !block.stress[0].is_null(),
         energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
@@ -499,14 +541,15 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         modes: asked && !block.modes.is_null(),
         wave_modulus: asked && !block.wave_speed.is_null(),
     };
-    let shear = asked || WANT & SHEAR != 0;
+    let shear = WANT & SHEAR != 0;
     let stride = block.leading_dimension;
     // Which lanes keep an old value that is not finite.
     let mut dropped = zero.lt(zero);
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
-        let latch = if block.failure_old.is_null() { zero } else { R::load(block.failure_old.add(stride + i)) };
+        let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
+        let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
         // The modes alone want the frame again.
         let frame = if request.modes { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
         let r = law.respond(d, strain, stress, &frame, flaw, latch, request, shear);
@@ -542,7 +585,8 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
         if request.wave_modulus {
             let density = R::splat(block.density.into());
-            (r.wave_modulus / density).sqrt().store(block.wave_speed.add(i));
+            // The ratio of two numbers may leave the range; that of their roots does not.
+            (r.wave_modulus.sqrt() / density.sqrt()).store(block.wave_speed.add(i));
         }
         let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
         if !asked || !block.status.is_null() {
@@ -555,13 +599,10 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 /// The new value, or the old one where the point keeps it; what is not finite there is reported and dropped.
 ///
 /// # Safety
-/// `old` is null or has the lanes from `at` on.
+/// `old` has the lanes from `at` on.
 #[inline(always)]
 unsafe fn kept<T, R: Lanes<T>>(old: *const T, at: usize, new: R, keeps: R::Mask, dropped: &mut R::Mask) -> R {
     let zero = R::splat(0.0);
-    if old.is_null() {
-        return R::select(keeps, zero, new);
-    }
     // SAFETY: the caller's promise.
     let old = unsafe { R::load(old.add(at)) };
     let finite = (old * zero).le(zero);
