@@ -12,6 +12,7 @@ use super::path::LoadPath;
 use super::run::{History, Increment};
 use super::unit_names::{ENERGY, FORCE, SPEED, TIME};
 use crate::law::parameters::{Dimension, NUMBER, STRESS};
+use crate::law::wave_speed::wave_speed;
 
 /// The order of the six components of a symmetric tensor.
 pub const SYMMETRIC_NAMES: [&str; 6] = ["11", "22", "33", "12", "23", "31"];
@@ -81,7 +82,7 @@ pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) 
     values.extend(element.face_forces(&stress).iter());
     values.extend([increment.work, material.energy(&answer.memory) * element.volume()]);
     if let Some(density) = material.density {
-        values.push((answer.wave_modulus / density).sqrt());
+        values.push(wave_speed(answer.wave_modulus, density));
     }
     values
 }

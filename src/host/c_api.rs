@@ -16,12 +16,13 @@ use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
-use crate::law::hyperelastic::Hyperelastic;
+use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 use crate::law::parameters::{self, Dimension, Property};
 use crate::law::real::Real;
 use crate::law::state::{self, StateVariable};
 use crate::law::status::{self, Error};
+use crate::law::wave_speed;
 
 use super::units::UnitSystem;
 
@@ -537,7 +538,7 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
     unsafe { validate(values, count, message, capacity, status) }
 }
 
-/// A block of one point, with the state in one array.
+/// The scalar law between a caller's arrays.
 ///
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
@@ -554,28 +555,35 @@ unsafe fn point<T: Precision>(
     density: T,
     wave_speed: *mut T,
 ) -> Result<i32, Error> {
-    // A part of the state: null where the whole is.
-    let old = |row: usize| if state_old.is_null() { state_old } else { state_old.wrapping_add(row) };
-    let new = |row: usize| if state_new.is_null() { state_new } else { state_new.wrapping_add(row) };
-    let block = Block {
-        n: 1,
-        leading_dimension: 1,
-        deformation_gradient,
-        fibre,
-        energies_old: old(state::ENERGIES),
-        invariants_old: old(state::INVARIANTS),
-        failure_old: old(state::FAILURE_INDEX),
-        density,
-        stress,
-        energies: new(state::ENERGIES),
-        invariants: new(state::INVARIANTS),
-        failure: new(state::FAILURE_INDEX),
-        modes,
-        wave_speed,
-        status: core::ptr::null_mut(),
+    // SAFETY: the caller's promise.
+    let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
+    if deformation_gradient.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    if !wave_speed.is_null() {
+        wave_speed::check_density(density)?;
+    }
+    let request = Request {
+        stress: !stress.is_null(),
+        energies: !state_new.is_null(),
+        invariants: !state_new.is_null(),
+        failure: !state_new.is_null(),
+        modes: !modes.is_null(),
+        wave_modulus: !wave_speed.is_null(),
     };
     // SAFETY: the caller's promise.
-    unsafe { Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?.raw_block(&block.pointers()) }
+    unsafe {
+        let f = *deformation_gradient.cast::<[[T; 3]; 3]>();
+        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
+        let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE];
+        let old = if state_old.is_null() { fresh } else { *state_old.cast() };
+        let point = law.point_along(&f, fibre, &old, request);
+        store(&point.state, state_new);
+        store(&point.stress, stress);
+        store(point.modes.as_flattened(), modes);
+        store(&[wave_speed::wave_speed(point.wave_modulus, density)], wave_speed);
+        Ok(point.status)
+    }
 }
 
 /// The hyperelastic law at one point.

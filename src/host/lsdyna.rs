@@ -14,7 +14,7 @@
 use core::ffi::c_int;
 
 use crate::law::block::{Pointers, Precision, components};
-use crate::law::hyperelastic::Hyperelastic;
+use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status::{self, Error};
@@ -31,20 +31,16 @@ struct Elements<T> {
     failed: *mut c_int,
 }
 
+/// The law of the card's properties, for the number of history variables that it needs.
+///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn umat<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>) -> i32 {
+unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, Error> {
     if nhv != HYPERELASTIC_STATE as i32 {
-        return status::STATE_COUNT;
+        return Err(Error::Plain(status::STATE_COUNT));
     }
     // SAFETY: the caller's promise.
-    let props = unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) };
-    let law = match props.and_then(Hyperelastic::new) {
-        Ok(law) => law,
-        Err(error) => return error.code(),
-    };
-    // SAFETY: the caller's promise.
-    unsafe { evaluate(&law, elements) }.unwrap_or_else(|error| error.code())
+    Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
 }
 
 /// Runs the law over the elements in place, and fails those that have failed or could not be evaluated.
@@ -103,10 +99,24 @@ unsafe fn scalar<T: Precision>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32,
     if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
         return status::NULL_ARGUMENT;
     }
-    let stress = [0, 1, 2, 3, 4, 5].map(|component| sig.wrapping_add(component));
-    let element = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
     // SAFETY: the caller's promise.
-    unsafe { umat(cm, nhv, &element) }
+    unsafe {
+        let law = match law(cm, nhv) {
+            Ok(law) => law,
+            Err(error) => return error.code(),
+        };
+        let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
+        let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
+        let mut point = law.point_along(&f, None, &*hsv.cast(), request);
+        if point.status != status::OK {
+            point.state[FAILED] = T::splat(1.0);
+            point.state[ALIVE] = T::splat(0.0);
+        }
+        store(&point.stress, sig);
+        store(&point.state, hsv);
+        *failel = c_int::from(!point.state[FAILED].lt(T::splat(0.5)));
+        point.status
+    }
 }
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
@@ -178,7 +188,7 @@ unsafe fn vector<T: Precision>(
         failed: failels,
     };
     // SAFETY: the caller's promise.
-    unsafe { umat(cm, nhv, &elements) }
+    unsafe { law(cm, nhv).and_then(|law| evaluate(&law, &elements)) }.unwrap_or_else(|error| error.code())
 }
 
 /// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.

@@ -385,11 +385,23 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         T: nalgebra::Scalar,
     {
         let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
-        let d = Decomposition::new(&columns, &self.frame);
+        self.point_along(&columns, None, state, request)
+    }
+
+    /// The law at one point: columns of F; a fibre direction of any length, or that of the properties.
+    pub fn point_along(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+    ) -> Point<T> {
+        let (frame, usable) = fibre.map_or((self.frame, true), FibreFrame::new);
+        let d = Decomposition::new(f, &frame);
         let strain = Strain::new(&d);
         let k = self.kirchhoff(&d, &strain);
-        let flaw = self.flaw(&d, true);
-        let r = self.respond(&d, &strain, &k, &self.frame, flaw, state[FAILED], request, self.shears());
+        let flaw = self.flaw(&d, usable);
+        let r = self.respond(&d, &strain, &k, &frame, flaw, state[FAILED], request, self.shears());
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

@@ -132,7 +132,7 @@ impl<R: Real> Decomposition<R> {
         let u11 = dot(g1, along(c1, sigma, n.m));
         let stretch_square = sigma + u11;
         let lambda = stretch_square.sqrt();
-        let [inverse_lambda, inverse_jacobian] = reciprocals([lambda, jacobian]);
+        let (inverse_lambda, inverse_jacobian) = (one / lambda, one / jacobian);
         let e = scale(inverse_lambda, c1);
 
         // Longitudinal shear.

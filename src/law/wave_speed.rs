@@ -19,9 +19,28 @@ use super::elementary::{Exponent, power};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Strain};
 use super::real::Real;
+use super::status::Error;
 
 /// Below this compaction the stiffness W″ of an exponent p < 2 is held, since it is infinite at 0.
 pub(super) const COMPACTION_FLOOR: f64 = 1e-8;
+
+/// A reference density that a wave speed can be computed with.
+///
+/// # Errors
+/// A density that is not a positive, normal, finite number.
+pub fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
+    let density = density.into();
+    if density >= T::MIN_POSITIVE && density < f64::INFINITY {
+        return Ok(());
+    }
+    Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0, not subnormal" })
+}
+
+/// √(modulus/density), in range for every modulus and density that are.
+#[inline(always)]
+pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
+    modulus.sqrt() / density.sqrt()
+}
 
 impl<R: Real> Hyperelastic<R> {
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.

@@ -23,6 +23,7 @@ use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Decomposition, FibreFrame, Strain};
 use super::real::Real;
 use super::status::{self, Error};
+use super::wave_speed;
 
 /// A block as a host passes it: null is left out.
 ///
@@ -165,14 +166,8 @@ impl<T: Precision> Hyperelastic<T> {
                 wanted: block.n as i64,
             });
         }
-        let density = block.density.into();
-        let has_mass = density >= T::MIN_POSITIVE && density < f64::INFINITY;
-        if !block.wave_speed.is_null() && !has_mass {
-            return Err(Error::Argument {
-                name: "density",
-                value: density,
-                wanted: "a finite number > 0, not subnormal",
-            });
+        if !block.wave_speed.is_null() {
+            wave_speed::check_density(block.density)?;
         }
         let request = Request {
             stress: !block.stress[0].is_null(),
@@ -586,7 +581,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         if request.wave_modulus {
             let density = R::splat(block.density.into());
             // The ratio of two numbers may leave the range; that of their roots does not.
-            (r.wave_modulus.sqrt() / density.sqrt()).store(block.wave_speed.add(i));
+            wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
         }
         let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
         if !asked || !block.status.is_null() {
