@@ -213,4 +213,12 @@ static inline int finish(void)
     return failures > 0;
 }
 
+/* A block of one point, from a fresh state: what a block must say of a point, wherever it stands. */
+static inline void block_of_one(const real *properties, const real *f, real *state, real *stress)
+{
+    toron_block block = {.n = 1, .leading_dimension = 1, .deformation_gradient = f, .stress = stress,
+                         .energies = state, .invariants = state + INVARIANTS, .failure = state + FAILURE};
+    ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, &block);
+}
+
 #endif
