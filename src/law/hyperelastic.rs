@@ -389,6 +389,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     }
 
     /// The law at one point: columns of F; a fibre direction of any length, or that of the properties.
+    #[inline(always)]
     pub fn point_along(
         &self,
         f: &[[T; 3]; 3],
