@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use toron::driver::eval::Entry;
-use toron::driver::{Error, command, eval, params};
+use toron::driver::{Error, bench, command, eval, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -41,6 +41,12 @@ enum Command {
         #[arg(long, value_enum, default_value = "law")]
         via: Entry,
     },
+    /// Measure what a point costs on this machine; takes a few seconds.
+    Bench {
+        /// Where to write the figures as bench.json.
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -48,6 +54,7 @@ fn main() -> ExitCode {
         Command::Run { path, output } => command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
         Command::Eval { via } => eval::lines(via),
+        Command::Bench { output } => bench::run(output.as_deref()),
     };
     match answer {
         Ok(()) => ExitCode::SUCCESS,

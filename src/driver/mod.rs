@@ -2,17 +2,21 @@
 //!
 //! The driver calls the laws as a host does; nothing below knows of it.
 
+pub mod bench;
 pub mod command;
 pub mod element;
 pub mod eval;
 pub mod material;
 pub mod newton;
+pub mod parallel;
 pub mod params;
 pub mod path;
+pub mod picture;
 pub mod plot;
 pub mod polar;
 pub mod report;
 pub mod run;
+pub mod scene;
 pub mod table;
 pub mod unit_names;
 

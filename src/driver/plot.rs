@@ -1,20 +1,16 @@
 //! The plot of a point's history: deformation, energies, stress and failure side by side, as SVG and PNG.
-//!
-//! The text is drawn with an embedded font and turned into outlines, so that a picture looks alike wherever it is made
-//! and wherever it is seen.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use resvg::{tiny_skia, usvg};
 
 use super::Error;
 use super::material::Law;
 use super::newton::{COMPONENT_NAMES, COMPONENTS};
 use super::path::LoadPath;
+use super::picture::{
+    self, Area, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text,
+};
 use super::report::MODE_NAMES;
 use super::run::{History, Increment};
 use super::table::{self, SYMMETRIC_NAMES};
@@ -22,50 +18,12 @@ use super::unit_names::{ENERGY, unit};
 use crate::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
 use crate::law::state::{ENERGIES, INVARIANTS};
 
-static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
-const FAMILY: &str = "DejaVu Sans";
-
 /// Width and height of the picture.
 const SIZE: [u32; 2] = [1280, 840];
-/// The backend knows whole coordinates only: drawn this much larger, lines are smooth once the picture has its size.
-const FINE: u32 = 10;
-/// The PNG has this many dots for each unit of the SVG.
-const PNG_SCALE: f32 = 1.5;
-const TITLE: f64 = 24.0;
-const HEADING: f64 = 19.0;
-const TEXT: f64 = 16.0;
 /// What the labels of an ordinate need.
 const MARGIN: i32 = 70;
 /// A line with more points than this is thinned.
 const MOST_POINTS: usize = 4000;
-
-const INK: RGBColor = RGBColor(40, 40, 40);
-const GREY: RGBColor = RGBColor(110, 110, 110);
-const RULE: RGBColor = RGBColor(222, 222, 222);
-/// Okabe and Ito's colours, which the colour-blind can tell apart.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-];
-
-/// A length of the picture in the backend's coordinates.
-const fn fine(length: i32) -> i32 {
-    length * FINE as i32
-}
-
-/// Text of this size and colour.
-fn text(size: f64, colour: &RGBColor) -> TextStyle<'static> {
-    (FAMILY, size * f64::from(FINE)).into_font().color(colour)
-}
-
-/// A line of this colour and width.
-fn stroke(colour: RGBColor, width: u32) -> ShapeStyle {
-    colour.stroke_width(width * FINE)
-}
 
 /// A line in a panel.
 struct Series {
@@ -89,54 +47,28 @@ struct Abscissa {
     failure: Option<f64>,
 }
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
-
 /// Writes the plot of a history to two files.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, path: &LoadPath, history: &History) -> Result<(), Error> {
-    let fault = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    let drawn = draw(path, history).map_err(|error| fault(svg, &error))?;
-    let mut options = usvg::Options { font_family: FAMILY.to_string(), ..usvg::Options::default() };
-    options.fontdb_mut().load_font_data(FONT.to_vec());
-    let tree = usvg::Tree::from_str(&drawn, &options).map_err(|error| fault(svg, &error))?;
-    let outlined = usvg::WriteOptions { coordinates_precision: 2, ..usvg::WriteOptions::default() };
-    std::fs::write(svg, tree.to_string(&outlined)).map_err(|error| fault(svg, &error))?;
-    let [width, height] = SIZE.map(|length| (length as f32 * PNG_SCALE) as u32);
-    let mut pixels = tiny_skia::Pixmap::new(width, height).ok_or_else(|| fault(png, &"no memory for the picture"))?;
-    resvg::render(&tree, tiny_skia::Transform::from_scale(PNG_SCALE, PNG_SCALE), &mut pixels.as_mut());
-    pixels.save_png(png).map_err(|error| fault(png, &error))
+    picture::write(svg, png, SIZE, |root| draw(root, path, history))
 }
 
-/// The plot as SVG, its text still text.
-fn draw(path: &LoadPath, history: &History) -> Drawn<String> {
-    static REGISTERED: OnceLock<bool> = OnceLock::new();
-    if !REGISTERED.get_or_init(|| register_font(FAMILY, FontStyle::Normal, FONT).is_ok()) {
-        return Err("the embedded font is unusable".into());
+fn draw(root: &Area, path: &LoadPath, history: &History) -> Drawn<()> {
+    let material = &history.point.material;
+    let mut subtitle = format!("{} law, {}", material.law_name(), material.label);
+    if path.points.len() > 1 {
+        subtitle = format!("{}: {subtitle}", history.point.name);
     }
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, (SIZE[0] * FINE, SIZE[1] * FINE)).into_drawing_area();
-        root.fill(&WHITE)?;
-        let material = &history.point.material;
-        let mut subtitle = format!("{} law, {}", material.law_name(), material.label);
-        if path.points.len() > 1 {
-            subtitle = format!("{}: {subtitle}", history.point.name);
-        }
-        root.draw_text(&path.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-        root.draw_text(&subtitle, &text(TEXT, &GREY), (fine(24), fine(50)))?;
-        let (_, body) = root.split_vertically(fine(84));
-        let abscissa = abscissa(path, history);
-        for (panel, area) in panels(path, history).iter().zip(body.split_evenly((2, 2))) {
-            panel.draw(&area, &abscissa)?;
-        }
-        root.present()?;
+    root.draw_text(&path.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+    root.draw_text(&subtitle, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+    let (_, body) = root.split_vertically(fine(84));
+    let abscissa = abscissa(path, history);
+    for (panel, area) in panels(path, history).iter().zip(body.split_evenly((2, 2))) {
+        panel.draw(&area, &abscissa)?;
     }
-    // The picture's own size, in front of the coordinates that it is drawn in.
-    let [fine, own] = [FINE, 1].map(|scale| format!("width=\"{}\" height=\"{}\"", SIZE[0] * scale, SIZE[1] * scale));
-    Ok(svg.replacen(&fine, &own, 1))
+    Ok(())
 }
 
 fn abscissa(path: &LoadPath, history: &History) -> Abscissa {
@@ -351,10 +283,4 @@ fn tick(value: f64, range: f64) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_string() } else { text.replace('-', "−") }
-}
-
-fn superscript(power: i32) -> String {
-    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| digits[d as usize]);
-    power.to_string().chars().map(digit).collect()
 }

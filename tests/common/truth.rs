@@ -100,6 +100,12 @@ impl Case {
         let [m_1, m_2, m_3] = self.m;
         [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m_1, m_2, m_3]
     }
+
+    /// |σ − truth|/(|truth| + K), which is `back` times ε, and |σ − truth|/|truth|, 0 where the truth is.
+    pub fn stress_errors(&self, stress: &[f64; 6]) -> [f64; 2] {
+        let (error, size) = (distance(&self.sigma, stress), magnitude(&self.sigma));
+        [ratio(error, size + self.sensitivity.value()), if size > 0.0 { error / size } else { 0.0 }]
+    }
 }
 
 /// Every case of the table.
@@ -158,11 +164,9 @@ impl Score {
         worst.cases += 1;
         let (epsilon, p) = (self.epsilon, &case.params);
 
-        let (error, size) = (distance(&case.sigma, &answer.stress), magnitude(&case.sigma));
-        worst.back = worst.back.max(ratio(error, epsilon * (size + case.sensitivity.value())));
-        if size > 0.0 {
-            worst.forward = worst.forward.max(error / size);
-        }
+        let [back, forward] = case.stress_errors(&answer.stress);
+        worst.back = worst.back.max(back / epsilon);
+        worst.forward = worst.forward.max(forward);
 
         // dW/dI where a kink within rounding counts as crossed.
         let mut near = [0.0; 4];

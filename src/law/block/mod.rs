@@ -17,6 +17,7 @@
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
@@ -85,13 +86,23 @@ pub struct Arrays<'a, T> {
     pub level: Option<Level>,
 }
 
-impl<T: Precision> Hyperelastic<T> {
-    /// The law at every point of a block; returns the worst (most negative) of their status codes.
+/// A block whose arrays have been checked. It can be cut into parts, which share no point and may go to other threads.
+#[derive(Debug)]
+pub struct Block<'a, T> {
+    pointers: Pointers<T>,
+    arrays: PhantomData<&'a mut T>,
+}
+
+// SAFETY: a block holds the arrays that it writes exclusively. Its parts hold different points, and with the leading
+// dimension no less than n different points stand at different places.
+unsafe impl<T: Send + Sync> Send for Block<'_, T> {}
+
+impl<'a, T: Precision> Block<'a, T> {
+    /// Checks that the arrays hold the points.
     ///
     /// # Errors
-    /// An array that is too short, a leading dimension below n, a density that is not positive where the wave speed is
-    /// wanted.
-    pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
+    /// An array that is too short, a leading dimension below n.
+    pub fn new(arrays: Arrays<'a, T>) -> Result<Self, Error> {
         let Arrays { n, leading_dimension, .. } = arrays;
         let needed = |components: usize| match components {
             0 => 0,
@@ -117,7 +128,7 @@ impl<T: Precision> Hyperelastic<T> {
         let energies = output("entries of energies", arrays.energies, 4)?;
         let invariants = output("entries of invariants", arrays.invariants, 4)?;
         let failure = output("entries of failure", arrays.failure, 3)?;
-        let block = Pointers {
+        let pointers = Pointers {
             n,
             leading_dimension,
             deformation_gradient: components(arrays.deformation_gradient.as_ptr(), leading_dimension),
@@ -138,8 +149,77 @@ impl<T: Precision> Hyperelastic<T> {
             },
             level: arrays.level,
         };
+        // Parts of columns that overlap would not be disjoint.
+        if leading_dimension < n {
+            return Err(leading_dimension_below(n, leading_dimension));
+        }
+        Ok(Block { pointers, arrays: PhantomData })
+    }
+
+    /// How many points.
+    pub fn points(&self) -> usize {
+        self.pointers.n
+    }
+
+    /// The first `count` points, all where there are no more, and the rest.
+    pub fn split_at(self, count: usize) -> (Self, Self) {
+        let count = count.min(self.pointers.n);
+        let first = Pointers { n: count, ..self.pointers };
+        let rest = self.pointers.from(count);
+        [first, rest].map(|pointers| Block { pointers, arrays: PhantomData }).into()
+    }
+}
+
+impl<T> Pointers<T> {
+    /// The points from `first` ≤ n on.
+    fn from(self, first: usize) -> Self {
+        let input = |p: *const T| if p.is_null() { p } else { p.wrapping_add(first) };
+        let output = |p: *mut T| if p.is_null() { p } else { p.wrapping_add(first) };
+        Pointers {
+            n: self.n - first,
+            deformation_gradient: self.deformation_gradient.map(input),
+            fibre: self.fibre.map(input),
+            energies_old: input(self.energies_old),
+            invariants_old: input(self.invariants_old),
+            failure_old: input(self.failure_old),
+            stress: self.stress.map(output),
+            energies: output(self.energies),
+            invariants: output(self.invariants),
+            failure: output(self.failure),
+            modes: output(self.modes),
+            wave_speed: output(self.wave_speed),
+            status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
+            ..self
+        }
+    }
+}
+
+fn leading_dimension_below(n: usize, leading_dimension: usize) -> Error {
+    Error::Count {
+        code: status::BAD_LEADING_DIMENSION,
+        what: "leading dimension",
+        found: leading_dimension as i64,
+        wanted: n as i64,
+    }
+}
+
+impl<T: Precision> Hyperelastic<T> {
+    /// The law at every point of a block; returns the worst (most negative) of their status codes.
+    ///
+    /// # Errors
+    /// An array that is too short, a leading dimension below n, a density that is not positive where the wave speed is
+    /// wanted.
+    pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
+        self.checked_block(Block::new(arrays)?)
+    }
+
+    /// Likewise, for a block or a part of one.
+    ///
+    /// # Errors
+    /// A density that is not positive where the wave speed is wanted.
+    pub fn checked_block(&self, block: Block<'_, T>) -> Result<i32, Error> {
         // SAFETY: every array is as long as the block needs; the state alone is read and written, through one pointer.
-        unsafe { self.raw_block(&block) }
+        unsafe { self.raw_block(&block.pointers) }
     }
 
     /// The law at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
@@ -159,12 +239,7 @@ impl<T: Precision> Hyperelastic<T> {
             return Err(Error::Plain(status::NULL_ARGUMENT));
         }
         if block.leading_dimension < block.n {
-            return Err(Error::Count {
-                code: status::BAD_LEADING_DIMENSION,
-                what: "leading dimension",
-                found: block.leading_dimension as i64,
-                wanted: block.n as i64,
-            });
+            return Err(leading_dimension_below(block.n, block.leading_dimension));
         }
         if !block.wave_speed.is_null() {
             wave_speed::check_density(block.density)?;

@@ -1,0 +1,209 @@
+//! Speed against error: the library and what it is measured against, on the same points, in one run on one core.
+//!
+//! `cargo bench` measures, prints a table and writes `benches/results/`; docs/speed.md says how to read it.
+
+mod baselines;
+#[path = "../tests/common/mod.rs"]
+mod common;
+mod report;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use baselines::{Properties, eigen, fortran, literal};
+use common::truth::{Case, cases};
+use criterion::Criterion;
+use nalgebra::{Matrix3, Scalar};
+use report::{Accuracy, Family, Machine, Report, Row, Timing};
+use serde::Deserialize;
+use toron::driver::bench::{Answer, Entry, SIZES, each_point, processor, properties};
+use toron::driver::scene::Scene;
+use toron::law::block::{Level, Precision};
+use toron::law::hyperelastic::Hyperelastic;
+use toron::law::state::HYPERELASTIC_STATE;
+
+/// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
+const ROUNDS: usize = 3;
+/// A point of the truth fills this many points, so that lanes and vectorised loops run as they do in a block.
+const COPIES: usize = 16;
+
+/// What evaluates a scene.
+type Evaluate<T> = Box<dyn Fn(&mut Scene<T>)>;
+/// What makes a kernel of the properties.
+type Prepare = Box<dyn Fn(&[f64]) -> Kernel>;
+
+/// A law with its properties, ready to evaluate scenes.
+enum Kernel {
+    Double(Evaluate<f64>),
+    Single(Evaluate<f32>),
+}
+
+/// What a row of the report measures.
+struct Implementation {
+    name: String,
+    family: Family,
+    /// How it was compiled, where that differs from the benchmark itself.
+    flags: String,
+    kernel: Prepare,
+}
+
+fn main() {
+    let compiler = fortran::compiler();
+    let implementations = implementations(compiler.is_some());
+    let timings = timings(&implementations);
+    let cases = cases();
+    let row = |(implementation, timings): (&Implementation, Vec<Timing>)| Row {
+        name: implementation.name.clone(),
+        family: implementation.family,
+        flags: implementation.flags.clone(),
+        timings,
+        accuracy: (implementation.family != Family::Copy).then(|| accuracy(implementation, &cases)),
+    };
+    let report = Report {
+        machine: Machine::new(processor(), compiler),
+        sizes: SIZES.to_vec(),
+        rows: implementations.iter().zip(timings).map(row).collect(),
+    };
+    print!("\n{}", report.summary());
+    report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/results")).expect("the results are written");
+}
+
+fn implementations(has_fortran: bool) -> Vec<Implementation> {
+    let mut rows = vec![
+        scalar("Rust Eq. 4.14, scalar", Family::Literal, literal::point),
+        scalar("Rust eigenvalues, scalar", Family::Eigen, eigen::point),
+    ];
+    if has_fortran {
+        for routine in fortran::rows().expect("the Fortran baselines compile") {
+            rows.push(Implementation {
+                name: routine.name.clone(),
+                family: if routine.name.contains("spatial") { Family::Spatial } else { Family::Literal },
+                flags: routine.flags.clone(),
+                kernel: Box::new(move |properties| {
+                    let (routine, properties) = (routine.clone(), properties.to_vec());
+                    Kernel::Double(Box::new(move |scene| routine.run(&properties, scene)))
+                }),
+            });
+        }
+    }
+    let best = Level::best();
+    let blocks = Level::ALL.into_iter().filter(|&level| level <= best).map(Entry::Block);
+    let entries: Vec<Entry> =
+        [Entry::Point].into_iter().chain(blocks).chain([Entry::StressOnly(best), Entry::Copy]).collect();
+    rows.extend(entries.iter().map(|&entry| library(entry, "f64", Family::Double, Kernel::Double)));
+    rows.extend(entries.iter().skip(1).map(|&entry| library(entry, "f32", Family::Single, Kernel::Single)));
+    rows
+}
+
+/// A law of one point in Rust.
+fn scalar<L>(name: &str, family: Family, law: L) -> Implementation
+where
+    L: Fn(&Properties, &Matrix3<f64>, &[f64; HYPERELASTIC_STATE]) -> Answer<f64> + Copy + 'static,
+{
+    let kernel = move |properties: &[f64]| {
+        let properties = Properties::new(properties);
+        Kernel::Double(Box::new(move |scene| each_point(scene, |f, state| law(&properties, f, state))))
+    };
+    Implementation { name: name.to_string(), family, flags: String::new(), kernel: Box::new(kernel) }
+}
+
+/// A way into the library.
+fn library<T: Precision + Scalar + Send + Sync>(
+    entry: Entry,
+    precision: &str,
+    family: Family,
+    wrap: fn(Evaluate<T>) -> Kernel,
+) -> Implementation {
+    let kernel = move |properties: &[f64]| {
+        let properties: Vec<T> = properties.iter().map(|&value| T::splat(value)).collect();
+        let law = Hyperelastic::new(&properties).expect("valid properties");
+        wrap(Box::new(move |scene| entry.run(&law, scene).expect("a valid block")))
+    };
+    Implementation {
+        name: format!("{}{precision} {}", if entry == Entry::Copy { "" } else { "toron " }, entry.name()),
+        family: if entry == Entry::Copy { Family::Copy } else { family },
+        flags: String::new(),
+        kernel: Box::new(kernel),
+    }
+}
+
+/// Where criterion keeps the measurements of a round.
+fn output(round: usize) -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("criterion").join(round.to_string())
+}
+
+/// Short samples in place of criterion's eight seconds a row: the rounds make up for it.
+fn criterion(round: usize) -> Criterion {
+    Criterion::default()
+        .output_directory(&output(round))
+        .warm_up_time(Duration::from_millis(10))
+        .measurement_time(Duration::from_millis(60))
+        .sample_size(10)
+        .nresamples(1000)
+        .configure_from_args()
+}
+
+/// One measurement as criterion stores it: how many calls each sample made and how many nanoseconds they took.
+#[derive(Deserialize)]
+struct Sample {
+    iters: Vec<f64>,
+    times: Vec<f64>,
+}
+
+/// Times of a point, by row and size.
+fn timings(implementations: &[Implementation]) -> Vec<Vec<Timing>> {
+    // What an earlier run left must not be read as this one's.
+    (0..ROUNDS).for_each(|round| drop(std::fs::remove_dir_all(output(round))));
+    let kernels: Vec<Kernel> = implementations.iter().map(|one| (one.kernel)(properties())).collect();
+    let mut timings: Vec<Vec<Timing>> = kernels.iter().map(|_| Vec::new()).collect();
+    for n in SIZES {
+        let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
+        let mut samples: Vec<Vec<f64>> = kernels.iter().map(|_| Vec::new()).collect();
+        for round in 0..ROUNDS {
+            let mut criterion = criterion(round);
+            for ((kernel, Implementation { name, .. }), samples) in
+                kernels.iter().zip(implementations).zip(&mut samples)
+            {
+                let mut group = criterion.benchmark_group(n.to_string());
+                match kernel {
+                    Kernel::Double(run) => group.bench_function(name, |bench| bench.iter(|| run(&mut double))),
+                    Kernel::Single(run) => group.bench_function(name, |bench| bench.iter(|| run(&mut single))),
+                };
+                group.finish();
+                samples.extend(samples_of(round, n, name));
+            }
+        }
+        for (timings, samples) in timings.iter_mut().zip(samples) {
+            timings.push(Timing::new(samples, n));
+        }
+    }
+    timings
+}
+
+/// Nanoseconds a call of every sample of a row in a round.
+fn samples_of(round: usize, n: usize, name: &str) -> Vec<f64> {
+    let file = output(round).join(n.to_string()).join(name).join("new/sample.json");
+    let text = std::fs::read_to_string(&file).expect("criterion has stored its samples");
+    let sample: Sample = serde_json::from_str(&text).expect("samples");
+    sample.times.iter().zip(&sample.iters).map(|(time, calls)| time / calls).collect()
+}
+
+fn accuracy(implementation: &Implementation, cases: &[Case]) -> Accuracy {
+    let mut accuracy = Accuracy::default();
+    for case in cases {
+        let stress = match (implementation.kernel)(&case.properties()) {
+            Kernel::Double(run) => stress(case, run),
+            Kernel::Single(run) => stress(case, run),
+        };
+        let [error, relative] = case.stress_errors(&stress);
+        accuracy.add(&case.category, error, relative);
+    }
+    accuracy
+}
+
+/// The stress that a law gives for a case of the truth.
+fn stress<T: Precision>(case: &Case, run: impl Fn(&mut Scene<T>)) -> [f64; 6] {
+    let mut scene = Scene::new(COPIES, std::iter::repeat(case.deformation_gradient()));
+    run(&mut scene);
+    std::array::from_fn(|c| scene.stress[c * scene.leading_dimension].into())
+}
