@@ -22,7 +22,9 @@ if [ -n "$missing" ]; then
     fi
 fi
 if ! command -v cargo >/dev/null 2>&1; then
-    echo "please install Rust 1.89 or later: https://rustup.rs" >&2
-    exit 1
+    command -v curl >/dev/null 2>&1 || { echo "please install curl, or Rust 1.89 or later: https://rustup.rs" >&2; exit 1; }
+    echo "installing Rust"
+    curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y --profile minimal
+    . "$HOME/.cargo/env"
 fi
 cargo test --locked "$@"

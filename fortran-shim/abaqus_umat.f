@@ -26,14 +26,14 @@
 
       interface
         function toron_abaqus_umat_f64(stress, statev, sse, pnewdt,     &
-     &    stran, dstran, dfgrd1, props, nprops, nstatv, ndi, nshr)      &
+     &    dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)             &
      &    bind(c) result(status)
           import :: c_double, c_int32_t
           real(c_double), intent(inout) :: stress(*), statev(*), sse
           real(c_double), intent(inout) :: pnewdt
-          real(c_double), intent(in) :: stran(*), dstran(*), dfgrd1(*)
-          real(c_double), intent(in) :: props(*)
+          real(c_double), intent(in) :: dfgrd1(*), props(*)
           integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
+          integer(c_int32_t), value :: nlgeom
           integer(c_int32_t) :: status
         end function
         function toron_hyperelastic_validate_f64(values, count, text,   &
@@ -55,10 +55,12 @@
         end function
       end interface
 
+!     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP in its place have no such flag: pass 1 there, and see
+!     to NLGEOM=YES yourself.
       status = toron_abaqus_umat_f64(stress, statev, sse, pnewdt,       &
-     &  stran, dstran, dfgrd1, props, int(nprops, c_int32_t),           &
+     &  dfgrd1, props, int(nprops, c_int32_t),                          &
      &  int(nstatv, c_int32_t), int(ndi, c_int32_t),                    &
-     &  int(nshr, c_int32_t))
+     &  int(nshr, c_int32_t), int(jstep(3), c_int32_t))
 !     Below -300 the point is at fault, and the library has lowered PNEWDT; above, the deck is.
       if (status < 0 .and. status > -300) call refuse
 

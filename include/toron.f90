@@ -333,21 +333,20 @@ module toron
       integer(c_int32_t) :: toron_linear_elastic_increment_f64
     end function
 
-    function toron_abaqus_umat_f64(stress, statev, sse, pnewdt, stran, dstran, &
-        dfgrd1, props, nprops, nstatv, ndi, nshr) bind(c)
+    function toron_abaqus_umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, &
+        nprops, nstatv, ndi, nshr, nlgeom) bind(c)
       import
       real(c_double), intent(inout), optional :: stress(*)
       real(c_double), intent(inout), optional :: statev(*)
       real(c_double), intent(inout), optional :: sse
       real(c_double), intent(inout), optional :: pnewdt
-      real(c_double), intent(in), optional :: stran(*)
-      real(c_double), intent(in), optional :: dstran(*)
       real(c_double), intent(in), optional :: dfgrd1(*)
       real(c_double), intent(in), optional :: props(*)
       integer(c_int32_t), value :: nprops
       integer(c_int32_t), value :: nstatv
       integer(c_int32_t), value :: ndi
       integer(c_int32_t), value :: nshr
+      integer(c_int32_t), value :: nlgeom
       integer(c_int32_t) :: toron_abaqus_umat_f64
     end function
 

@@ -72,7 +72,7 @@
 #define TORON_STATE_COUNT -211
 
 /*
- The deformation gradient has a determinant ≤ 0, or maps the fibre to nothing.
+ The deformation gradient has a determinant ≤ 0 (or one too small for a number), or maps the fibre to nothing.
  */
 #define TORON_INVERTED -301
 
@@ -675,11 +675,12 @@ int32_t toron_linear_elastic_increment_f64(const double *values,
  The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
 
  Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
- `pnewdt` (in and out), `stran` and `dstran` (6, in), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` =
- 3. All pointers are the caller's and not null.
+ `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, and `nlgeom`, Abaqus's
+ JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All pointers are the caller's and
+ not null.
 
- Returns 0; `TORON_BAD_COUNT`, `TORON_STATE_COUNT`, a −2xx code, or `TORON_NO_DEFORMATION_GRADIENT` where there are
- strains but F = 1 (NLGEOM=NO), and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
+ Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
+ and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
  lowered to at most a quarter.
 
  # Safety
@@ -689,14 +690,13 @@ int32_t toron_abaqus_umat_f64(double *stress,
                               double *statev,
                               double *sse,
                               double *pnewdt,
-                              const double *stran,
-                              const double *dstran,
                               const double *dfgrd1,
                               const double *props,
                               int32_t nprops,
                               int32_t nstatv,
                               int32_t ndi,
-                              int32_t nshr);
+                              int32_t nshr,
+                              int32_t nlgeom);
 
 /*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.

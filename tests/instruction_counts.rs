@@ -5,7 +5,7 @@
 //! Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at
 //! AVX2.
 //!
-//! `umat` is the scalar law; `point` a block of one. Both prepare the law at every call.
+//! `umat` and `point` are the scalar law. Both prepare the law at every call.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::fmt::Write;

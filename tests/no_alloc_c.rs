@@ -227,15 +227,15 @@ fn double_precision_only() {
         quiet!(toron_lsdyna_bulk_and_shear_f64, yarn, P, &mut bulk, &mut shear);
         quiet!(toron_lsdyna_bulk_and_shear_f64, yarn, 3, &mut bulk, null_mut());
         for f in deformations() {
-            let (mut stress, mut state, mut energy, mut step, strain) = ([0.0; 6], [0.0; S], 0.0, 1.0, [0.1; 6]);
-            let (s, h, e) = (stress.as_mut_ptr(), state.as_mut_ptr(), strain.as_ptr());
+            let (mut stress, mut state, mut energy, mut step) = ([0.0; 6], [0.0; S], 0.0, 1.0);
+            let (s, h) = (stress.as_mut_ptr(), state.as_mut_ptr());
             for count in [P as i32, -1] {
                 let (f, n) = (f.as_ptr(), S as i32);
-                quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, e, e, f, yarn, count, n, 3, 3);
+                quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, f, yarn, count, n, 3, 3, 1);
             }
             let (f, n) = (REST.as_ptr(), S as i32);
-            quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, e, e, f, yarn, P as i32, n, 3, 3);
-            quiet!(toron_abaqus_umat_f64, s, null_mut(), &mut energy, &mut step, e, e, f, yarn, P as i32, n, 3, 3);
+            quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 0);
+            quiet!(toron_abaqus_umat_f64, s, null_mut(), &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 1);
         }
     }
 }

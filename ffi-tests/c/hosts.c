@@ -350,31 +350,29 @@ static void vumat_wrong_calls(void)
 static const int order_standard[6] = {0, 1, 2, 3, 5, 4}; /* 11 22 33 12 13 23 */
 
 typedef struct {
-    double *stress, *statev, *sse, *pnewdt, *stran, *dstran, *dfgrd1, *props;
-    int32_t nprops, nstatv, ndi, nshr;
+    double *stress, *statev, *sse, *pnewdt, *dfgrd1, *props;
+    int32_t nprops, nstatv, ndi, nshr, nlgeom;
 } umat_arguments;
 
 static umat_arguments umat_point(const truth *t)
 {
     umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .sse = reals(1), .pnewdt = filled(1, 1),
-                        .stran = filled(0, 6), .dstran = filled(1e-3, 6), .dfgrd1 = copied(t->f, 9),
+                        .dfgrd1 = copied(t->f, 9),
                         .props = copied(t->properties, PROPERTIES), .nprops = PROPERTIES, .nstatv = STATE, .ndi = 3,
-                        .nshr = 3};
+                        .nshr = 3, .nlgeom = 1};
     return a;
 }
 
 static int32_t call_umat(const umat_arguments *a)
 {
-    return toron_abaqus_umat_f64(a->stress, a->statev, a->sse, a->pnewdt, a->stran, a->dstran, a->dfgrd1, a->props,
-                                 a->nprops, a->nstatv, a->ndi, a->nshr);
+    return toron_abaqus_umat_f64(a->stress, a->statev, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops, a->nstatv,
+                                 a->ndi, a->nshr, a->nlgeom);
 }
 
 static void umat(void)
 {
     for (const truth *t = cases; t < cases + case_count; t++) {
         umat_arguments a = umat_point(t);
-        for (int i = 0; i < 6; i++)
-            a.dstran[i] = 0;
         int32_t status = call_umat(&a);
         CHECK(status == TORON_OK, "case %d: %d", t->id, status);
         double stress[6], energy = 0, jacobian = determinant(t->f);
@@ -402,9 +400,10 @@ static void umat_wrong_calls(void)
 {
     const truth rest = cases[0];
     const umat_arguments good = umat_point(&rest);
-    umat_refused(good, TORON_NO_DEFORMATION_GRADIENT); /* F = 1 although there are strains */
     umat_arguments a = good;
-    a.ndi = 2;
+    a.nlgeom = 0; /* small displacements: F is the identity whatever happens */
+    umat_refused(a, TORON_NO_DEFORMATION_GRADIENT);
+    a = good, a.ndi = 2;
     umat_refused(a, TORON_BAD_COUNT);
     a = good, a.nshr = 1;
     umat_refused(a, TORON_BAD_COUNT);

@@ -149,8 +149,8 @@ contains
     zero = 0
     state = 0
     pnewdt = 1
-    status = toron_abaqus_umat_f64(stress, state, sse, pnewdt, zero, zero, t%f, t%properties, int(properties, c_int32_t), &
-      11, 3, 3)
+    status = toron_abaqus_umat_f64(stress, state, sse, pnewdt, t%f, t%properties, int(properties, c_int32_t), &
+      11, 3, 3, 1)
     call check(status == toron_status_ok, 'umat', t%id)
     call check_answer(t, stress([1, 2, 3, 4, 6, 5]), state, .false.)
     hsv = [zero, zero(1:5), t%f]

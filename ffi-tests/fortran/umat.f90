@@ -10,7 +10,8 @@ program umat_test
   ! With room around what the routine may touch.
   real(c_double) :: stress(1 - guard:6 + guard), statev(1 - guard:12 + guard), ddsdde(1 - guard:36 + guard)
   real(c_double) :: sse(1 - guard:1 + guard), pnewdt(1 - guard:1 + guard)
-  real(c_double) :: props(11), f(9), dstran(6)
+  real(c_double) :: props(11), f(9)
+  integer :: nlgeom
   integer :: i
 
   call read_cases
@@ -58,7 +59,7 @@ contains
     pnewdt(1) = 1
     props = t%properties
     f = t%f
-    dstran = 0
+    nlgeom = 1
   end subroutine
 
   subroutine call_umat(nprops, nstatv, ndi, nshr)
@@ -69,7 +70,8 @@ contains
     cmname = 'FIBRE'
     zero = 0
     jstep = 1
-    call umat(stress(1), statev(1), ddsdde(1), sse(1), zero, zero, zero, zero, zero, zero, zero, dstran, zero, zero, &
+    jstep(3) = nlgeom
+    call umat(stress(1), statev(1), ddsdde(1), sse(1), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, &
       zero, zero, zero, zero, cmname, ndi, nshr, ndi + nshr, nstatv, props, nprops, zero, zero, pnewdt(1), zero, zero, &
       f, 1, 1, 1, 1, jstep, 1)
   end subroutine
@@ -89,7 +91,7 @@ contains
     before = stops
     stress = mark
     f = [1, 0, 0, 0, 1, 0, 0, 0, 1]
-    dstran = 1e-3_c_double
+    nlgeom = merge(0, 1, message == 'NLGEOM')
     call call_umat(nprops, nstatv, 3, nshr)
     call check(stops == before + 1, 'stop: ' // message, 0)
     call check_written(7, message)

@@ -139,14 +139,14 @@ fn ls_dyna(preset: &Preset, heading: &str, density: f64, values: &[f64], moduli:
     };
     let text = |value: usize| value.to_string();
     let mut deck = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n$ {heading}\n", preset.name);
-    let first = ["1".to_string(), short(density, 10), "41".to_string(), text(count), text(history)];
+    let first = ["1".to_string(), field_of_ten(density), "41".to_string(), text(count), text(history)];
     let last = ["0".to_string(), text(bulk), text(shear)];
     deck += &format!("{}\n{}\n", head("mid ro mt lmc nhv iortho ibulk ig"), card(&[&first[..], &last[..]].concat()));
     let options = ["0", "1", "0", "1", "0", "0"].map(str::to_string);
     deck += &format!("{}\n{}\n", head("ivect ifail itherm ihyper ieos lmca"), card(&options));
     let names: Vec<&str> = preset.table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
     for (names, constants) in names.chunks(8).zip(constants.chunks(8)) {
-        let fields: Vec<String> = constants.iter().map(|&value| short(value, 10)).collect();
+        let fields: Vec<String> = constants.iter().map(|&value| field_of_ten(value)).collect();
         deck += &format!("{}\n{}\n", head(&names.join(" ")), card(&fields));
     }
     deck
@@ -170,14 +170,22 @@ fn abaqus(preset: &Preset, heading: &str, density: f64, values: &[f64]) -> Strin
     deck
 }
 
-/// The shortest number that says the value to twelve digits; with fewer where `width` characters do not hold it.
+/// A number for a field of ten columns: with a blank before it where that costs no digit.
+fn field_of_ten(value: f64) -> String {
+    let spaced = short(value, 9);
+    let exact = spaced.parse().is_ok_and(|x: f64| (x - value).abs() <= 1e-12 * value.abs());
+    if exact { spaced } else { short(value, 10) }
+}
+
+/// The shortest number that says the value to twelve digits; where `width` characters do not hold it, the nearest one that
+/// they do.
 fn short(value: f64, width: usize) -> String {
-    let plain = ryu::Buffer::new().format(value).to_string();
-    if plain.len() <= width && !plain.contains('e') {
-        return plain;
-    }
-    let rounded: Vec<String> = (0..17).map(|digits| format!("{value:.digits$e}")).collect();
-    let exact = |text: &&String| text.parse().is_ok_and(|x: f64| (x - value).abs() <= 1e-12 * value.abs());
-    let fits = rounded.iter().take_while(|text| text.len() <= width);
-    fits.clone().find(exact).or(fits.last()).cloned().unwrap_or(plain)
+    let fixed = (1..17).map(|decimals| format!("{value:.decimals$}"));
+    let scientific = (0..17).map(|digits| format!("{value:.digits$e}"));
+    let error = |text: &String| text.parse().map_or(f64::INFINITY, |x: f64| (x - value).abs());
+    let fits = fixed.chain(scientific).filter(|text| text.len() <= width);
+    // Among those that are near enough the shortest counts, fixed before scientific.
+    let rank = |text: &String| (error(text).max(1e-12 * value.abs()), text.len());
+    let best = fits.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal));
+    best.unwrap_or_else(|| value.to_string())
 }

@@ -27,9 +27,6 @@ use super::c_api::properties;
 /// What PNEWDT is lowered to where a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// A strain that no rounding of a large-displacement analysis leaves behind F = 1.
-const STRAIN_WITHOUT_DEFORMATION: f64 = 1e-12;
-
 /// The counts that both entries demand.
 fn counts(direct: i32, shear: i32, state: i32) -> i32 {
     if direct != 3 || shear != 3 {
@@ -44,11 +41,12 @@ fn counts(direct: i32, shear: i32, state: i32) -> i32 {
 /// The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
 ///
 /// Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
-/// `pnewdt` (in and out), `stran` and `dstran` (6, in), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` =
-/// 3. All pointers are the caller's and not null.
+/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, and `nlgeom`, Abaqus's
+/// JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All pointers are the caller's and
+/// not null.
 ///
-/// Returns 0; `TORON_BAD_COUNT`, `TORON_STATE_COUNT`, a −2xx code, or `TORON_NO_DEFORMATION_GRADIENT` where there are
-/// strains but F = 1 (NLGEOM=NO), and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
+/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
+/// and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
 /// lowered to at most a quarter.
 ///
 /// # Safety
@@ -60,41 +58,37 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     statev: *mut f64,
     sse: *mut f64,
     pnewdt: *mut f64,
-    stran: *const f64,
-    dstran: *const f64,
     dfgrd1: *const f64,
     props: *const f64,
     nprops: i32,
     nstatv: i32,
     ndi: i32,
     nshr: i32,
+    nlgeom: i32,
 ) -> i32 {
-    let pointers = [stress.cast_const(), statev, sse, pnewdt, stran, dstran, dfgrd1, props];
+    let pointers = [stress.cast_const(), statev, sse, pnewdt, dfgrd1, props];
     if pointers.iter().any(|pointer| pointer.is_null()) {
         return status::NULL_ARGUMENT;
+    }
+    if nlgeom == 0 {
+        return status::NO_DEFORMATION_GRADIENT;
     }
     let code = counts(ndi, nshr, nstatv);
     if code != status::OK {
         return code;
     }
     // SAFETY: not null, and the caller's promise.
-    let (props, f, old, stran, dstran) = unsafe {
+    let (props, f, old) = unsafe {
         (
             properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
             Matrix3::from_column_slice(&*dfgrd1.cast::<[f64; 9]>()),
             *statev.cast::<[f64; HYPERELASTIC_STATE]>(),
-            *stran.cast::<[f64; 6]>(),
-            *dstran.cast::<[f64; 6]>(),
         )
     };
     let law = match props.and_then(Hyperelastic::new) {
         Ok(law) => law,
         Err(error) => return error.code(),
     };
-    let strained = stran.iter().zip(&dstran).any(|(a, b)| (a + b).abs() > STRAIN_WITHOUT_DEFORMATION);
-    if strained && f == Matrix3::identity() {
-        return status::NO_DEFORMATION_GRADIENT;
-    }
     let point = law.point(&f, &old, Request { modes: false, wave_modulus: false, ..Request::ALL });
     let [s11, s22, s33, s12, s23, s31] = point.stress;
     let energy: f64 = point.state[ENERGIES..INVARIANTS].iter().sum();
@@ -104,7 +98,9 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
         if point.status == status::OK {
             *statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
             let jacobian = f.determinant();
-            *sse = if jacobian > 0.0 { energy / jacobian } else { energy };
+            // A failed point may arrive with any F.
+            let current = energy / jacobian;
+            *sse = if jacobian > 0.0 && current.is_finite() { current } else { energy };
         } else {
             *pnewdt = (*pnewdt).min(CUTBACK);
         }

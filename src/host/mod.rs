@@ -2,5 +2,7 @@
 
 pub mod abaqus;
 pub mod c_api;
+#[cfg(feature = "driver")]
+pub mod calls;
 pub mod lsdyna;
 pub mod units;

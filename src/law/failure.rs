@@ -2,11 +2,11 @@
 
 use super::real::Real;
 
-/// The limit, prepared once. A law without failure has zero weights throughout.
+/// The limit, prepared once. A law without failure has an infinite limit and no weights.
 #[derive(Clone, Copy, Debug)]
 pub struct Failure<R> {
-    /// 1/I_lim with I_lim = ln(1 + ε_lim), or 0.
-    pub inverse_limit: R,
+    /// I_lim = ln(1 + ε_lim), or infinity.
+    pub limit: R,
     /// The weights of compaction and distortion, α and β; both 0 is uniaxial failure.
     pub alpha: R,
     pub beta: R,
@@ -18,7 +18,8 @@ impl<R: Real> Failure<R> {
     pub fn index(&self, invariants: &[R; 4]) -> R {
         let zero = R::splat(0.0);
         let [i_el, i_tc, i_td, _] = *invariants;
-        let index = i_el.mul_add(self.inverse_limit, self.alpha.mul_add((-i_tc).max(zero), self.beta * i_td));
+        // A quotient, not a product with 1/I_lim: it is exactly 1 where I_el = I_lim.
+        let index = i_el / self.limit + self.alpha.mul_add((-i_tc).max(zero), self.beta * i_td);
         R::select(zero.lt(i_el), index, zero)
     }
 

@@ -19,6 +19,9 @@ use super::real::{Real, along, scale};
 use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use super::status::{self, Error};
 
+/// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
+const LEAST_LIMIT: f64 = 1e-30;
+
 /// The law's properties, checked and prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct Hyperelastic<R> {
@@ -104,7 +107,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             k_ld,
             exponent: Exponent::new(p - one),
             failure: Failure {
-                inverse_limit: weight(one / ln_1p(T::select(fails, eps_lim, one))),
+                limit: T::select(fails, ln_1p(eps_lim).max(T::splat(LEAST_LIMIT)), T::splat(f64::INFINITY)),
                 alpha: weight(alpha),
                 beta: weight(beta),
             },
@@ -148,7 +151,7 @@ impl<R: Real> Hyperelastic<R> {
             k_ld: lane(self.k_ld),
             exponent: self.exponent.map(lane),
             failure: Failure {
-                inverse_limit: lane(self.failure.inverse_limit),
+                limit: lane(self.failure.limit),
                 alpha: lane(self.failure.alpha),
                 beta: lane(self.failure.beta),
             },
@@ -410,7 +413,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&r.invariants);
         new[FAILURE_INDEX] = r.failure_index;
         if r.kept {
-            for (x, &old) in new.iter_mut().zip(state) {
+            // The latch has been looked at, and alive is never read.
+            for (x, &old) in new.iter_mut().zip(state).take(FAILED) {
                 let finite = (old * zero).le(zero);
                 *x = T::select(finite, old, zero);
                 if !finite && status == status::OK {

@@ -179,7 +179,7 @@ impl LinearElastic {
         if !strain.iter().all(|x| x.is_finite()) || !jacobian.is_finite() {
             return self.refused(state, status::NOT_FINITE);
         }
-        if !state.iter().all(|x| x.is_finite()) {
+        if !state[..LINEAR_ALIVE].iter().all(|x| x.is_finite()) {
             return self.refused(state, status::STATE_NOT_FINITE);
         }
         let mut new = *state;
@@ -208,9 +208,10 @@ impl LinearElastic {
         LinearPoint { stress, state: new, status: status::OK }
     }
 
-    /// ρ0 c² for a bound c of the wave speed: the largest modulus.
+    /// ρ0 c² for a bound c of the wave speed where the material is not stressed: with Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²)
+    /// no eigenvalue exceeds the largest of E_i and 2G.
     pub fn wave_modulus(&self) -> f64 {
-        self.stiffness[0].max(self.stiffness[1]).max(self.stiffness[3])
+        self.stiffness[0].max(self.stiffness[1]).max(2.0 * self.stiffness[3])
     }
 
     /// A point that failed in an earlier call: no stress, the rest as it was.
@@ -224,7 +225,7 @@ impl LinearElastic {
 
     /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it; the latch is 0 or 1.
     fn refused(&self, state: &[f64; LINEAR_ELASTIC_STATE], status: i32) -> LinearPoint {
-        let finite = state.iter().all(|x| x.is_finite());
+        let finite = state[..LINEAR_ALIVE].iter().all(|x| x.is_finite());
         let mut new = state.map(|x| if x.is_finite() { x } else { 0.0 });
         new[LINEAR_FAILED] = if Failure::latched(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
         new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];

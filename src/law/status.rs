@@ -31,7 +31,7 @@ pub const PROPERTY_OUT_OF_BOUNDS: i32 = -203;
 pub const PROPERTY_DIRECTION: i32 = -204;
 /// There are fewer state variables than the table's.
 pub const STATE_COUNT: i32 = -211;
-/// The deformation gradient has a determinant ≤ 0, or maps the fibre to nothing.
+/// The deformation gradient has a determinant ≤ 0 (or one too small for a number), or maps the fibre to nothing.
 pub const INVERTED: i32 = -301;
 /// The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
 pub const NOT_FINITE: i32 = -302;

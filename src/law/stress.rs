@@ -31,8 +31,3 @@ pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
     matrix(cauchy) * cofactors(f)
 }
-
-/// First Piola–Kirchhoff stress of a second one, P = F S.
-pub fn first_from_second(second: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
-    f * matrix(second)
-}

@@ -48,10 +48,10 @@ int main(int argc, char **argv)
         return 0;
     }
     if (strcmp(entry, "umat-f64") == 0) {
-        double zero[6] = {0}, s[6], energy = 0, cut = 1;
+        double s[6], energy = 0, cut = 1;
         for (int i = 0; i < N; i++) {
             double kept[STATE] = {0};
-            if (toron_abaqus_umat_f64(s, kept, &energy, &cut, zero, zero, point[i], values, PROPERTIES, STATE, 3, 3) != 0)
+            if (toron_abaqus_umat_f64(s, kept, &energy, &cut, point[i], values, PROPERTIES, STATE, 3, 3, 1) != 0)
                 return 1;
         }
         return 0;

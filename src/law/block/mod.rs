@@ -230,7 +230,7 @@ impl<T: Precision> Hyperelastic<T> {
     ///
     /// # Safety
     /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
-    /// reading or writing; outputs overlap nothing but, exactly, the old state they replace.
+    /// reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing but, exactly, the old state they replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         if block.n == 0 {
             return Ok(status::OK);
@@ -345,8 +345,15 @@ pub trait Lanes<T>: Real {
     unsafe fn store_integers(self, to: *mut i32);
 }
 
+/// The kernel relies on what a precision is (bytes all 0 are the number 0), so that there are no others.
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
 /// A precision that the block kernel is built for.
-pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq {
+pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed {
     /// Runs the kernel at a level.
     ///
     /// # Safety

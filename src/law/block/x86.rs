@@ -40,6 +40,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn add(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $add(self.0, other.0) })
             }
         }
@@ -47,6 +48,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn sub(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $sub(self.0, other.0) })
             }
         }
@@ -54,6 +56,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn mul(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $mul(self.0, other.0) })
             }
         }
@@ -61,6 +64,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn div(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $div(self.0, other.0) })
             }
         }
@@ -70,6 +74,7 @@ macro_rules! register {
             fn neg(self) -> Self {
                 // A change of sign, zeros included, as for a scalar.
                 const SIGN: $bits = 1 << ($bits::BITS - 1);
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe {
                     let bits = $to(self.0);
                     let sign = $iset1(SIGN as _);
@@ -88,11 +93,13 @@ macro_rules! register {
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $set1(x as $t) })
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 let ($fa, $fb, $fc) = (self.0, a.0, b.0);
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $mul_add })
             }
             #[inline(always)]
@@ -101,30 +108,36 @@ macro_rules! register {
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $sqrt(self.0) })
             }
             #[inline(always)]
             fn abs(self) -> Self {
                 const MAGNITUDE: $bits = $bits::MAX >> 1;
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $from($iand($to(self.0), $iset1(MAGNITUDE as _))) })
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $max(self.0, other.0) })
             }
             #[inline(always)]
             fn lt(self, other: Self) -> $mask {
                 let ($l, $r) = (self.0, other.0);
+                // SAFETY: the dispatch has found the instructions.
                 unsafe { $lt }
             }
             #[inline(always)]
             fn le(self, other: Self) -> $mask {
                 let ($l, $r) = (self.0, other.0);
+                // SAFETY: the dispatch has found the instructions.
                 unsafe { $le }
             }
             #[inline(always)]
             fn select($m: $mask, a: Self, b: Self) -> Self {
                 let ($yes, $no) = (a.0, b.0);
+                // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $select })
             }
             #[inline(always)]
@@ -134,6 +147,7 @@ macro_rules! register {
                 const ROOT_HALF: $bits = (core::f64::consts::FRAC_1_SQRT_2 as $t).to_bits();
                 // An integer below 2^MANTISSA is the mantissa of itself plus this power of two.
                 const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
+                // SAFETY: the dispatch has found the instructions.
                 unsafe {
                     let shifted = $iadd($to(self.0), $iset1((ONE - ROOT_HALF) as _));
                     let mantissa = $iand(shifted, $iset1((((1 as $bits) << MANTISSA) - 1) as _));
@@ -152,6 +166,7 @@ macro_rules! register {
             fn power_of_two(self) -> Self {
                 const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
                 const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
+                // SAFETY: the dispatch has found the instructions.
                 unsafe {
                     let biased = $add(self.0, $set1(INTEGER + ($t::MAX_EXP - 1) as $t));
                     $name($from($sll::<{ MANTISSA as _ }>($to(biased))))
@@ -163,15 +178,18 @@ macro_rules! register {
             const COUNT: usize = $count;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
+                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
                 $name(unsafe { $load(from) })
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
+                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
                 unsafe { $store(to, self.0) }
             }
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
+                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
                 unsafe { $store_integers }
             }
         }
@@ -188,6 +206,7 @@ macro_rules! wide_mask {
             type Output = Self;
             #[inline(always)]
             fn bitand(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $mask(unsafe { $and(self.0, other.0) })
             }
         }
@@ -195,6 +214,7 @@ macro_rules! wide_mask {
             type Output = Self;
             #[inline(always)]
             fn bitor(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $mask(unsafe { $or(self.0, other.0) })
             }
         }
@@ -202,6 +222,7 @@ macro_rules! wide_mask {
             type Output = Self;
             #[inline(always)]
             fn not(self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
                 $mask(unsafe { $xor(self.0, $ones) })
             }
         }
