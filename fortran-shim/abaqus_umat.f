@@ -55,8 +55,9 @@
         end function
       end interface
 
-!     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP in its place have no such flag: pass 1 there, and see
-!     to NLGEOM=YES yourself.
+!     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP
+!     in its place have no such flag: pass 1 there, and see to
+!     NLGEOM=YES yourself.
       status = toron_abaqus_umat_f64(stress, statev, sse, pnewdt,       &
      &  dfgrd1, props, int(nprops, c_int32_t),                          &
      &  int(nstatv, c_int32_t), int(ndi, c_int32_t),                    &

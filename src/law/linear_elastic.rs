@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use super::status::{self, Error};
+use super::stress::{components, matrix};
 use super::{failure::Failure, kinematics::FibreFrame};
 
 /// The frame that turns with the material.
@@ -152,10 +153,7 @@ impl LinearElastic {
             if rotation == Rotation::Spin {
                 *axes = q1;
             }
-            let s = point.stress;
-            let matrix = Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
-            let cauchy = q1 * matrix * q1.transpose();
-            point.stress = [cauchy.m11, cauchy.m22, cauchy.m33, cauchy.m12, cauchy.m23, cauchy.m31];
+            point.stress = components(&(q1 * matrix(&point.stress) * q1.transpose()));
         }
         point
     }

@@ -230,7 +230,8 @@ impl<T: Precision> Hyperelastic<T> {
     ///
     /// # Safety
     /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
-    /// reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing but, exactly, the old state they replace.
+    /// reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing but,
+    /// exactly, the old state they replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         if block.n == 0 {
             return Ok(status::OK);
