@@ -15,19 +15,44 @@
 //!
 //! The coefficients are minimax polynomials found by Remez exchange in 300-bit arithmetic.
 
+use core::f64::consts::{LN_2, LOG2_E};
+
 use super::real::Real;
 
-/// (ln((1+s)/(1−s)) − 2s)/s³ in powers of s², |s| ≤ (√2−1)/(√2+1); relative error of the logarithm 2^−59.5, 2^−30.2.
-pub(super) const LN_F64: [f64; 7] = [
-    0.6666666666666734,
-    0.3999999999941432,
-    0.2857142874247479,
-    0.22222198563493892,
-    0.18183564866252683,
-    0.15314035845644636,
-    0.1479610534032223,
-];
-pub(super) const LN_F32: [f64; 3] = [0.6666677641510833, 0.39977536980536554, 0.29871862251881137];
+/// (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
+pub(super) const ARTANH_F64: [f64; 7] = halved([
+    0.6666666666667272,
+    0.39999999996156954,
+    0.28571429396138265,
+    0.22222138432215943,
+    0.1818635891183978,
+    0.15250131648093396,
+    0.153686343008258,
+]);
+pub(super) const ARTANH_F32: [f64; 3] = halved([0.6666694752001328, 0.39957808364879166, 0.3036093709608493]);
+
+/// The same for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
+pub(super) const LN_F64: [f64; 7] = of_twice(ARTANH_F64);
+pub(super) const LN_F32: [f64; 3] = of_twice(ARTANH_F32);
+
+const fn halved<const N: usize>(mut c: [f64; N]) -> [f64; N] {
+    let mut j = 0;
+    while j < N {
+        c[j] *= 0.5;
+        j += 1;
+    }
+    c
+}
+
+const fn of_twice<const N: usize>(mut c: [f64; N]) -> [f64; N] {
+    let (mut j, mut factor) = (0, 0.25);
+    while j < N {
+        c[j] *= factor;
+        factor *= 0.25;
+        j += 1;
+    }
+    c
+}
 
 /// (e^r − 1 − r)/r² in powers of r, |r| ≤ ½ ln 2; error of the exponential 2^−58, 2^−28.2.
 pub(super) const EXP_F64: [f64; 10] = [
@@ -45,18 +70,6 @@ pub(super) const EXP_F64: [f64; 10] = [
 pub(super) const EXP_F32: [f64; 5] =
     [0.5000000095185461, 0.1666651883965976, 0.04166620580112459, 0.008368889354403867, 0.0013950491223541559];
 
-/// ln 2 in two parts; the high one has 32 significant bits (12 for f32), so that an exponent times it is exact.
-#[inline(always)]
-fn ln_2<R: Real>() -> (R, R) {
-    let high = if R::LN.len() > LN_F32.len() {
-        f64::from_bits(core::f64::consts::LN_2.to_bits() & !0x1f_ffff)
-    } else {
-        0.693115234375
-    };
-    // ln 2 − high: the second word of ln 2 matters in double precision only.
-    (R::splat(high), R::splat((core::f64::consts::LN_2 - high) + 2.319_046_813_846_3e-17))
-}
-
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     let mut rest = coefficients.iter().rev();
@@ -67,26 +80,7 @@ fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     sum
 }
 
-/// The reciprocals of several numbers by one division, each to within 1 + N/2 ulp; their product must be in range.
-#[inline(always)]
-pub fn reciprocals<R: Real, const N: usize>(x: [R; N]) -> [R; N] {
-    let one = R::splat(1.0);
-    // Products of all that stand before; then, from behind, of all that stand after, times the inverse of everything.
-    let mut inverses = [one; N];
-    let mut product = one;
-    for (inverse, &factor) in inverses.iter_mut().zip(&x) {
-        *inverse = product;
-        product = product * factor;
-    }
-    let mut rest = one / product;
-    for (inverse, &factor) in inverses.iter_mut().zip(&x).rev() {
-        *inverse = *inverse * rest;
-        rest = rest * factor;
-    }
-    inverses
-}
-
-/// A logarithm half done: y = (1 + f) 2^k with 1 + f in [√½, √2). What is missing is a reciprocal, which several may share.
+/// A logarithm half done: y = (1 + f) 2^k with 1 + f in [¾, 1½). What is missing is a reciprocal, which several may share.
 #[derive(Clone, Copy, Debug)]
 pub struct Logarithm<R> {
     f: R,
@@ -101,28 +95,24 @@ impl<R: Real> Logarithm<R> {
         Logarithm { f: z - R::splat(1.0), k }
     }
 
-    /// What the reciprocal is wanted of: 2 + f.
+    /// What the reciprocal is wanted of: 1 + f/2.
     #[inline(always)]
     pub fn denominator(&self) -> R {
-        R::splat(2.0) + self.f
+        R::splat(0.5).mul_add(self.f, R::splat(1.0))
     }
 
-    /// ln(1 + f) = f − (f²/2 − rest): f is exact, so that an error of the reciprocal weighs little.
+    /// ln(1 + f) = 2 artanh(f/(2 + f)).
     #[inline(always)]
-    fn parts(&self, reciprocal: R) -> (R, R) {
+    fn of_mantissa(&self, reciprocal: R) -> R {
         let s = self.f * reciprocal;
-        let half_square = R::splat(0.5) * self.f * self.f;
-        let w = s * s;
-        (half_square, s * (half_square + w * polynomial(R::LN, w)))
+        let square = s * s;
+        s.mul_add(square * polynomial(R::LN, square), s)
     }
 
-    /// ln y + correction, for a correction far below one.
+    /// ln(y + c), given c and 1/y, for a correction c far below y.
     #[inline(always)]
-    pub fn finish(&self, reciprocal: R, correction: R) -> R {
-        let (half_square, rest) = self.parts(reciprocal);
-        let (high, low) = ln_2::<R>();
-        let small = rest + self.k.mul_add(low, correction);
-        self.k.mul_add(high, self.f - (half_square - small))
+    pub fn finish(&self, reciprocal: R, c: R, over_y: R) -> R {
+        self.k.mul_add(R::splat(LN_2), c.mul_add(over_y, self.of_mantissa(reciprocal)))
     }
 }
 
@@ -130,7 +120,7 @@ impl<R: Real> Logarithm<R> {
 #[inline(always)]
 pub fn ln_sum<R: Real>(y: R, c: R) -> R {
     let logarithm = Logarithm::new(y);
-    logarithm.finish(R::splat(1.0) / logarithm.denominator(), c / y)
+    logarithm.finish(logarithm.denominator().reciprocal(), c, y.reciprocal())
 }
 
 /// ln(1 + x), x > −1.
@@ -141,75 +131,63 @@ pub fn ln_1p<R: Real>(x: R) -> R {
     ln_sum(y, x - (y - one))
 }
 
-/// asinh s half done, for s ≥ 0: what is missing are two reciprocals.
+/// a = asinh(s/j) half done, for s ≥ 0 and j > 0, given t = √(s² + j²): what is missing are two reciprocals.
 ///
-/// With y = e^a = s + √(1 + s²) and the nearest power of two 2^k, a = k ln 2 + 2 artanh w, w = (y − 2^k)/(y + 2^k). For
-/// k = 0 that is w = s/(1 + √(1 + s²)), which holds its digits down to s = 0, and a/s follows without a quotient 0/0.
+/// With z = e^2a = (s + t)²/j² and the nearest power of two 2^k, a = ½ k ln 2 + artanh w, w = (z − 2^k)/(z + 2^k). For
+/// k = 0 that is w = s/t, which holds its digits down to s = 0, and a/s follows without a quotient 0/0.
 #[derive(Clone, Copy, Debug)]
 pub struct Asinh<R: Real> {
-    s: R,
-    root: R,
     k: R,
     numerator: R,
     denominator: R,
-    /// What rounding took from y, over y.
-    correction: R,
+    divisor: R,
     small: R::Mask,
 }
 
 impl<R: Real> Asinh<R> {
-    /// For s ≥ 0 whose square is in range.
+    /// Given s, t = √(s² + j²) and 1/j², all within the range of the number with their squares. Returns e^2a as well.
     #[inline(always)]
-    pub fn new(s: R) -> Self {
+    pub fn new(s: R, t: R, over_j_square: R) -> (Self, R) {
         let one = R::splat(1.0);
-        let root = s.mul_add(s, one).sqrt();
-        let y = root + s;
-        let (_, k) = y.split_exponent();
-        let small = k.le(R::splat(0.0));
-        let power = k.power_of_two();
-        Asinh {
-            s,
-            root,
+        let sum = s + t;
+        let growth = sum * sum * over_j_square;
+        let (z, k) = growth.split_exponent();
+        // w < 1/5, that is z < 1½ with room for rounding: there k = 0.
+        let small = (R::splat(5.01) * s).lt(t);
+        let asinh = Asinh {
             k,
-            numerator: R::select(small, s, y - power),
-            denominator: R::select(small, one + root, y + power),
-            correction: (s - (y - root)) * (root - s),
+            numerator: R::select(small, s, z - one),
+            denominator: R::select(small, t, z + one),
+            divisor: R::select(small, one, s),
             small,
-        }
+        };
+        (asinh, growth)
     }
 
     /// What the reciprocals are wanted of.
     #[inline(always)]
     pub fn denominators(&self) -> [R; 2] {
-        [self.denominator, R::select(self.small, R::splat(1.0), self.s)]
+        [self.denominator, self.divisor]
     }
 
-    /// √(1 + s²) = cosh a.
-    #[inline(always)]
-    pub fn cosh(&self) -> R {
-        self.root
-    }
-
-    /// a = asinh s, and a/s.
+    /// a, and a/s.
     #[inline(always)]
     pub fn finish(&self, [reciprocal, over_s]: [R; 2]) -> (R, R) {
         let w = self.numerator * reciprocal;
         let square = w * w;
-        // artanh w = w (1 + series/2), exact where w is small.
-        let series = square * polynomial(R::LN, square);
-        let near = reciprocal * (R::splat(2.0) + series);
-        let (high, low) = ln_2::<R>();
-        let far = self.k.mul_add(high, w.mul_add(series, self.k.mul_add(low, self.correction)) + (w + w));
-        (R::select(self.small, self.s * near, far), R::select(self.small, near, far * over_s))
+        // artanh w = w series.
+        let series = square.mul_add(polynomial(R::ARTANH, square), R::splat(1.0));
+        let a = self.k.mul_add(R::splat(0.5 * LN_2), w * series);
+        (a, R::select(self.small, reciprocal * series, a * over_s))
     }
 }
 
-/// asinh s, (asinh s)/s and √(1 + s²) for s ≥ 0.
+/// asinh s and (asinh s)/s for s ≥ 0.
 #[inline(always)]
-pub fn asinh<R: Real>(s: R) -> (R, R, R) {
-    let asinh = Asinh::new(s);
-    let (value, ratio) = asinh.finish(reciprocals(asinh.denominators()));
-    (value, ratio, asinh.cosh())
+pub fn asinh<R: Real>(s: R) -> (R, R) {
+    let one = R::splat(1.0);
+    let (asinh, _) = Asinh::new(s, s.mul_add(s, one).sqrt(), one);
+    asinh.finish(asinh.denominators().map(R::reciprocal))
 }
 
 /// The exponent of a power, prepared once: q = high + low, where an integer up to 2^11 times `high` is exact.
@@ -217,17 +195,28 @@ pub fn asinh<R: Real>(s: R) -> (R, R, R) {
 pub struct Exponent<R> {
     value: R,
     high: R,
-    low: R,
+    /// low · ln 2.
+    low_ln_2: R,
     over_ln_2: R,
+    /// The least base whose power is a normal number with room to spare.
+    least: R,
 }
 
-impl<R: Real> Exponent<R> {
+impl<R: Real + Into<f64>> Exponent<R> {
+    /// For q > 0.
     pub fn new(q: R) -> Self {
         // Veltkamp's split at 2^13 leaves 40 bits of 53; in single precision 11 of 24.
         let factor = R::splat(8193.0);
         let big = factor * q;
         let high = big - (big - q);
-        Exponent { value: q, high, low: q - high, over_ln_2: q * R::splat(core::f64::consts::LOG2_E) }
+        let least = libm::exp2(R::EXPONENTS.0 / q.into()).max(R::MIN_POSITIVE);
+        Exponent {
+            value: q,
+            high,
+            low_ln_2: (q - high) * R::splat(LN_2),
+            over_ln_2: q * R::splat(LOG2_E),
+            least: R::splat(least),
+        }
     }
 
     /// The same exponent in another number.
@@ -236,31 +225,51 @@ impl<R: Real> Exponent<R> {
         Exponent {
             value: lane(self.value),
             high: lane(self.high),
-            low: lane(self.low),
+            low_ln_2: lane(self.low_ln_2),
             over_ln_2: lane(self.over_ln_2),
+            least: lane(self.least),
         }
     }
 }
 
-/// i^q for i ≥ 0 and q > 0; 0 for subnormal i.
+/// i^q in three steps, each with a chain of operations short enough for a processor to overlap several.
 ///
-/// The exponent of i is kept apart from ln of its mantissa, since one double cannot hold their sum to enough digits.
+/// The exponent of i is kept apart from ln of its mantissa, since one number cannot hold their sum to enough digits.
+#[derive(Clone, Copy, Debug)]
+pub struct Power<R: Real> {
+    logarithm: Logarithm<R>,
+    reciprocal: R,
+    vanishes: R::Mask,
+}
+
+impl<R: Real> Power<R> {
+    /// The first step, for i ≥ 0.
+    #[inline(always)]
+    pub fn new(i: R, q: &Exponent<R>) -> Self {
+        let logarithm = Logarithm::new(i.max(q.least));
+        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), vanishes: i.lt(q.least) }
+    }
+
+    /// The second: i^q = 2^n e^r, |r| ≤ ½ ln 2.
+    #[inline(always)]
+    pub fn reduce(&self, q: &Exponent<R>) -> (R, R) {
+        let (k, ln_z) = (self.logarithm.k, self.logarithm.of_mantissa(self.reciprocal));
+        let n = q.over_ln_2.mul_add(ln_z, q.value * k).round();
+        let d = q.high.mul_add(k, -n);
+        (n, d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z)))
+    }
+
+    /// The third: 2^n e^r, or 0 for a base so small that the power is.
+    #[inline(always)]
+    pub fn finish(&self, (n, r): (R, R)) -> R {
+        let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
+        R::select(self.vanishes, R::splat(0.0), exponential.times_power_of_two(n))
+    }
+}
+
+/// i^q for i ≥ 0 and q > 0.
 #[inline(always)]
-pub fn power<R: Real>(i: R, q: Exponent<R>) -> R {
-    let zero = R::splat(0.0);
-    let logarithm = Logarithm::new(i);
-    let (half_square, rest) = logarithm.parts(R::splat(1.0) / logarithm.denominator());
-    let (k, ln_z) = (logarithm.k, logarithm.f - (half_square - rest));
-    // n = nearest integer to log2 of the result, held within the exponents that there are.
-    let (lowest, highest) = (R::splat(R::EXPONENTS.0), R::splat(R::EXPONENTS.1));
-    let estimate = q.over_ln_2.mul_add(ln_z, q.value * k);
-    let too_small = estimate.lt(lowest);
-    let too_large = highest.lt(estimate);
-    let n = R::select(too_small | too_large, zero, estimate).round();
-    let (ln_2_high, ln_2_low) = ln_2::<R>();
-    let d = q.high * k - n;
-    let r = d * ln_2_high + (d * ln_2_low + (q.low * k * R::splat(core::f64::consts::LN_2) + q.value * ln_z));
-    let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
-    let result = R::select(too_large, R::splat(f64::INFINITY), exponential * n.power_of_two());
-    R::select(too_small | i.lt(R::splat(R::MIN_POSITIVE)), zero, result)
+pub fn power<R: Real>(i: R, q: &Exponent<R>) -> R {
+    let power = Power::new(i, q);
+    power.finish(power.reduce(q))
 }

@@ -1,26 +1,61 @@
 //! When the yarn breaks: uniaxial (UF) and multiaxial (MF) failure, and the latch (thesis, section 4.4.2).
 
+use super::elementary::ln_1p;
+use super::kinematics::Strain;
 use super::real::Real;
 
-/// The limit, prepared once. A law without failure has an infinite limit and no weights.
+/// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
+const LEAST_LIMIT: f64 = 1e-30;
+
+/// The limit, prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct Failure<R> {
-    /// I_lim = ln(1 + ε_lim), or infinity.
-    pub limit: R,
+    /// I_lim = ln(1 + ε_lim), and its reciprocal.
+    limit: R,
+    inverse_limit: R,
+    /// The elongation invariant that failure needs to be above: 0, or infinite for a law without failure.
+    threshold: R,
     /// The weights of compaction and distortion, α and β; both 0 is uniaxial failure.
-    pub alpha: R,
-    pub beta: R,
+    alpha: R,
+    beta: R,
 }
 
 impl<R: Real> Failure<R> {
+    /// From the property ε_lim, 0 for no failure, and the weights.
+    pub fn new(eps_lim: R, alpha: R, beta: R) -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let fails = zero.lt(eps_lim);
+        let limit = R::select(fails, ln_1p(eps_lim).max(R::splat(LEAST_LIMIT)), one);
+        let weight = |x: R| R::select(fails, x, zero);
+        Failure {
+            limit,
+            inverse_limit: one / limit,
+            threshold: R::select(fails, zero, R::splat(f64::INFINITY)),
+            alpha: weight(alpha),
+            beta: weight(beta),
+        }
+    }
+
+    /// The same limit in another number.
+    #[inline(always)]
+    pub fn map<L>(self, lane: impl Fn(R) -> L) -> Failure<L> {
+        Failure {
+            limit: lane(self.limit),
+            inverse_limit: lane(self.inverse_limit),
+            threshold: lane(self.threshold),
+            alpha: lane(self.alpha),
+            beta: lane(self.beta),
+        }
+    }
+
     /// I_el/I_lim + α⟨−I_tc⟩ + β I_td where the fibre is in tension, else 0: 1 exactly at the limit.
     #[inline(always)]
-    pub fn index(&self, invariants: &[R; 4]) -> R {
+    pub fn index(&self, strain: &Strain<R>) -> R {
         let zero = R::splat(0.0);
-        let [i_el, i_tc, i_td, _] = *invariants;
         // A quotient, not a product with 1/I_lim: it is exactly 1 where I_el = I_lim.
-        let index = i_el / self.limit + self.alpha.mul_add((-i_tc).max(zero), self.beta * i_td);
-        R::select(zero.lt(i_el), index, zero)
+        let quotient = strain.i_el.quotient(self.limit, self.inverse_limit);
+        let index = quotient + self.alpha.mul_add((-strain.i_tc).max(zero), self.beta * strain.i_td);
+        R::select(self.threshold.lt(strain.i_el), index, zero)
     }
 
     /// Failed, given the index: equality fails.
@@ -29,10 +64,9 @@ impl<R: Real> Failure<R> {
         R::splat(1.0).le(index)
     }
 
-    /// Failed before, given the latch: anything but a number below ½, so that a state full of NaN does not pass as
-    /// intact.
+    /// Not failed before, given the latch: a number below ½, so that a state full of NaN does not pass as intact.
     #[inline(always)]
-    pub fn latched(latch: R) -> R::Mask {
-        !latch.lt(R::splat(0.5))
+    pub fn intact(latch: R) -> R::Mask {
+        latch.lt(R::splat(0.5))
     }
 }

@@ -3,24 +3,23 @@
 //! ```text
 //! W = ½ k_el ⟨I_el⟩²  +  k_tc ⟨−I_tc⟩^p  +  ½ k_td I_td²  +  ½ k_ld I_ld²        per reference volume
 //!
-//! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(asinh s/s) D  +  (k_ld/λ²)(P b e⊗e + e⊗P b e)
+//! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(2 I_td/ŝ) D̂  +  (k_ld/λ⁴)(u⊗c1 + c1⊗u)
 //! ```
 //!
-//! with P = 1 − e⊗e, b = F Fᵀ, and D, s and the invariants as [`kinematics`](super::kinematics) gives them. It is the
-//! thesis's Eq. 4.14 pushed forward, without its quotient 0/0: asinh s/s is smooth through s = 0.
+//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the rest as
+//! [`kinematics`](super::kinematics) gives it. It is the thesis's Eq. 4.14 pushed forward, without its quotient 0/0:
+//! 2 I_td/ŝ is smooth through ŝ = 0.
 
 use nalgebra::Matrix3;
 
-use super::elementary::{Exponent, ln_1p, power};
+use super::elementary::{Exponent, Power, power};
 use super::failure::Failure;
-use super::kinematics::{Decomposition, FibreFrame, Strain};
+use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
 use super::parameters::{self, FIBRE};
 use super::real::{Real, along, scale};
 use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use super::status::{self, Error};
-
-/// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
-const LEAST_LIMIT: f64 = 1e-30;
+use super::wave_speed::COMPACTION_FLOOR;
 
 /// The law's properties, checked and prepared once.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +30,13 @@ pub struct Hyperelastic<R> {
     pub(super) k_td: R,
     pub(super) k_ld: R,
     /// p − 1, the exponent of the compaction stress.
-    exponent: Exponent<R>,
+    pub(super) exponent: Exponent<R>,
+    /// W″ of an exponent p < 2 where the compaction vanishes and it is held.
+    pub(super) greatest_curvature: R,
     failure: Failure<R>,
     pub(super) frame: FibreFrame<R>,
+    /// Whether the fibre lies along the first axis, so that most products with the frame need not be computed.
+    pub(super) aligned: bool,
 }
 
 /// What a caller wants beside the stress; what is left out is not computed and stays 0.
@@ -70,9 +73,8 @@ pub struct Response<R: Real> {
     pub modes: [[R; 6]; 4],
     /// ρ0 c² for a bound c of the wave speed, at least k_el.
     pub wave_modulus: R,
-    /// The point's status code, as a number.
-    pub status: R,
-    /// Where the point had failed before or cannot be evaluated, so that energies, invariants and index stay.
+    /// Where the point had failed before or cannot be evaluated, so that energies, invariants and index stay; why is the
+    /// [`verdict`](Hyperelastic::verdict).
     pub kept: R::Mask,
 }
 
@@ -95,23 +97,21 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
                 wanted: "any vector but zero",
             });
         }
-        let zero = T::splat(0.0);
         let one = T::splat(1.0);
-        let fails = zero.lt(eps_lim);
-        let weight = |x: T| T::select(fails, x, zero);
+        let aligned = m_2.into() == 0.0 && m_3.into() == 0.0 && m_1.into() > 0.0;
+        let exponent = Exponent::new(p - one);
+        let floor = T::splat(COMPACTION_FLOOR);
         Ok(Hyperelastic {
             k_el,
             k_tc,
             p,
             k_td,
             k_ld,
-            exponent: Exponent::new(p - one),
-            failure: Failure {
-                limit: T::select(fails, ln_1p(eps_lim).max(T::splat(LEAST_LIMIT)), T::splat(f64::INFINITY)),
-                alpha: weight(alpha),
-                beta: weight(beta),
-            },
-            frame,
+            exponent,
+            greatest_curvature: p * (p - one) * k_tc * power(floor, &exponent) / floor,
+            failure: Failure::new(eps_lim, alpha, beta),
+            frame: if aligned { FibreFrame::first_axis() } else { frame },
+            aligned,
         })
     }
 }
@@ -119,7 +119,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
 /// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
 #[derive(Clone, Copy, Debug)]
 pub struct Kirchhoff<R> {
-    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/4) asinh s/s, k_ld/λ²: the factors of the four modes in τ.
+    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/4)(2 I_td/ŝ), k_ld/λ²: the factors of the four modes in τ.
     pub tension: R,
     pub pressure: R,
     pub distortion: R,
@@ -150,70 +150,83 @@ impl<R: Real> Hyperelastic<R> {
             k_td: lane(self.k_td),
             k_ld: lane(self.k_ld),
             exponent: self.exponent.map(lane),
-            failure: Failure {
-                limit: lane(self.failure.limit),
-                alpha: lane(self.failure.alpha),
-                beta: lane(self.failure.beta),
-            },
+            greatest_curvature: lane(self.greatest_curvature),
+            failure: self.failure.map(lane),
             frame: FibreFrame { m: vector(self.frame.m), t1: vector(self.frame.t1), t2: vector(self.frame.t2) },
+            aligned: self.aligned,
         }
     }
 
-    /// The factors of the four modes in the Kirchhoff stress.
+    /// The first step of the compaction's power.
     #[inline(always)]
-    pub fn kirchhoff(&self, d: &Decomposition<R>, strain: &Strain<R>) -> Kirchhoff<R> {
+    pub fn compaction(&self, strain: &Strain<R>) -> Power<R> {
+        Power::new(-strain.i_tc, &self.exponent)
+    }
+
+    /// The factors of the four modes in the Kirchhoff stress, given ⟨−I_tc⟩^(p−1).
+    #[inline(always)]
+    pub fn kirchhoff(&self, d: &Stretch<R>, strain: &Strain<R>, power: R) -> Kirchhoff<R> {
         let zero = R::splat(0.0);
-        let compaction = (-strain.i_tc).max(zero);
-        let powered = self.k_tc * power(compaction, self.exponent);
+        let powered = self.k_tc * power;
         Kirchhoff {
             tension: self.k_el * strain.i_el.max(zero),
             pressure: R::splat(0.5) * self.p * powered,
-            distortion: R::splat(0.25) * self.k_td * strain.asinh_ratio,
-            shear: self.k_ld * d.inverse_lambda * d.inverse_lambda,
-            compaction_energy: powered * compaction,
+            distortion: R::splat(0.25) * self.k_td * strain.distortion_ratio,
+            shear: self.k_ld * d.inverse_square,
+            compaction_energy: powered * (-strain.i_tc).max(zero),
         }
     }
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, invariants: &[R; 4], k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
+    pub fn energies(&self, strain: &Strain<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
-        let [i_el, _, i_td, i_ld] = *invariants;
         [
-            half * k.tension * i_el.max(zero),
+            half * k.tension * strain.i_el.max(zero),
             k.compaction_energy,
-            half * self.k_td * i_td * i_td,
-            if shear { half * self.k_ld * i_ld * i_ld } else { zero },
+            half * self.k_td * strain.i_td * strain.i_td,
+            if shear { half * self.k_ld * strain.i_ld * strain.i_ld } else { zero },
         ]
     }
 
     /// Cauchy stress 11 22 33 12 23 31.
     ///
-    /// With q2⊗q2 = 1 − e⊗e − q1⊗q1 the stress is −(p + d1) 1 + (t + p + d1) e⊗e + q1⊗v + v⊗q1, v = d1 q1 + d2 q2.
+    /// With A = a·a, x = a·b and v = ½(A − b·b) a + x b the section's deviator is D̂ = (a⊗v + v⊗a)/A − d̂ P, d̂ = ½(A − b·b) + x²/A,
+    /// which holds its digits where the section is hardly distorted. So
+    /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
-    pub fn cauchy(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 6] {
-        let inverse_j = d.inverse_jacobian;
-        let distortion = k.distortion * inverse_j;
-        let (d1, d2) = (distortion * d.d1, distortion * d.d2);
-        let across = k.pressure.mul_add(inverse_j, d1);
-        let (e, q1, q2) = (d.e, d.q1, d.q2());
-        let mut v = along(scale(d1, q1), d2, q2);
-        // e⊗w + w⊗e, w = ½ (t + p + d1) e.
-        let mut w = scale(R::splat(0.5) * k.tension.mul_add(inverse_j, across), e);
+    pub fn cauchy(
+        &self,
+        d: &Stretch<R>,
+        section: &Section<R>,
+        strain: &Strain<R>,
+        k: &Kirchhoff<R>,
+        shear: bool,
+    ) -> [R; 6] {
+        let distortion = k.distortion * d.inverse_jacobian;
+        let deviator = section.x23_square.mul_add(strain.inverse_a_square, section.delta);
+        // −(p + d)/J.
+        let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
+        let along_fibre = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
+        let (c, w) = (d.c1, scale(along_fibre, d.c1));
+        let a = scale(distortion * strain.inverse_a_square, section.a);
+        let v = along(scale(section.delta, section.a), section.x23, section.b);
+        let mut stress = [
+            a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
+            a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),
+            a[2].mul_add(v[2], a[2].mul_add(v[2], w[2].mul_add(c[2], across))),
+            a[0].mul_add(v[1], a[1].mul_add(v[0], w[0] * c[1])),
+            a[1].mul_add(v[2], a[2].mul_add(v[1], w[1] * c[2])),
+            a[2].mul_add(v[0], a[0].mul_add(v[2], w[2] * c[0])),
+        ];
         if shear {
-            let [t12, t13] = shear_components(d, k.shear * inverse_j);
-            v = along(v, t12, e);
-            w = along(w, t13, q2);
+            let factor = k.shear * d.inverse_square * d.inverse_jacobian;
+            let u = along(scale(factor * d.h[0], section.a), factor * d.h[1], section.b);
+            for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
+                stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
+            }
         }
-        let two = R::splat(2.0);
-        [
-            two.mul_add(e[0].mul_add(w[0], q1[0] * v[0]), -across),
-            two.mul_add(e[1].mul_add(w[1], q1[1] * v[1]), -across),
-            two.mul_add(e[2].mul_add(w[2], q1[2] * v[2]), -across),
-            e[0].mul_add(w[1], e[1].mul_add(w[0], q1[0].mul_add(v[1], q1[1] * v[0]))),
-            e[1].mul_add(w[2], e[2].mul_add(w[1], q1[1].mul_add(v[2], q1[2] * v[1]))),
-            e[2].mul_add(w[0], e[0].mul_add(w[2], q1[2].mul_add(v[0], q1[0] * v[2]))),
-        ]
+        stress
     }
 
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
@@ -226,7 +239,8 @@ impl<R: Real> Hyperelastic<R> {
         let w2 = scale(inverse_11, along(n.t1, -(d.f_a * d.inverse_lambda), n.m));
         let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * d.inverse_lambda), n.m), -d.r12, w2));
         let two = R::splat(2.0);
-        let (d1, d2) = (k.distortion * d.d1, k.distortion * d.d2);
+        let distortion = k.distortion * d.area_ratio;
+        let (d1, d2) = (distortion * d.d1, distortion * d.d2);
         let [t12, t13] = shear_components(d, k.shear);
         [
             product(k.tension, w1, w1),
@@ -238,59 +252,46 @@ impl<R: Real> Hyperelastic<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// Why a point cannot be evaluated, as a status code, or 0; `usable` says whether its fibre direction is.
-    #[inline(always)]
-    pub fn flaw(&self, d: &Decomposition<R>, usable: R::Mask) -> R {
-        let zero = R::splat(0.0);
-        let upright = zero.lt(d.jacobian) & zero.lt(d.lambda);
-        let inverted = d.jacobian.le(zero) | d.lambda.le(zero);
-        // The first reason that applies, from the last to the first. A determinant that overflows on its way is NaN:
-        // neither upright nor inverted.
-        let flaw = R::select(upright, zero, R::splat(status::OVERFLOW as f64));
-        let flaw = R::select(inverted, R::splat(status::INVERTED as f64), flaw);
-        let flaw = R::select(usable, flaw, R::splat(status::FIBRE_DIRECTION as f64));
-        R::select(d.finite.le(zero), flaw, R::splat(status::NOT_FINITE as f64))
-    }
-
-    /// The answer for a point, given its kinematics, its flaw and the latch of the old state; `shear` says whether there is
-    /// a longitudinal-shear stiffness whose terms are to be computed.
+    /// The answer for a point, given its kinematics, the factors of its stress, where all that may be relied on, and the
+    /// latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be computed.
     ///
-    /// No NaN or infinity leaves in the stress, the modes, the latch, the wave modulus or the status; energies,
-    /// invariants and index are to be replaced by the old ones where `kept` says so.
+    /// No NaN or infinity leaves in the stress, the modes, the latch or the wave modulus; energies, invariants and index
+    /// are to be replaced by the old ones where `kept` says so.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn respond(
         &self,
-        d: &Decomposition<R>,
+        d: &Stretch<R>,
+        section: &Section<R>,
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
         frame: &FibreFrame<R>,
-        flaw: R,
+        regular: R::Mask,
         latch: R,
         request: Request,
         shear: bool,
     ) -> Response<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let invariants = [strain.i_el, strain.i_tc, strain.i_td, d.shear_invariant()];
-        let mut stress = if request.stress { self.cauchy(d, k, shear) } else { [zero; 6] };
-        let energies = if request.energies { self.energies(&invariants, k, shear) } else { [zero; 4] };
-        let mut modes = if request.modes { self.modes(d, k, frame) } else { [[zero; 6]; 4] };
-        let wave = if request.wave_modulus { self.wave_modulus(d, strain, k) } else { self.k_el };
-        let index = if request.failure { self.failure.index(&invariants) } else { zero };
-
-        // Whether all that was asked for is a finite number: their sum times zero is zero.
-        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
-        if request.energies {
-            probe = probe + (energies[0] + energies[1]) + energies[2];
-            if shear {
-                probe = probe + energies[3];
+        let mut stress = if request.stress { self.cauchy(d, section, strain, k, shear) } else { [zero; 6] };
+        let energies = if request.energies { self.energies(strain, k, shear) } else { [zero; 4] };
+        let index = if request.failure { self.failure.index(strain) } else { zero };
+        let mut modes = [[zero; 6]; 4];
+        let mut wave = self.k_el;
+        if request.modes || request.wave_modulus {
+            let decomposition = Decomposition::new(d, section);
+            if request.modes {
+                modes = self.modes(&decomposition, k, frame);
+            }
+            if request.wave_modulus {
+                wave = self.wave_modulus(&decomposition, strain, k);
             }
         }
-        if request.invariants {
-            probe = probe + (invariants[0] + invariants[1]) + (invariants[2] + invariants[3]);
-        }
-        if request.failure {
-            probe = probe + index;
+
+        // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
+        // the invariants, the index and the energies of a regular point always are, but for that of the shear.
+        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
+        if request.energies && shear {
+            probe = probe + energies[3];
         }
         if request.wave_modulus {
             probe = probe + wave;
@@ -302,33 +303,45 @@ impl<R: Real> Hyperelastic<R> {
                 }
             }
         }
-        let representable = (probe * zero).le(zero);
-
-        let latched = Failure::latched(latch);
-        let status = R::select(flaw.lt(zero) | representable, flaw, R::splat(status::OVERFLOW as f64));
-        let unknown = R::select((latch * zero).le(zero), zero, R::splat(status::STATE_NOT_FINITE as f64));
-        let status = R::select(latched, unknown, status);
-        let kept = latched | status.lt(zero);
-        let fails = Failure::reached(index) & !kept;
+        let intact = Failure::intact(latch);
+        let new = intact & regular & (probe * zero).le(zero);
         for x in &mut stress {
-            *x = R::select(kept, zero, *x);
+            *x = R::select(new, *x, zero);
         }
         if request.modes {
             for x in modes.iter_mut().flatten() {
-                *x = R::select(kept, zero, *x);
+                *x = R::select(new, *x, zero);
             }
         }
         Response {
             stress,
             energies,
-            invariants,
+            invariants: [strain.i_el, strain.i_tc, strain.i_td, strain.i_ld],
             failure_index: index,
-            failed: R::select(latched | fails, one, zero),
+            failed: R::select(intact, R::select(new & Failure::reached(index), one, zero), one),
             modes,
-            wave_modulus: R::select(kept, self.k_el, wave),
-            status,
-            kept,
+            wave_modulus: R::select(new, wave, self.k_el),
+            kept: !new,
         }
+    }
+
+    /// The status code of a point that keeps its old state, as a number: why it cannot be evaluated, or 0 where it has failed
+    /// before. `usable` says whether its fibre direction is.
+    #[inline(always)]
+    pub fn verdict(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: R::Mask, latch: R) -> R {
+        let zero = R::splat(0.0);
+        let code = |status: i32| R::splat(f64::from(status));
+        // A number times zero is zero unless it is NaN or infinite.
+        let mut finite = zero;
+        for &entry in f.iter().flatten() {
+            finite = entry.mul_add(zero, finite);
+        }
+        // The first reason that applies, from the last to the first.
+        let flaw = R::select(d.jacobian.le(zero) | d.square.le(zero), code(status::INVERTED), code(status::OVERFLOW));
+        let flaw = R::select(usable, flaw, code(status::FIBRE_DIRECTION));
+        let flaw = R::select(finite.le(zero), flaw, code(status::NOT_FINITE));
+        let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));
+        R::select(Failure::intact(latch), flaw, failed)
     }
 }
 
@@ -400,19 +413,44 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
-        let (frame, usable) = fibre.map_or((self.frame, true), FibreFrame::new);
-        let d = Decomposition::new(f, &frame);
-        let strain = Strain::new(&d);
-        let k = self.kirchhoff(&d, &strain);
-        let flaw = self.flaw(&d, usable);
-        let r = self.respond(&d, &strain, &k, &frame, flaw, state[FAILED], request, self.shears());
+        match fibre {
+            Some(direction) => {
+                let (frame, usable) = FibreFrame::new(direction);
+                self.point_in(f, &frame, &frame, usable, state, request)
+            }
+            None if self.aligned => self.point_in(f, &FirstAxis, &self.frame, true, state, request),
+            None => self.point_in(f, &self.frame, &self.frame, true, state, request),
+        }
+    }
+
+    /// The law at one point, in these axes; `frame` the same ones as vectors.
+    #[inline(always)]
+    fn point_in<A: Axes<T>>(
+        &self,
+        f: &[[T; 3]; 3],
+        axes: &A,
+        frame: &FibreFrame<T>,
+        usable: bool,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+    ) -> Point<T> {
+        let stretch = Stretch::new(f, axes);
+        let section = Section::new(&stretch, axes);
+        let logarithms = Logarithms::new(&stretch, &section);
+        let strain = Strain::new(&stretch, &section, &logarithms);
+        let power = self.compaction(&strain);
+        let k = self.kirchhoff(&stretch, &strain, power.finish(power.reduce(&self.exponent)));
+        let (latch, shear) = (state[FAILED], self.shears());
+        let regular = logarithms.regular & usable;
+        let r = self.respond(&stretch, &section, &strain, &k, frame, regular, latch, request, shear);
         let zero = T::splat(0.0);
-        let mut status = Into::<f64>::into(r.status) as i32;
+        let mut status = status::OK;
         let mut new = [zero; HYPERELASTIC_STATE];
         new[ENERGIES..INVARIANTS].copy_from_slice(&r.energies);
         new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&r.invariants);
         new[FAILURE_INDEX] = r.failure_index;
         if r.kept {
+            status = Into::<f64>::into(self.verdict(f, &stretch, usable, latch)) as i32;
             // The latch has been looked at, and alive is never read.
             for (x, &old) in new.iter_mut().zip(state).take(FAILED) {
                 let finite = (old * zero).le(zero);

@@ -1,32 +1,73 @@
 //! From the deformation gradient to the four deformation modes and to what the stress needs of them, stably.
 //!
-//! With N = (m, t1, t2) the fibre and any two transverse axes, F N = Q R: Q = (e, q1, q2) holds the current fibre
-//! direction and two axes across it, R is upper triangular (thesis, Eq. 4.7),
+//! With N = (m, t1, t2) the fibre and any two transverse axes, c_i = F n_i are the images of the axes. The fibre gives
 //!
 //! ```text
-//!     ⎡ λ  f_a  f_b ⎤    λ         fibre stretch            I_el = ln λ
-//! R = ⎢ 0  r11  r12 ⎥    f_a, f_b  longitudinal shear       I_ld = √(f_a² + f_b²)/λ
-//!     ⎣ 0   0   r22 ⎦    J_t = r11 r22  area ratio          I_tc = ½ ln J_t
+//! λ² = c1·c1            fibre stretch, I_el = ½ ln λ²
+//! h_j = c1·c_j          longitudinal shear, I_ld = √(h2² + h3²)/λ²
 //! ```
 //!
-//! and the deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with
-//! √(d1² + d2²) = s = sinh 2 I_td. No inverse, no eigenvector, no quotient 0/0.
+//! and what is left of the other two images beside it, a = c2 − (h2/λ²) c1 and b = c3 − (h3/λ²) c1, is the section:
+//!
+//! ```text
+//! J_t² = (a·a)(b·b) − (a·b)²    area ratio, I_tc = ¼ ln J_t²
+//! ŝ² = ¼(a·a − b·b)² + (a·b)²   distortion, I_td = ½ asinh(ŝ/J_t), with t̂ = ½(a·a + b·b) = √(ŝ² + J_t²)
+//! ```
+//!
+//! No inverse, no eigenvector, no quotient 0/0, and a root only of ŝ².
 //!
 //! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact, and C − 1 follows
 //! from it without cancellation; far from it the sums over F itself round best. Both are the same formula,
 //! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0: the choice is a number,
-//! not a branch. The images of the transverse axes less their parts along e are a = σ t1 + δ2 and b = σ t2 + δ3 with
-//! δ2 = g_2 − f_a e, δ3 = g_3 − f_b e, and a·a − σ = δ2·(a + σ t1).
+//! not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = σ t1 + δ2 and x22 = a·a − σ = δ2·(a + σ t1), and likewise b.
 //!
-//! The work comes in two stages, algebra ([`Decomposition`]) and logarithms ([`Strain`]), which a block runs one after the
-//! other over several points: either has a chain of operations short enough for the processor to overlap points.
+//! The work comes in stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]), which a block runs one after the other
+//! over several points: each has a chain of operations short enough for the processor to overlap points, and divides and
+//! takes roots at its end, where nothing waits for them.
 
-use super::elementary::{Asinh, Logarithm, reciprocals};
+use super::elementary::{Asinh, Logarithm};
 use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
 
 /// F − 1 counts as small where the sum of its squared entries is below this: every diagonal entry of F is then above ½,
 /// so that H is exact, and no singular value of F is below 0.6.
 const NEAR_REFERENCE: f64 = 0.16;
+
+/// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
+pub trait Axes<R: Real>: Copy {
+    /// The images of the axes under the matrix of these columns.
+    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3];
+    /// `v + s n_axis`, counted from 0.
+    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
+    /// `n_axis·v`.
+    fn component(&self, v: [R; 3], axis: usize) -> R;
+}
+
+/// The coordinate axes, where the fibre lies along the first one.
+#[derive(Clone, Copy, Debug)]
+pub struct FirstAxis;
+
+impl<R: Real> Axes<R> for FirstAxis {
+    #[inline(always)]
+    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
+        *columns
+    }
+    #[inline(always)]
+    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
+        match axis {
+            0 => [v[0] + s, v[1], v[2]],
+            1 => [v[0], v[1] + s, v[2]],
+            _ => [v[0], v[1], v[2] + s],
+        }
+    }
+    #[inline(always)]
+    fn component(&self, v: [R; 3], axis: usize) -> R {
+        match axis {
+            0 => v[0],
+            1 => v[1],
+            _ => v[2],
+        }
+    }
+}
 
 /// The material frame: the fibre direction and two axes across it, orthonormal, right-handed.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +78,12 @@ pub struct FibreFrame<R> {
 }
 
 impl<R: Real> FibreFrame<R> {
+    /// The coordinate axes.
+    pub fn first_axis() -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        FibreFrame { m: [one, zero, zero], t1: [zero, one, zero], t2: [zero, zero, one] }
+    }
+
     /// The frame of a fibre direction of any length, and where that direction is usable: finite and not zero.
     #[inline(always)]
     pub fn new(direction: [R; 3]) -> (Self, R::Mask) {
@@ -50,55 +97,72 @@ impl<R: Real> FibreFrame<R> {
         let usable = zero.lt(square) & square.lt(R::splat(1e31));
         let length = R::select(usable, square, one).sqrt();
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
-        // Two axes across m, without a branch and without a loss where m points along −z (Duff et al., J. Comput.
-        // Graph. Tech. 6(1), 2017).
-        let sign = R::select(m[2].lt(zero), -one, one);
-        let a = -(one / (sign + m[2]));
-        let b = m[0] * m[1] * a;
-        let t1 = [one + sign * m[0] * m[0] * a, sign * b, -(sign * m[0])];
-        let t2 = [b, sign + m[1] * m[1] * a, -m[1]];
+        // Two axes across m, without a branch and without a loss where m points along −x (Duff et al., J. Comput.
+        // Graph. Tech. 6(1), 2017); those of the first axis are the other two.
+        let sign = R::select(m[0].lt(zero), -one, one);
+        let a = -(one / (sign + m[0]));
+        let b = m[1] * m[2] * a;
+        let t1 = [-(sign * m[1]), one + sign * m[1] * m[1] * a, sign * b];
+        let t2 = [-m[2], b, sign + m[2] * m[2] * a];
         (FibreFrame { m, t1, t2 }, usable)
+    }
+
+    #[inline(always)]
+    fn axis(&self, axis: usize) -> [R; 3] {
+        match axis {
+            0 => self.m,
+            1 => self.t1,
+            _ => self.t2,
+        }
     }
 }
 
-/// The algebra of a deformation gradient: F N = Q R, and what the logarithms are taken of.
-#[derive(Clone, Copy, Debug)]
-pub struct Decomposition<R> {
-    /// Current fibre direction and first axis across it, as vectors in space; the second one is [`q2`](Self::q2).
-    pub e: [R; 3],
-    pub q1: [R; 3],
-    /// The upper triangle of R, see the module's text, and 1/λ.
-    pub lambda: R,
-    pub inverse_lambda: R,
-    pub f_a: R,
-    pub f_b: R,
-    pub r11: R,
-    pub r12: R,
-    pub r22: R,
-    /// det F, its reciprocal, and the area ratio J_t = J/λ.
-    pub jacobian: R,
-    pub inverse_jacobian: R,
-    pub area_ratio: R,
-    /// The deviator of B/J_t on (q1, q2): (d1, d2; d2, −d1).
-    pub d1: R,
-    pub d2: R,
-    /// λ² and J_t², and what rounding took from them, relative to them.
-    stretch_square: R,
-    stretch_lost: R,
-    area_square: R,
-    area_lost: R,
-    /// 0 where every entry of F is finite, else NaN.
-    pub finite: R,
+impl<R: Real> Axes<R> for FibreFrame<R> {
+    #[inline(always)]
+    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
+        [image(columns, self.m), image(columns, self.t1), image(columns, self.t2)]
+    }
+    #[inline(always)]
+    fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
+        along(v, s, self.axis(axis))
+    }
+    #[inline(always)]
+    fn component(&self, v: [R; 3], axis: usize) -> R {
+        dot(self.axis(axis), v)
+    }
 }
 
-impl<R: Real> Decomposition<R> {
-    /// The decomposition of `f` (columns of F) in the material frame `n`.
+/// What the fibre and its image say, and F in the fibre's axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch<R: Real> {
+    /// Image of the fibre direction.
+    pub c1: [R; 3],
+    /// (F − σ1) t1 and (F − σ1) t2.
+    g2: [R; 3],
+    g3: [R; 3],
+    /// 1 near the reference, else 0.
+    sigma: R,
+    near: R::Mask,
+    /// Where F is upright, and neither it nor the fibre's stretch is too large or small.
+    regular: R::Mask,
+    /// det F and its reciprocal.
+    pub jacobian: R,
+    pub inverse_jacobian: R,
+    /// λ², its reciprocal, and what rounding took from it.
+    pub square: R,
+    pub inverse_square: R,
+    lost: R,
+    /// h2 and h3: the fibre's image times those of the axes across it.
+    pub h: [R; 2],
+}
+
+impl<R: Real> Stretch<R> {
+    /// Of `f` (columns of F) in the material axes.
     ///
-    /// Meaningful where F is finite, det F > 0 and the fibre's image is not zero; other points give NaN or infinities
-    /// and must be masked out by the caller.
+    /// Meaningful where [`Logarithms::regular`] says so; what other points give must be masked out by the caller.
     #[inline(always)]
-    pub fn new(f: &[[R; 3]; 3], n: &FibreFrame<R>) -> Self {
-        let (zero, one, half) = (R::splat(0.0), R::splat(1.0), R::splat(0.5));
+    pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
 
         // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
         // section loses most of its digits here.
@@ -111,70 +175,215 @@ impl<R: Real> Decomposition<R> {
         let near = size.lt(R::splat(NEAR_REFERENCE));
         let sigma = R::select(near, one, zero);
 
-        // A number times zero is zero unless it is NaN or infinite.
-        let mut finite = zero;
-        for column in f {
-            for &entry in column {
-                finite = entry.mul_add(zero, finite);
-            }
-        }
-
-        // g_i = (F − σ1) n_i.
         let columns = [
             [R::select(near, h[0], f[0][0]), f[0][1], f[0][2]],
             [f[1][0], R::select(near, h[1], f[1][1]), f[1][2]],
             [f[2][0], f[2][1], R::select(near, h[2], f[2][2])],
         ];
-        let (g1, g2, g3) = (image(&columns, n.m), image(&columns, n.t1), image(&columns, n.t2));
+        let [g1, g2, g3] = n.images(&columns);
+        let c1 = n.shifted(g1, sigma, 0);
+        let u11 = dot(g1, n.shifted(c1, sigma, 0));
+        let square = sigma + u11;
+        Stretch {
+            c1,
+            g2,
+            g3,
+            sigma,
+            near,
+            regular: zero.lt(jacobian) & size.lt(R::splat(R::SQUARES.1)) & R::splat(R::SQUARES.0).lt(square),
+            jacobian,
+            inverse_jacobian: jacobian.reciprocal(),
+            square,
+            inverse_square: one / square,
+            lost: u11 - (square - sigma),
+            h: [sigma.mul_add(n.component(g1, 1), dot(c1, g2)), sigma.mul_add(n.component(g1, 2), dot(c1, g3))],
+        }
+    }
+}
 
-        // Along the fibre.
-        let c1 = along(g1, sigma, n.m);
-        let u11 = dot(g1, along(c1, sigma, n.m));
-        let stretch_square = sigma + u11;
-        let lambda = stretch_square.sqrt();
-        let (inverse_lambda, inverse_jacobian) = (one / lambda, one / jacobian);
-        let e = scale(inverse_lambda, c1);
+/// The section across the fibre.
+#[derive(Clone, Copy, Debug)]
+pub struct Section<R: Real> {
+    /// Images of the transverse axes less their parts along the fibre's image.
+    pub a: [R; 3],
+    pub b: [R; 3],
+    /// ½(a·a − b·b), a·b and its square, a·a.
+    pub delta: R,
+    pub x23: R,
+    pub x23_square: R,
+    pub a_square: R,
+    /// t̂ = ½(a·a + b·b) and ŝ.
+    pub half_trace: R,
+    pub distortion: R,
+    /// J_t², its reciprocal, and what rounding took from it.
+    area_square: R,
+    inverse_area_square: R,
+    lost: R,
+}
 
-        // Longitudinal shear.
-        let f_a = sigma.mul_add(dot(n.t1, g1), dot(c1, g2)) * inverse_lambda;
-        let f_b = sigma.mul_add(dot(n.t2, g1), dot(c1, g3)) * inverse_lambda;
+impl<R: Real> Section<R> {
+    #[inline(always)]
+    pub fn new<A: Axes<R>>(d: &Stretch<R>, n: &A) -> Self {
+        let (one, half) = (R::splat(1.0), R::splat(0.5));
+        let delta_2 = along(d.g2, -(d.h[0] * d.inverse_square), d.c1);
+        let delta_3 = along(d.g3, -(d.h[1] * d.inverse_square), d.c1);
+        let a = n.shifted(delta_2, d.sigma, 1);
+        let b = n.shifted(delta_3, d.sigma, 2);
 
-        // Across the fibre: x_ij = a_i·a_j − σ δ_ij for a_1 = a, a_2 = b.
-        let (delta_2, delta_3) = (along(g2, -f_a, e), along(g3, -f_b, e));
-        let a = along(delta_2, sigma, n.t1);
-        let x22 = dot(delta_2, along(a, sigma, n.t1));
-        let x33 = dot(delta_3, along(delta_3, sigma + sigma, n.t2));
-        let x23 = sigma.mul_add(dot(n.t2, delta_2), dot(a, delta_3));
-        let r11 = (sigma + x22).sqrt();
-        let inverse_r11 = one / r11;
-        let area_ratio = jacobian * inverse_lambda;
-        let inverse_area = lambda * inverse_jacobian;
-        let r12 = x23 * inverse_r11;
+        // x_ij = a_i·a_j − σ δ_ij for a_2 = a, a_3 = b.
+        let x22 = dot(delta_2, n.shifted(a, d.sigma, 1));
+        let x33 = dot(delta_3, n.shifted(b, d.sigma, 2));
+        let x23 = d.sigma.mul_add(n.component(delta_2, 2), dot(a, delta_3));
+        let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
         // J_t² = det X near the reference, where its distance from 1 holds more digits than J.
-        let growth = x22 + x33 + x22.mul_add(x33, -(x23 * x23));
-        let area_square = R::select(near, one + growth, area_ratio * area_ratio);
+        let growth = sum + x22.mul_add(x33, -x23_square);
+        let ratio = d.jacobian * d.inverse_square * d.jacobian;
+        let area_square = R::select(d.near, one + growth, ratio);
 
+        Section {
+            a,
+            b,
+            delta,
+            x23,
+            x23_square,
+            a_square: d.sigma + x22,
+            half_trace: half.mul_add(sum, d.sigma),
+            distortion: delta.mul_add(delta, x23_square).sqrt(),
+            area_square,
+            inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
+            lost: d.sigma * (growth - (area_square - one)),
+        }
+    }
+}
+
+/// The logarithms half done: what is missing are four reciprocals, which share one division.
+#[derive(Clone, Copy, Debug)]
+pub struct Logarithms<R: Real> {
+    stretch: Logarithm<R>,
+    area: Logarithm<R>,
+    distortion: Asinh<R>,
+    /// The products of the first two and three denominators, and the reciprocal of all four's.
+    product_2: R,
+    product_3: R,
+    inverse: R,
+    /// Where F is finite, upright and of a size that its strains can be computed from.
+    pub regular: R::Mask,
+}
+
+impl<R: Real> Logarithms<R> {
+    #[inline(always)]
+    pub fn new(d: &Stretch<R>, section: &Section<R>) -> Self {
+        let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
+        let (stretch, area) = (Logarithm::new(d.square), Logarithm::new(section.area_square));
+        let (distortion, growth) = Asinh::new(section.distortion, section.half_trace, section.inverse_area_square);
+        let [d_3, d_4] = distortion.denominators();
+        let product_2 = stretch.denominator() * area.denominator();
+        let product_3 = product_2 * d_3;
+        Logarithms {
+            stretch,
+            area,
+            distortion,
+            product_2,
+            product_3,
+            inverse: R::splat(1.0) / (product_3 * d_4),
+            regular: d.regular & least.lt(section.area_square) & growth.lt(most * most),
+        }
+    }
+}
+
+/// The invariants.
+#[derive(Clone, Copy, Debug)]
+pub struct Strain<R> {
+    /// Elongation, compaction, distortion and longitudinal-shear invariant (Eq. 4.9).
+    pub i_el: R,
+    pub i_tc: R,
+    pub i_td: R,
+    pub i_ld: R,
+    /// 2 I_td/ŝ.
+    pub distortion_ratio: R,
+    /// 1/(a·a), for the stress.
+    pub inverse_a_square: R,
+}
+
+impl<R: Real> Strain<R> {
+    #[inline(always)]
+    pub fn new(d: &Stretch<R>, section: &Section<R>, logarithms: &Logarithms<R>) -> Self {
+        let half = R::splat(0.5);
+        let l = logarithms;
+        let [d_3, d_4] = l.distortion.denominators();
+        let over_4 = l.inverse * l.product_3;
+        let inverse_3 = l.inverse * d_4;
+        let over_3 = inverse_3 * l.product_2;
+        let inverse_2 = inverse_3 * d_3;
+        let over_2 = inverse_2 * l.stretch.denominator();
+        let over_1 = inverse_2 * l.area.denominator();
+        let (asinh, distortion_ratio) = l.distortion.finish([over_3, over_4]);
+        Strain {
+            i_el: half * l.stretch.finish(over_1, d.lost, d.inverse_square),
+            i_tc: R::splat(0.25) * l.area.finish(over_2, section.lost, section.inverse_area_square),
+            i_td: half * asinh,
+            i_ld: d.h[0].mul_add(d.h[0], d.h[1] * d.h[1]).sqrt() * d.inverse_square,
+            distortion_ratio,
+            inverse_a_square: R::splat(1.0) / section.a_square,
+        }
+    }
+}
+
+/// F N = Q R (thesis, Eq. 4.7): Q = (e, q1, q2) holds the current fibre direction and two axes across it, and
+///
+/// ```text
+///     ⎡ λ  f_a  f_b ⎤
+/// R = ⎢ 0  r11  r12 ⎥    J_t = r11 r22
+///     ⎣ 0   0   r22 ⎦
+/// ```
+///
+/// The deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with √(d1² + d2²) = s = sinh 2 I_td.
+/// What is not needed for the stress itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Decomposition<R> {
+    pub e: [R; 3],
+    pub q1: [R; 3],
+    pub lambda: R,
+    pub inverse_lambda: R,
+    pub f_a: R,
+    pub f_b: R,
+    pub r11: R,
+    pub r12: R,
+    pub r22: R,
+    pub area_ratio: R,
+    pub d1: R,
+    pub d2: R,
+    /// sinh and cosh of 2 I_td.
+    pub s: R,
+    pub cosh: R,
+}
+
+impl<R: Real> Decomposition<R> {
+    #[inline(always)]
+    pub fn new(d: &Stretch<R>, section: &Section<R>) -> Self {
+        let one = R::splat(1.0);
+        let lambda = d.square.sqrt();
+        let r11 = section.a_square.sqrt();
+        let (inverse_lambda, inverse_r11) = (one / lambda, one / r11);
+        let area_ratio = d.jacobian * inverse_lambda;
+        let inverse_area = one / area_ratio;
+        let r12 = section.x23 * inverse_r11;
         Decomposition {
-            e,
-            q1: scale(inverse_r11, a),
+            e: scale(inverse_lambda, d.c1),
+            q1: scale(inverse_r11, section.a),
             lambda,
             inverse_lambda,
-            f_a,
-            f_b,
+            f_a: d.h[0] * inverse_lambda,
+            f_b: d.h[1] * inverse_lambda,
             r11,
             r12,
             r22: area_ratio * inverse_r11,
-            jacobian,
-            inverse_jacobian,
             area_ratio,
-            d1: half.mul_add(x22 - x33, r12 * r12) * inverse_area,
+            d1: r12.mul_add(r12, section.delta) * inverse_area,
             d2: r12 * inverse_r11,
-            stretch_square,
-            stretch_lost: (u11 - (stretch_square - sigma)) * inverse_lambda * inverse_lambda,
-            area_square,
-            area_lost: R::select(near, growth - (area_square - one), zero) * inverse_area * inverse_area,
-            finite,
+            s: section.distortion * inverse_area,
+            cosh: section.half_trace * inverse_area,
         }
     }
 
@@ -182,47 +391,5 @@ impl<R: Real> Decomposition<R> {
     #[inline(always)]
     pub fn q2(&self) -> [R; 3] {
         cross(self.e, self.q1)
-    }
-
-    /// The longitudinal-shear invariant I_ld, the only one that needs no logarithm.
-    #[inline(always)]
-    pub fn shear_invariant(&self) -> R {
-        self.f_a.mul_add(self.f_a, self.f_b * self.f_b).sqrt() * self.inverse_lambda
-    }
-}
-
-/// What the logarithms of a decomposition give.
-#[derive(Clone, Copy, Debug)]
-pub struct Strain<R> {
-    /// Elongation, compaction and distortion invariant (Eq. 4.9).
-    pub i_el: R,
-    pub i_tc: R,
-    pub i_td: R,
-    /// a/s and cosh a for a = asinh s = 2 I_td, s² = d1² + d2².
-    pub asinh_ratio: R,
-    pub cosh: R,
-    pub s: R,
-}
-
-impl<R: Real> Strain<R> {
-    /// Two logarithms and an inverse hyperbolic sine, which share one division.
-    #[inline(always)]
-    pub fn new(d: &Decomposition<R>) -> Self {
-        let s = d.d1.mul_add(d.d1, d.d2 * d.d2).sqrt();
-        let (elongation, compaction, distortion) =
-            (Logarithm::new(d.stretch_square), Logarithm::new(d.area_square), Asinh::new(s));
-        let [a_1, a_2] = distortion.denominators();
-        let [over_el, over_tc, over_1, over_2] =
-            reciprocals([elongation.denominator(), compaction.denominator(), a_1, a_2]);
-        let (asinh_s, asinh_ratio) = distortion.finish([over_1, over_2]);
-        let half = R::splat(0.5);
-        Strain {
-            i_el: half * elongation.finish(over_el, d.stretch_lost),
-            i_tc: R::splat(0.25) * compaction.finish(over_tc, d.area_lost),
-            i_td: half * asinh_s,
-            asinh_ratio,
-            cosh: distortion.cosh(),
-            s,
-        }
     }
 }

@@ -109,7 +109,7 @@ impl LinearElastic {
         criterion: Criterion,
         axes: &mut Matrix3<f64>,
     ) -> LinearPoint {
-        if Failure::latched(state[LINEAR_FAILED]) {
+        if !Failure::intact(state[LINEAR_FAILED]) {
             return self.failed(state);
         }
         if f0.iter().chain(f1.iter()).chain(axes.iter()).any(|x| !x.is_finite()) {
@@ -171,7 +171,7 @@ impl LinearElastic {
         state: &[f64; LINEAR_ELASTIC_STATE],
         criterion: Criterion,
     ) -> LinearPoint {
-        if Failure::latched(state[LINEAR_FAILED]) {
+        if !Failure::intact(state[LINEAR_FAILED]) {
             return self.failed(state);
         }
         if !strain.iter().all(|x| x.is_finite()) || !jacobian.is_finite() {
@@ -225,7 +225,7 @@ impl LinearElastic {
     fn refused(&self, state: &[f64; LINEAR_ELASTIC_STATE], status: i32) -> LinearPoint {
         let finite = state[..LINEAR_ALIVE].iter().all(|x| x.is_finite());
         let mut new = state.map(|x| if x.is_finite() { x } else { 0.0 });
-        new[LINEAR_FAILED] = if Failure::latched(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
+        new[LINEAR_FAILED] = if !Failure::intact(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
         new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];
         let status = if !finite && status == status::OK { status::STATE_NOT_FINITE } else { status };
         LinearPoint { stress: [0.0; 6], state: new, status }

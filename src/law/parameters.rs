@@ -32,6 +32,8 @@ pub struct Property {
     /// The least value allowed, and whether it is itself excluded.
     pub minimum: f64,
     pub minimum_excluded: bool,
+    /// The greatest value allowed.
+    pub maximum: f64,
     /// The bounds in words.
     pub allowed: &'static str,
     pub meaning: &'static str,
@@ -51,7 +53,8 @@ const fn positive_or_zero(
         default,
         minimum: 0.0,
         minimum_excluded: false,
-        allowed: "a finite number >= 0",
+        maximum: 1e25,
+        allowed: "a number from 0 to 1e25",
         meaning,
     }
 }
@@ -64,6 +67,7 @@ const fn component(name: &'static str, symbol: &'static str, default: f64, meani
         default: Some(default),
         minimum: f64::NEG_INFINITY,
         minimum_excluded: false,
+        maximum: f64::INFINITY,
         allowed: "a finite number, not all three 0",
         meaning,
     }
@@ -85,7 +89,8 @@ pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
         default: None,
         minimum: 1.0,
         minimum_excluded: true,
-        allowed: "a finite number > 1",
+        maximum: 40.0,
+        allowed: "a number > 1, at most 40",
         meaning: "transverse compaction exponent",
     },
     positive_or_zero("k_td", "k_td", STRESS, None, "transverse distortion stiffness"),
@@ -180,7 +185,9 @@ pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> R
         if !value.is_finite() {
             return Err(Error::Property { code: PROPERTY_NOT_FINITE, index, property, value });
         }
-        if value < property.minimum || (property.minimum_excluded && value == property.minimum) {
+        if value < property.minimum
+            || value > property.maximum
+            || (property.minimum_excluded && value == property.minimum) {
             return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value });
         }
     }

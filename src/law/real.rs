@@ -3,6 +3,7 @@
 //! Every formula of the law is generic over [`Real`], so that a scalar call and a block of points run the same
 //! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
 
+use super::elementary::{ARTANH_F32, ARTANH_F64, EXP_F32, EXP_F64, LN_F32, LN_F64};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or several of them side by side.
@@ -16,9 +17,12 @@ pub trait Real:
 
     /// Smallest positive normal number.
     const MIN_POSITIVE: f64;
-    /// Exponent of the smallest and of the largest normal power of two.
+    /// Exponents of two that leave room for a factor of some thousands on either side of the range.
     const EXPONENTS: (f64, f64);
-    /// Coefficients of the logarithm and of the exponential, see [`elementary`](super::elementary).
+    /// Squares of stretches and of area ratios within which the law is evaluated: no intermediate result leaves the range.
+    const SQUARES: (f64, f64);
+    /// Coefficients of artanh, the logarithm and the exponential, see [`elementary`](super::elementary).
+    const ARTANH: &'static [f64];
     const LN: &'static [f64];
     const EXP: &'static [f64];
 
@@ -36,12 +40,22 @@ pub trait Real:
     fn le(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, `b` elsewhere; what stands in the other one, NaN included, has no influence.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
-    /// `(z, k)` with `self = z · 2^k`, z in [√½, √2). For positive normal numbers; anything else gives some number.
+    /// `(z, k)` with `self = z · 2^k`, z in [¾, 1½). For positive normal numbers; anything else gives some number.
     fn split_exponent(self) -> (Self, Self);
     /// The nearest integer, for |self| up to 2^20.
     fn round(self) -> Self;
-    /// `2^self` for an integer within [`EXPONENTS`](Self::EXPONENTS).
-    fn power_of_two(self) -> Self;
+    /// `self · 2^k` for an integer k and self in [½, 2], both within the range of normal numbers.
+    fn times_power_of_two(self, k: Self) -> Self;
+    /// `1/self` to within 1 ulp, for normal numbers that are neither very small nor very large; some value or NaN for others.
+    #[inline(always)]
+    fn reciprocal(self) -> Self {
+        Self::splat(1.0) / self
+    }
+    /// `self/divisor`, correctly rounded, given the divisor's correctly rounded reciprocal; none of them very small or large.
+    #[inline(always)]
+    fn quotient(self, divisor: Self, _reciprocal: Self) -> Self {
+        self / divisor
+    }
 }
 
 /// Scalar product of two vectors.
@@ -98,13 +112,15 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 macro_rules! scalar {
-    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, difference: $difference:expr, ln: $ln:expr, exp: $exp:expr) => {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
         impl Real for $t {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
-            const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 - 1.0, $t::MAX_EXP as f64 - 1.0);
-            const LN: &'static [f64] = $ln;
-            const EXP: &'static [f64] = $exp;
+            const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 + 20.0, $t::MAX_EXP as f64 - 20.0);
+            const SQUARES: (f64, f64) = $squares;
+            const ARTANH: &'static [f64] = &$artanh;
+            const LN: &'static [f64] = &$ln;
+            const EXP: &'static [f64] = &$exp;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -145,12 +161,12 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn split_exponent(self) -> (Self, Self) {
-                // Shifting the exponent field so that it steps at √½ instead of at a power of two.
+                // Shifting the exponent field so that it steps at ¾ instead of at a power of two.
                 const MANTISSA: u32 = $t::MANTISSA_DIGITS - 1;
                 const ONE: $bits = (1.0 as $t).to_bits();
-                const ROOT_HALF: $bits = (core::f64::consts::FRAC_1_SQRT_2 as $t).to_bits();
-                let shifted = self.to_bits().wrapping_add(ONE - ROOT_HALF);
-                let z = $t::from_bits((shifted & ((1 << MANTISSA) - 1)) + ROOT_HALF);
+                const LEAST: $bits = (0.75 as $t).to_bits();
+                let shifted = self.to_bits().wrapping_add(ONE - LEAST);
+                let z = $t::from_bits((shifted & ((1 << MANTISSA) - 1)) + LEAST);
                 let k = (shifted >> MANTISSA) as i32 - ($t::MAX_EXP - 1);
                 (z, k as $t)
             }
@@ -161,24 +177,24 @@ macro_rules! scalar {
                 (self + shift) - shift
             }
             #[inline(always)]
-            fn power_of_two(self) -> Self {
-                let exponent = (self as i32 + ($t::MAX_EXP - 1)) as $bits;
-                $t::from_bits(exponent << ($t::MANTISSA_DIGITS - 1))
+            fn times_power_of_two(self, k: Self) -> Self {
+                let exponent = (k as i32 + ($t::MAX_EXP - 1)) as $bits;
+                self * $t::from_bits(exponent << ($t::MANTISSA_DIGITS - 1))
             }
         }
     };
 }
 
 scalar!(
-    f64, u64, libm::sqrt, f64::abs,
+    f64, u64, libm::sqrt, f64::abs, squares: (1e-100, 1e100),
     difference: |a, b, c, d| {
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
     },
-    ln: &super::elementary::LN_F64, exp: &super::elementary::EXP_F64
+    series: ARTANH_F64, LN_F64, EXP_F64
 );
 scalar!(
-    f32, u32, libm::sqrtf, f32::abs,
+    f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15),
     difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
-    ln: &super::elementary::LN_F32, exp: &super::elementary::EXP_F32
+    series: ARTANH_F32, LN_F32, EXP_F32
 );

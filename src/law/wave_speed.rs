@@ -15,7 +15,6 @@
 //!
 //! At rest, and along a stretched fibre, that is √(k_el/ρ0): slack or not, tension may come back within a step.
 
-use super::elementary::{Exponent, power};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Strain};
 use super::real::Real;
@@ -50,21 +49,18 @@ impl<R: Real> Hyperelastic<R> {
 
         // |W′| = 2 · pressure; W″ = (p − 1)|W′|/i, or with i held at its floor.
         let compaction = -strain.i_tc;
-        let floor = R::splat(COMPACTION_FLOOR);
-        let above = floor.lt(compaction);
+        let above = R::splat(COMPACTION_FLOOR).lt(compaction);
         let slope = R::splat(2.0) * k.pressure;
-        let exponent = self.p - one;
-        let curvature = exponent
-            * R::select(
-                above,
-                slope / R::select(above, compaction, one),
-                self.p * self.k_tc * power(floor, Exponent::new(exponent)) / floor,
-            );
+        let curvature = R::select(
+            above,
+            (self.p - one) * slope / R::select(above, compaction, one),
+            self.greatest_curvature,
+        );
         let active = zero.le(compaction);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
-        let grown = strain.s + strain.cosh; // eᵃ
-        let distorting = k.distortion * grown + R::splat(0.5) * self.k_td * strain.i_td;
+        let grown = d.s + d.cosh; // eᵃ
+        let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         let [on_q1, on_q2] = shear_components(d, k.shear);
         let coupling = R::splat(4.0) * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();

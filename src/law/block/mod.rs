@@ -20,8 +20,9 @@ mod x86;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
-use super::kinematics::{Decomposition, FibreFrame, Strain};
+use super::failure::Failure;
+use super::hyperelastic::{Hyperelastic, Request};
+use super::kinematics::{Axes, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
 use super::real::Real;
 use super::status::{self, Error};
 use super::wave_speed;
@@ -344,6 +345,8 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store_integers(self, to: *mut i32);
+    /// Whether a mask holds for any of the points.
+    fn any(mask: Self::Mask) -> bool;
 }
 
 /// The kernel relies on what a precision is (bytes all 0 are the number 0), so that there are no others.
@@ -381,6 +384,10 @@ macro_rules! precision {
                 // SAFETY: the caller's promise.
                 unsafe { *to = self as i32 }
             }
+            #[inline(always)]
+            fn any(mask: bool) -> bool {
+                mask
+            }
         }
 
         impl Precision for $t {
@@ -392,6 +399,10 @@ macro_rules! precision {
                         // SAFETY: the caller's promise.
                         unsafe { sweep::<$t, $avx512, WANT>(law, block) }
                     }
+                    unsafe fn baseline<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { sweep::<$t, $baseline, WANT>(law, block) }
+                    }
                     #[target_feature(enable = "avx2,fma")]
                     unsafe fn avx2<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
                         // SAFETY: the caller's promise.
@@ -402,21 +413,19 @@ macro_rules! precision {
                         match level {
                             Level::Avx512 => specialised!(avx512, law, block, request),
                             Level::Avx2 => specialised!(avx2, law, block, request),
-                            Level::Baseline if law.shears() => sweep::<$t, $baseline, { AS_ASKED + SHEAR }>(law, block),
-                            Level::Baseline => sweep::<$t, $baseline, AS_ASKED>(law, block),
+                            Level::Baseline => as_asked!(baseline, law, block),
                         }
                     }
                 }
                 #[cfg(not(target_arch = "x86_64"))]
                 {
                     let _ = (level, request);
-                    // SAFETY: the caller's promise.
-                    unsafe {
-                        match law.shears() {
-                            true => sweep::<$t, $t, { AS_ASKED + SHEAR }>(law, block),
-                            false => sweep::<$t, $t, AS_ASKED>(law, block),
-                        }
+                    unsafe fn portable<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { sweep::<$t, $t, WANT>(law, block) }
                     }
+                    // SAFETY: the caller's promise.
+                    unsafe { as_asked!(portable, law, block) }
                 }
             }
         }
@@ -428,7 +437,8 @@ const ENERGIES: u8 = 1;
 const HISTORY: u8 = 2; // invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
-/// The kernel that asks the block at every turn, but for the shear.
+const ALIGNED: u8 = 16; // the property's fibre lies along the first axis
+/// The kernel that asks the block at every turn, but for the shear and the property's fibre.
 const AS_ASKED: u8 = 128;
 
 /// Calls the kernel built for exactly what is asked, or the one that asks at every turn.
@@ -436,24 +446,40 @@ const AS_ASKED: u8 = 128;
 macro_rules! specialised {
     ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
-        let shear = $law.shears();
         let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
-        let fibres = !$block.fibre[0].is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
-            (true, false, false, false) => specialised!($kernel, $law, $block, shear, fibres, 0),
-            (true, true, false, false) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES),
-            (true, true, true, true) => specialised!($kernel, $law, $block, shear, fibres, ENERGIES + HISTORY),
-            _ if shear => $kernel::<{ AS_ASKED + SHEAR }>($law, $block),
-            _ => $kernel::<AS_ASKED>($law, $block),
+            (true, false, false, false) => wanting!(0, $kernel, $law, $block),
+            (true, true, false, false) => wanting!(ENERGIES, $kernel, $law, $block),
+            (true, true, true, true) => wanting!(ENERGIES + HISTORY, $kernel, $law, $block),
+            _ => as_asked!($kernel, $law, $block),
         }
     }};
-    ($kernel:ident, $law:ident, $block:ident, $shear:ident, $fibres:ident, $want:expr) => {
-        match ($shear, $fibres) {
-            (false, false) => $kernel::<{ $want }>($law, $block),
-            (true, false) => $kernel::<{ $want + SHEAR }>($law, $block),
-            (false, true) => $kernel::<{ $want + FIBRES }>($law, $block),
-            (true, true) => $kernel::<{ $want + SHEAR + FIBRES }>($law, $block),
+}
+
+/// Calls the kernel built for what is wanted, for the shear and for the fibre.
+#[cfg(target_arch = "x86_64")]
+macro_rules! wanting {
+    ($want:expr, $kernel:ident, $law:ident, $block:ident) => {
+        match ($law.shears(), !$block.fibre[0].is_null(), $law.aligned) {
+            (false, true, _) => $kernel::<{ $want + FIBRES }>($law, $block),
+            (true, true, _) => $kernel::<{ $want + SHEAR + FIBRES }>($law, $block),
+            (false, false, true) => $kernel::<{ $want + ALIGNED }>($law, $block),
+            (true, false, true) => $kernel::<{ $want + SHEAR + ALIGNED }>($law, $block),
+            (false, false, false) => $kernel::<{ $want }>($law, $block),
+            (true, false, false) => $kernel::<{ $want + SHEAR }>($law, $block),
+        }
+    };
+}
+
+/// Calls the kernel that asks at every turn.
+macro_rules! as_asked {
+    ($kernel:ident, $law:ident, $block:ident) => {
+        match ($law.shears(), $law.aligned && $block.fibre[0].is_null()) {
+            (false, true) => $kernel::<{ AS_ASKED + ALIGNED }>($law, $block),
+            (true, true) => $kernel::<{ AS_ASKED + SHEAR + ALIGNED }>($law, $block),
+            (false, false) => $kernel::<AS_ASKED>($law, $block),
+            (true, false) => $kernel::<{ AS_ASKED + SHEAR }>($law, $block),
         }
     };
 }
@@ -513,7 +539,33 @@ const WIDEST: usize = 16;
 /// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
 const STAGED: usize = 8;
 
-/// Evaluates `count` registers of points from `i` on, stage by stage.
+/// What a stage leaves for the next ones.
+struct Stage<X>([MaybeUninit<X>; STAGED]);
+
+impl<X> Stage<X> {
+    #[inline(always)]
+    fn new() -> Self {
+        Stage([const { MaybeUninit::uninit() }; STAGED])
+    }
+
+    /// # Safety
+    /// k < STAGED: without bounds a stage's loop has one way out.
+    #[inline(always)]
+    unsafe fn put(&mut self, k: usize, x: X) {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.get_unchecked_mut(k) }.write(x);
+    }
+
+    /// # Safety
+    /// What stands at k has been put there.
+    #[inline(always)]
+    unsafe fn get(&self, k: usize) -> &X {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.get_unchecked(k).assume_init_ref() }
+    }
+}
+
+/// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
 ///
 /// # Safety
 /// As for [`sweep`], with i + count COUNT ≤ n and count ≤ STAGED.
@@ -525,32 +577,88 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
     count: usize,
     worst: &mut R,
 ) {
-    let mut decompositions = [const { MaybeUninit::<(Decomposition<R>, R)>::uninit() }; STAGED];
-    let mut strains = [const { MaybeUninit::<Strain<R>>::uninit() }; STAGED];
-    let mut stresses = [const { MaybeUninit::<Kirchhoff<R>>::uninit() }; STAGED];
-    let asked = WANT & AS_ASKED != 0;
-    let fibres = if asked { !block.fibre[0].is_null() } else { WANT & FIBRES != 0 };
+    let mut frames = Stage::new();
+    // SAFETY: the caller's promise; each stage reads what the one before has put.
+    unsafe {
+        if WANT & ALIGNED != 0 {
+            staged::<T, R, FirstAxis, WANT>(law, block, i, count, |_| (FirstAxis, None), worst);
+        } else if WANT & (FIBRES | AS_ASKED) != 0 {
+            for k in 0..count {
+                frames.put(k, frame::<T, R, WANT>(law, block, i + k * R::COUNT));
+            }
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |k| *frames.get(k), worst);
+        } else {
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |_| (law.frame, None), worst);
+        }
+    }
+}
+
+/// Evaluates `count` registers of points from `i` on, stage by stage. `axes` are those of a register, with where they are
+/// usable if that is not everywhere.
+///
+/// # Safety
+/// As for [`evaluate`].
+#[inline(always)]
+unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    count: usize,
+    axes: impl Fn(usize) -> (A, Option<R::Mask>),
+    worst: &mut R,
+) {
+    let (mut stretches, mut sections, mut logarithms) = (Stage::new(), Stage::new(), Stage::new());
+    let (mut strains, mut powers, mut reduced, mut powered) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
+    let mut outcomes = Stage::new();
+    let zero = R::splat(0.0);
+    let mut any_kept = zero.lt(zero);
+    let at = |k: usize| i + k * R::COUNT;
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
-    // what the one before has written. Without bounds a stage's loop has one way out.
+    // what the ones before have put.
     unsafe {
         for k in 0..count {
-            let (frame, usable) = frame(law, block, i + k * R::COUNT, fibres);
-            let d = Decomposition::new(&gradient(block, i + k * R::COUNT), &frame);
-            decompositions.get_unchecked_mut(k).write((d, law.flaw(&d, usable)));
+            stretches.put(k, Stretch::new(&gradient(block, at(k)), &axes(k).0));
         }
         for k in 0..count {
-            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
-            strains.get_unchecked_mut(k).write(Strain::new(d));
+            sections.put(k, Section::new(stretches.get(k), &axes(k).0));
         }
         for k in 0..count {
-            let (d, _) = decompositions.get_unchecked(k).assume_init_ref();
-            stresses.get_unchecked_mut(k).write(law.kirchhoff(d, strains.get_unchecked(k).assume_init_ref()));
+            logarithms.put(k, Logarithms::new(stretches.get(k), sections.get(k)));
         }
         for k in 0..count {
-            let (d, flaw) = decompositions.get_unchecked(k).assume_init_ref();
-            let strain = strains.get_unchecked(k).assume_init_ref();
-            let stress = stresses.get_unchecked(k).assume_init_ref();
-            finish::<T, R, WANT>(law, block, i + k * R::COUNT, d, strain, stress, *flaw, worst);
+            strains.put(k, Strain::new(stretches.get(k), sections.get(k), logarithms.get(k)));
+        }
+        for k in 0..count {
+            powers.put(k, law.compaction(strains.get(k)));
+        }
+        for k in 0..count {
+            reduced.put(k, powers.get(k).reduce(&law.exponent));
+        }
+        for k in 0..count {
+            powered.put(k, powers.get(k).finish(*reduced.get(k)));
+        }
+        for k in 0..count {
+            let regular = match axes(k).1 {
+                Some(usable) => logarithms.get(k).regular & usable,
+                None => logarithms.get(k).regular,
+            };
+            let (d, section, strain) = (stretches.get(k), sections.get(k), strains.get(k));
+            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, strain, *powered.get(k), regular);
+            any_kept = any_kept | outcome.kept;
+            outcomes.put(k, outcome);
+        }
+        // Points that failed before are nothing strange; what is, is rare.
+        let mut any_strange = zero.lt(zero);
+        if R::any(any_kept) {
+            for k in 0..count {
+                any_strange = any_strange | strange::<T, R, WANT>(block, at(k), outcomes.get(k));
+            }
+        }
+        if R::any(any_strange) {
+            for k in 0..count {
+                let usable = axes(k).1.unwrap_or(zero.le(zero));
+                *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
+            }
         }
     }
 }
@@ -577,23 +685,42 @@ unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3]
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
-unsafe fn frame<T, R: Lanes<T>>(
+unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
     i: usize,
-    fibres: bool,
-) -> (FibreFrame<R>, R::Mask) {
-    if fibres {
-        let m = &block.fibre;
-        // SAFETY: the caller's promise.
-        FibreFrame::new(unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] })
-    } else {
-        let zero = R::splat(0.0);
-        (law.frame, zero.le(zero))
+) -> (FibreFrame<R>, Option<R::Mask>) {
+    let m = &block.fibre;
+    if WANT & AS_ASKED != 0 && m[0].is_null() {
+        return (law.frame, None);
+    }
+    // SAFETY: the caller's promise.
+    let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
+    let (frame, usable) = FibreFrame::new(direction);
+    (frame, Some(usable))
+}
+
+/// What a kernel is asked for.
+#[inline(always)]
+fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
+    let asked = WANT & AS_ASKED != 0;
+    Request {
+        stress: !asked || !block.stress[0].is_null(),
+        energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
+        invariants: if asked { !block.invariants.is_null() } else { WANT & HISTORY != 0 },
+        failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
+        modes: asked && !block.modes.is_null(),
+        wave_modulus: asked && !block.wave_speed.is_null(),
     }
 }
 
-/// The last stage: the answer, stored.
+/// Where points keep their old state, and the latch of the old state.
+struct Outcome<R: Real> {
+    kept: R::Mask,
+    latch: R,
+}
+
+/// The last stage: the answer, stored. A point that keeps its state has no stress, and its status is to come.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
@@ -603,54 +730,47 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
     i: usize,
-    d: &Decomposition<R>,
+    d: &Stretch<R>,
+    section: &Section<R>,
     strain: &Strain<R>,
-    stress: &Kirchhoff<R>,
-    flaw: R,
-    worst: &mut R,
-) {
+    power: R,
+    regular: R::Mask,
+) -> Outcome<R> {
     let zero = R::splat(0.0);
     let asked = WANT & AS_ASKED != 0;
-    let request = Request {
-        stress: !asked || !block.stress[0].is_null(),
-        energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
-        invariants: if asked { !block.invariants.is_null() } else { WANT & HISTORY != 0 },
-        failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
-        modes: asked && !block.modes.is_null(),
-        wave_modulus: asked && !block.wave_speed.is_null(),
-    };
-    let shear = WANT & SHEAR != 0;
+    let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
-    // Which lanes keep an old value that is not finite.
-    let mut dropped = zero.lt(zero);
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
         let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
         let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
         // The modes alone want the frame again.
-        let frame = if request.modes { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
-        let r = law.respond(d, strain, stress, &frame, flaw, latch, request, shear);
+        let frame = if request.modes { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
+        let k = law.kirchhoff(d, strain, power);
+        let shear = WANT & SHEAR != 0;
+        let r = law.respond(d, section, strain, &k, &frame, regular, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
                 r.stress[c].store(block.stress[c].add(i));
             }
         }
+        let kept = |old: *const T, at: usize, new: R| R::select(r.kept, R::load(old.add(at)), new);
         if request.energies {
             for c in 0..4 {
-                let new = kept(block.energies_old, c * stride + i, r.energies[c], r.kept, &mut dropped);
-                new.store(block.energies.add(c * stride + i));
+                let at = c * stride + i;
+                kept(block.energies_old, at, r.energies[c]).store(block.energies.add(at));
             }
         }
         if request.invariants {
             for c in 0..4 {
-                let new = kept(block.invariants_old, c * stride + i, r.invariants[c], r.kept, &mut dropped);
-                new.store(block.invariants.add(c * stride + i));
+                let at = c * stride + i;
+                kept(block.invariants_old, at, r.invariants[c]).store(block.invariants.add(at));
             }
         }
         if request.failure {
-            kept(block.failure_old, i, r.failure_index, r.kept, &mut dropped).store(block.failure.add(i));
+            kept(block.failure_old, i, r.failure_index).store(block.failure.add(i));
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
@@ -666,26 +786,93 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
             // The ratio of two numbers may leave the range; that of their roots does not.
             wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
         }
-        let code = R::select(dropped & zero.le(r.status), R::splat(status::STATE_NOT_FINITE as f64), r.status);
         if !asked || !block.status.is_null() {
-            code.store_integers(block.status.add(i));
+            zero.store_integers(block.status.add(i));
         }
-        *worst = R::select(code.lt(*worst), code, *worst);
+        Outcome { kept: r.kept, latch }
     }
 }
 
-/// The new value, or the old one where the point keeps it; what is not finite there is reported and dropped.
+/// Where points keep their old state for another reason than that they had failed before, or keep one that is not finite.
 ///
 /// # Safety
-/// `old` has the lanes from `at` on.
+/// As for [`sweep`], for the lanes from i on, after [`finish`].
 #[inline(always)]
-unsafe fn kept<T, R: Lanes<T>>(old: *const T, at: usize, new: R, keeps: R::Mask, dropped: &mut R::Mask) -> R {
+unsafe fn strange<T: Precision, R: Lanes<T>, const WANT: u8>(
+    block: &Pointers<T>,
+    i: usize,
+    outcome: &Outcome<R>,
+) -> R::Mask {
+    let request = request::<T, WANT>(block);
+    let (zero, stride) = (R::splat(0.0), block.leading_dimension);
+    // The latch of a point that has failed is finite, or that is strange in itself.
+    let mut sum = outcome.latch;
+    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
+    unsafe {
+        for (asked, array) in [(request.energies, block.energies), (request.invariants, block.invariants)] {
+            if asked {
+                let value = |c: usize| R::load(array.add(c * stride + i));
+                sum = sum + ((value(0) + value(1)) + (value(2) + value(3)));
+            }
+        }
+        if request.failure {
+            sum = sum + R::load(block.failure.add(i));
+        }
+    }
+    outcome.kept & (Failure::intact(outcome.latch) | !(sum * zero).le(zero))
+}
+
+/// Says why points have kept their old state, and drops what is not finite in it. Returns the worst code.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`finish`].
+#[inline(always)]
+unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    d: &Stretch<R>,
+    usable: R::Mask,
+    outcome: &Outcome<R>,
+    worst: R,
+) -> R {
     let zero = R::splat(0.0);
+    let request = request::<T, WANT>(block);
+    let kept = outcome.kept;
+    let mut dropped = zero.lt(zero);
+    let mut clean = |array: *mut T, c: usize| {
+        // SAFETY: the array has the component, and the lanes from i on.
+        unsafe {
+            let place = array.add(c * block.leading_dimension + i);
+            let value = R::load(place);
+            let wrong = kept & !(value * zero).le(zero);
+            dropped = dropped | wrong;
+            R::select(wrong, zero, value).store(place);
+        }
+    };
+    if request.energies {
+        for c in 0..4 {
+            clean(block.energies, c);
+        }
+    }
+    if request.invariants {
+        for c in 0..4 {
+            clean(block.invariants, c);
+        }
+    }
+    if request.failure {
+        clean(block.failure, 0);
+    }
     // SAFETY: the caller's promise.
-    let old = unsafe { R::load(old.add(at)) };
-    let finite = (old * zero).le(zero);
-    *dropped = *dropped | (keeps & !finite);
-    R::select(keeps, R::select(finite, old, zero), new)
+    unsafe {
+        let code = law.verdict(&gradient(block, i), d, usable, outcome.latch);
+        let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
+        let code = R::select(kept, code, zero);
+        if WANT & AS_ASKED == 0 || !block.status.is_null() {
+            code.store_integers(block.status.add(i));
+        }
+        R::select(code.lt(worst), code, worst)
+    }
 }
 
 /// The points at the end of a block that do not fill the lanes: copied to arrays of their own, evaluated there, and copied

@@ -11,7 +11,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::Lanes;
-use crate::law::elementary::{EXP_F32, EXP_F64, LN_F32, LN_F64};
+use crate::law::elementary::{ARTANH_F32, ARTANH_F64, EXP_F32, EXP_F64, LN_F32, LN_F64};
 use crate::law::real::Real;
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
@@ -25,10 +25,15 @@ macro_rules! register {
         memory $load:ident $store:ident;
         integers ($x:ident, $to_int:ident) $store_integers:expr;
         compare ($l:ident, $r:ident) $lt:expr, $le:expr;
+        any ($any_mask:ident) $any:expr;
         select ($m:ident, $yes:ident, $no:ident) $select:expr;
         mul_add ($fa:ident, $fb:ident, $fc:ident) $mul_add:expr;
         difference ($da:ident, $db:ident, $dc:ident, $dd:ident) $difference:expr;
-        series $ln:ident $exp:ident
+        split ($sx:ident) $split:expr;
+        scale ($px:ident, $pk:ident) $scale:expr;
+        reciprocal ($rx:ident) $reciprocal:expr;
+        quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
+        series $artanh:ident $ln:ident $exp:ident
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -88,6 +93,8 @@ macro_rules! register {
             type Mask = $mask;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
             const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
+            const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
+            const ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
 
@@ -142,20 +149,8 @@ macro_rules! register {
             }
             #[inline(always)]
             fn split_exponent(self) -> (Self, Self) {
-                const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
-                const ONE: $bits = (1.0 as $t).to_bits();
-                const ROOT_HALF: $bits = (core::f64::consts::FRAC_1_SQRT_2 as $t).to_bits();
-                // An integer below 2^MANTISSA is the mantissa of itself plus this power of two.
-                const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
-                // SAFETY: the dispatch has found the instructions.
-                unsafe {
-                    let shifted = $iadd($to(self.0), $iset1((ONE - ROOT_HALF) as _));
-                    let mantissa = $iand(shifted, $iset1((((1 as $bits) << MANTISSA) - 1) as _));
-                    let z = $from($iadd(mantissa, $iset1(ROOT_HALF as _)));
-                    let exponent = $ior($srl::<{ MANTISSA as _ }>(shifted), $iset1(INTEGER.to_bits() as _));
-                    let bias = $set1(INTEGER + ($t::MAX_EXP - 1) as $t);
-                    ($name(z), $name($sub($from(exponent), bias)))
-                }
+                let $sx = self;
+                $split
             }
             #[inline(always)]
             fn round(self) -> Self {
@@ -163,13 +158,53 @@ macro_rules! register {
                 (self + shift) - shift
             }
             #[inline(always)]
-            fn power_of_two(self) -> Self {
+            fn times_power_of_two(self, $pk: Self) -> Self {
+                let $px = self;
+                $scale
+            }
+            #[inline(always)]
+            fn reciprocal(self) -> Self {
+                let $rx = self;
+                $reciprocal
+            }
+            #[inline(always)]
+            fn quotient(self, $qd: Self, $qr: Self) -> Self {
+                let $qx = self;
+                $quotient
+            }
+        }
+
+        impl $name {
+            /// Through the bits: shifting the exponent field so that it steps at ¾ instead of at a power of two.
+            #[inline(always)]
+            #[allow(dead_code)]
+            fn split_bits(self) -> (Self, Self) {
+                const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
+                const ONE: $bits = (1.0 as $t).to_bits();
+                const LEAST: $bits = (0.75 as $t).to_bits();
+                // An integer below 2^MANTISSA is the mantissa of itself plus this power of two.
+                const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
+                // SAFETY: the dispatch has found the instructions.
+                unsafe {
+                    let shifted = $iadd($to(self.0), $iset1((ONE - LEAST) as _));
+                    let mantissa = $iand(shifted, $iset1((((1 as $bits) << MANTISSA) - 1) as _));
+                    let z = $from($iadd(mantissa, $iset1(LEAST as _)));
+                    let exponent = $ior($srl::<{ MANTISSA as _ }>(shifted), $iset1(INTEGER.to_bits() as _));
+                    let bias = $set1(INTEGER + ($t::MAX_EXP - 1) as $t);
+                    ($name(z), $name($sub($from(exponent), bias)))
+                }
+            }
+
+            /// Through the bits of 2^k.
+            #[inline(always)]
+            #[allow(dead_code)]
+            fn scale_bits(self, k: Self) -> Self {
                 const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
                 const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
                 // SAFETY: the dispatch has found the instructions.
                 unsafe {
-                    let biased = $add(self.0, $set1(INTEGER + ($t::MAX_EXP - 1) as $t));
-                    $name($from($sll::<{ MANTISSA as _ }>($to(biased))))
+                    let biased = $add(k.0, $set1(INTEGER + ($t::MAX_EXP - 1) as $t));
+                    $name($mul(self.0, $from($sll::<{ MANTISSA as _ }>($to(biased)))))
                 }
             }
         }
@@ -191,6 +226,12 @@ macro_rules! register {
                 let $x = self.0;
                 // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
                 unsafe { $store_integers }
+            }
+            #[inline(always)]
+            fn any($any_mask: $mask) -> bool {
+                // SAFETY: the dispatch has found the instructions.
+                #[allow(unused_unsafe)]
+                unsafe { $any }
             }
         }
     };
@@ -238,9 +279,31 @@ wide_mask!(Mask32x8(__m256), _mm256_and_ps _mm256_or_ps _mm256_xor_ps, _mm256_ca
 #[inline(always)]
 fn fused_difference<R: Real>(a: R, b: R, c: R, d: R) -> R {
     let product = c * d;
-    let error = c.mul_add(d, -product);
-    a.mul_add(b, -product) - error
+    let error = (-c).mul_add(d, product);
+    a.mul_add(b, -product) + error
 }
+
+/// x/d, correctly rounded, given the correctly rounded reciprocal of d: the remainder of a product is exact with a fused
+/// multiply-add (Markstein, IBM J. Res. Dev. 34(1), 1990).
+#[inline(always)]
+fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
+    let quotient = x * reciprocal;
+    (-quotient).mul_add(divisor, x).mul_add(reciprocal, quotient)
+}
+
+/// 1/x from an approximation y to 14 bits: with r = 1 − x y it is y (1 + r + r² + r³ …), so many terms of it.
+#[inline(always)]
+fn refined_reciprocal<R: Real, const TERMS: u8>(x: R, approximation: R) -> R {
+    let r = (-x).mul_add(approximation, R::splat(1.0));
+    let mut series = r;
+    for _ in 1..TERMS {
+        series = series.mul_add(r, r);
+    }
+    series.mul_add(approximation, approximation)
+}
+
+/// x times this has the exponent of the power of two that brings x to [¾, 1½); its rounding is exact where it matters.
+const FOUR_THIRDS: f64 = 4.0 / 3.0;
 
 /// The 26 leading bits of each number.
 #[inline(always)]
@@ -295,10 +358,15 @@ register! {
     memory _mm_loadu_pd _mm_storeu_pd;
     integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
     compare (a, b) Mask64x2(_mm_cmplt_pd(a, b)), Mask64x2(_mm_cmple_pd(a, b));
+    any (mask) _mm_movemask_pd(mask.0) != 0;
     select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
     mul_add (a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
     difference (a, b, c, d) split_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, _r) x / divisor;
+    series ARTANH_F64 LN_F64 EXP_F64
 }
 
 register! {
@@ -310,10 +378,15 @@ register! {
     memory _mm_loadu_ps _mm_storeu_ps;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm_cvttps_epi32(x));
     compare (a, b) Mask32x4(_mm_cmplt_ps(a, b)), Mask32x4(_mm_cmple_ps(a, b));
+    any (mask) _mm_movemask_ps(mask.0) != 0;
     select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
     mul_add (a, b, c) _mm_add_ps(_mm_mul_ps(a, b), c);
     difference (a, b, c, d) widened_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, _r) x / divisor;
+    series ARTANH_F32 LN_F32 EXP_F32
 }
 
 register! {
@@ -325,10 +398,15 @@ register! {
     memory _mm256_loadu_pd _mm256_storeu_pd;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm256_cvttpd_epi32(x));
     compare (a, b) Mask64x4(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x4(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm256_movemask_pd(mask.0) != 0;
     select (mask, a, b) _mm256_blendv_pd(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series ARTANH_F64 LN_F64 EXP_F64
 }
 
 register! {
@@ -340,10 +418,15 @@ register! {
     memory _mm256_loadu_ps _mm256_storeu_ps;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm256_cvttps_epi32(x));
     compare (a, b) Mask32x8(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x8(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm256_movemask_ps(mask.0) != 0;
     select (mask, a, b) _mm256_blendv_ps(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series ARTANH_F32 LN_F32 EXP_F32
 }
 
 register! {
@@ -355,10 +438,21 @@ register! {
     memory _mm512_loadu_pd _mm512_storeu_pd;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm512_cvttpd_epi32(x));
     compare (a, b) _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b);
+    any (mask) mask != 0;
     select (mask, a, b) _mm512_mask_blend_pd(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    split (x) (
+        // SAFETY: as for the registers.
+        F64x8(unsafe { _mm512_getmant_pd::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
+        F64x8(unsafe { _mm512_getexp_pd(_mm512_mul_pd(x.0, _mm512_set1_pd(FOUR_THIRDS))) })
+    );
+    // SAFETY: as for the registers.
+    scale (x, k) F64x8(unsafe { _mm512_scalef_pd(x.0, k.0) });
+    // SAFETY: as for the registers.
+    reciprocal (x) refined_reciprocal::<_, 3>(x, F64x8(unsafe { _mm512_rcp14_pd(x.0) }));
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series ARTANH_F64 LN_F64 EXP_F64
 }
 
 register! {
@@ -370,8 +464,19 @@ register! {
     memory _mm512_loadu_ps _mm512_storeu_ps;
     integers (x, to) _mm512_storeu_si512(to.cast(), _mm512_cvttps_epi32(x));
     compare (a, b) _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b);
+    any (mask) mask != 0;
     select (mask, a, b) _mm512_mask_blend_ps(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    split (x) (
+        // SAFETY: as for the registers.
+        F32x16(unsafe { _mm512_getmant_ps::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
+        F32x16(unsafe { _mm512_getexp_ps(_mm512_mul_ps(x.0, _mm512_set1_ps(FOUR_THIRDS as f32))) })
+    );
+    // SAFETY: as for the registers.
+    scale (x, k) F32x16(unsafe { _mm512_scalef_ps(x.0, k.0) });
+    // SAFETY: as for the registers.
+    reciprocal (x) refined_reciprocal::<_, 1>(x, F32x16(unsafe { _mm512_rcp14_ps(x.0) }));
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series ARTANH_F32 LN_F32 EXP_F32
 }
