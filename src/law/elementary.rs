@@ -135,7 +135,7 @@ pub fn ln_1p<R: Real>(x: R) -> R {
 ///
 /// With z = e^2a = (s + t)²/j² and the nearest power of two 2^k, a = ½ k ln 2 + artanh w, w = (z − 2^k)/(z + 2^k). For
 /// k = 0 that is w = s/t, which holds its digits down to s = 0, and a/s follows without a quotient 0/0.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Asinh<R: Real> {
     k: R,
     numerator: R,
@@ -235,7 +235,7 @@ impl<R: Real + Into<f64>> Exponent<R> {
 /// i^q in three steps, each with a chain of operations short enough for a processor to overlap several.
 ///
 /// The exponent of i is kept apart from ln of its mantissa, since one number cannot hold their sum to enough digits.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Power<R: Real> {
     logarithm: Logarithm<R>,
     reciprocal: R,

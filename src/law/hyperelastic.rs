@@ -57,25 +57,31 @@ impl Request {
         Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
 }
 
-/// What the law answers for one point, or for several side by side.
-#[derive(Clone, Copy, Debug)]
+/// What the law answers at once, for one point or for several side by side.
+#[derive(Clone, Copy)]
 pub struct Response<R: Real> {
-    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards and on errors.
+    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards. Where `flawed` holds it
+    /// means nothing.
     pub stress: [R; 6],
-    /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index. Where `kept` holds they mean nothing: the old
-    /// ones stand.
+    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
+    pub modes: [[R; 6]; 4],
+    /// ρ0 c² for a bound c of the wave speed, at least k_el.
+    pub wave_modulus: R,
+    /// Where the point is neither failed before nor flawed, so that its state is a new one.
+    pub new: R::Mask,
+    /// Where it cannot be evaluated; why is the [`verdict`](Hyperelastic::verdict).
+    pub flawed: R::Mask,
+}
+
+/// What a point remembers. Where its state is not new the energies, invariants and the index mean nothing: the old ones stand.
+#[derive(Clone, Copy)]
+pub struct History<R> {
+    /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index.
     pub energies: [R; 4],
     pub invariants: [R; 4],
     pub failure_index: R,
     /// The new latch, 0 or 1.
     pub failed: R,
-    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
-    pub modes: [[R; 6]; 4],
-    /// ρ0 c² for a bound c of the wave speed, at least k_el.
-    pub wave_modulus: R,
-    /// Where the point had failed before or cannot be evaluated, so that energies, invariants and index stay; why is the
-    /// [`verdict`](Hyperelastic::verdict).
-    pub kept: R::Mask,
 }
 
 impl<T: Real + Into<f64>> Hyperelastic<T> {
@@ -179,17 +185,17 @@ impl<R: Real> Hyperelastic<R> {
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, strain: &Strain<R>, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
+    pub fn energies(&self, strain: &Strain<R>, i_ld: R, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         [
             half * k.tension * strain.i_el.max(zero),
             k.compaction_energy,
             half * self.k_td * strain.i_td * strain.i_td,
-            if shear { half * self.k_ld * strain.i_ld * strain.i_ld } else { zero },
+            if shear { half * self.k_ld * i_ld * i_ld } else { zero },
         ]
     }
 
-    /// Cauchy stress 11 22 33 12 23 31.
+    /// Cauchy stress 11 22 33 12 23 31 of the points that are intact; zero for the others, if they can be evaluated.
     ///
     /// With A = a·a, x = a·b and v = ½(A − b·b) a + x b the section's deviator is D̂ = (a⊗v + v⊗a)/A − d̂ P, d̂ = ½(A − b·b) + x²/A,
     /// which holds its digits where the section is hardly distorted. So
@@ -201,15 +207,20 @@ impl<R: Real> Hyperelastic<R> {
         section: &Section<R>,
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
+        intact: R::Mask,
         shear: bool,
     ) -> [R; 6] {
+        let zero = R::splat(0.0);
         let distortion = k.distortion * d.inverse_jacobian;
         let deviator = section.x23_square.mul_add(strain.inverse_a_square, section.delta);
         // −(p + d)/J.
         let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
         let along_fibre = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
+        // Where all three factors are zero, so is the stress.
+        let factor = |x: R| R::select(intact, x, zero);
+        let (across, along_fibre) = (factor(across), factor(along_fibre));
         let (c, w) = (d.c1, scale(along_fibre, d.c1));
-        let a = scale(distortion * strain.inverse_a_square, section.a);
+        let a = scale(factor(distortion * strain.inverse_a_square), section.a);
         let v = along(scale(section.delta, section.a), section.x23, section.b);
         let mut stress = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
@@ -220,7 +231,7 @@ impl<R: Real> Hyperelastic<R> {
             a[2].mul_add(v[0], a[0].mul_add(v[2], w[2] * c[0])),
         ];
         if shear {
-            let factor = k.shear * d.inverse_square * d.inverse_jacobian;
+            let factor = factor(k.shear * d.inverse_square * d.inverse_jacobian);
             let u = along(scale(factor * d.h[0], section.a), factor * d.h[1], section.b);
             for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
                 stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
@@ -252,11 +263,11 @@ impl<R: Real> Hyperelastic<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The answer for a point, given its kinematics, the factors of its stress, where all that may be relied on, and the
-    /// latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be computed.
+    /// The stress of a point, given its kinematics, the factors of its modes, `doubt` (0 where all that may be relied on, else
+    /// NaN) and the latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be
+    /// computed.
     ///
-    /// No NaN or infinity leaves in the stress, the modes, the latch or the wave modulus; energies, invariants and index
-    /// are to be replaced by the old ones where `kept` says so.
+    /// No NaN or infinity leaves in the wave modulus, and none in the rest but where the point is flawed.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn respond(
@@ -266,62 +277,71 @@ impl<R: Real> Hyperelastic<R> {
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
         frame: &FibreFrame<R>,
-        regular: R::Mask,
+        doubt: R,
         latch: R,
         request: Request,
         shear: bool,
     ) -> Response<R> {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let mut stress = if request.stress { self.cauchy(d, section, strain, k, shear) } else { [zero; 6] };
-        let energies = if request.energies { self.energies(strain, k, shear) } else { [zero; 4] };
-        let index = if request.failure { self.failure.index(strain) } else { zero };
+        let zero = R::splat(0.0);
+        let intact = Failure::intact(latch);
+        let stress = if request.stress { self.cauchy(d, section, strain, k, intact, shear) } else { [zero; 6] };
+
+        // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
+        // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
+        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + ((stress[4] + stress[5]) + doubt);
+        if request.energies && shear {
+            probe = probe + self.energies(strain, d.shear_invariant(), k, shear)[3];
+        }
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
         if request.modes || request.wave_modulus {
             let decomposition = Decomposition::new(d, section);
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
-            }
-            if request.wave_modulus {
-                wave = self.wave_modulus(&decomposition, strain, k);
-            }
-        }
-
-        // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
-        // the invariants, the index and the energies of a regular point always are, but for that of the shear.
-        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
-        if request.energies && shear {
-            probe = probe + energies[3];
-        }
-        if request.wave_modulus {
-            probe = probe + wave;
-        }
-        if request.modes {
-            for mode in &modes {
-                for &x in mode {
+                for &x in modes.iter().flatten() {
                     probe = x.mul_add(zero, probe);
                 }
             }
+            if request.wave_modulus {
+                wave = self.wave_modulus(&decomposition, strain, k);
+                probe = wave.mul_add(zero, probe);
+            }
         }
-        let intact = Failure::intact(latch);
-        let new = intact & regular & (probe * zero).le(zero);
-        for x in &mut stress {
-            *x = R::select(new, *x, zero);
-        }
+        let regular = (probe * zero).le(zero);
+        let new = intact & regular;
         if request.modes {
             for x in modes.iter_mut().flatten() {
                 *x = R::select(new, *x, zero);
             }
         }
-        Response {
-            stress,
-            energies,
-            invariants: [strain.i_el, strain.i_tc, strain.i_td, strain.i_ld],
+        Response { stress, modes, wave_modulus: R::select(new, wave, self.k_el), new, flawed: !regular }
+    }
+
+    /// What a point remembers, given where its state is a new one. No NaN or infinity leaves in the latch.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    pub fn history(
+        &self,
+        d: &Stretch<R>,
+        strain: &Strain<R>,
+        k: &Kirchhoff<R>,
+        new: R::Mask,
+        latch: R,
+        request: Request,
+        shear: bool,
+    ) -> History<R> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let i_ld = d.shear_invariant();
+        let index = if request.failure { self.failure.index(strain) } else { zero };
+        History {
+            energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
+            invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
             failure_index: index,
-            failed: R::select(intact, R::select(new & Failure::reached(index), one, zero), one),
-            modes,
-            wave_modulus: R::select(new, wave, self.k_el),
-            kept: !new,
+            failed: R::select(
+                Failure::intact(latch),
+                R::select(new & Failure::reached(index), one, zero),
+                one,
+            ),
         }
     }
 
@@ -441,15 +461,17 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         let power = self.compaction(&strain);
         let k = self.kirchhoff(&stretch, &strain, power.finish(power.reduce(&self.exponent)));
         let (latch, shear) = (state[FAILED], self.shears());
-        let regular = logarithms.regular & usable;
-        let r = self.respond(&stretch, &section, &strain, &k, frame, regular, latch, request, shear);
         let zero = T::splat(0.0);
-        let mut status = status::OK;
+        let doubt = T::select(usable, logarithms.doubt, T::splat(f64::NAN));
+        let r = self.respond(&stretch, &section, &strain, &k, frame, doubt, latch, request, shear);
+        let history = self.history(&stretch, &strain, &k, r.new, latch, request, shear);
+        let (mut stress, mut status) = (r.stress, status::OK);
         let mut new = [zero; HYPERELASTIC_STATE];
-        new[ENERGIES..INVARIANTS].copy_from_slice(&r.energies);
-        new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&r.invariants);
-        new[FAILURE_INDEX] = r.failure_index;
-        if r.kept {
+        new[ENERGIES..INVARIANTS].copy_from_slice(&history.energies);
+        new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&history.invariants);
+        new[FAILURE_INDEX] = history.failure_index;
+        if !r.new {
+            stress = [zero; 6];
             status = Into::<f64>::into(self.verdict(f, &stretch, usable, latch)) as i32;
             // The latch has been looked at, and alive is never read.
             for (x, &old) in new.iter_mut().zip(state).take(FAILED) {
@@ -460,8 +482,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
                 }
             }
         }
-        new[FAILED] = r.failed;
-        new[ALIVE] = T::splat(1.0) - r.failed;
-        Point { stress: r.stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }
+        new[FAILED] = history.failed;
+        new[ALIVE] = T::splat(1.0) - history.failed;
+        Point { stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }
     }
 }

@@ -133,7 +133,7 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
 }
 
 /// What the fibre and its image say, and F in the fibre's axes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Stretch<R: Real> {
     /// Image of the fibre direction.
     pub c1: [R; 3],
@@ -159,7 +159,7 @@ pub struct Stretch<R: Real> {
 impl<R: Real> Stretch<R> {
     /// Of `f` (columns of F) in the material axes.
     ///
-    /// Meaningful where [`Logarithms::regular`] says so; what other points give must be masked out by the caller.
+    /// Meaningful where [`Logarithms::doubt`] says so; what other points give must be masked out by the caller.
     #[inline(always)]
     pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -198,6 +198,14 @@ impl<R: Real> Stretch<R> {
             lost: u11 - (square - sigma),
             h: [sigma.mul_add(n.component(g1, 1), dot(c1, g2)), sigma.mul_add(n.component(g1, 2), dot(c1, g3))],
         }
+    }
+}
+
+impl<R: Real> Stretch<R> {
+    /// The longitudinal-shear invariant I_ld, the only one that needs no logarithm.
+    #[inline(always)]
+    pub fn shear_invariant(&self) -> R {
+        self.h[0].mul_add(self.h[0], self.h[1] * self.h[1]).sqrt() * self.inverse_square
     }
 }
 
@@ -258,7 +266,7 @@ impl<R: Real> Section<R> {
 }
 
 /// The logarithms half done: what is missing are four reciprocals, which share one division.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Logarithms<R: Real> {
     stretch: Logarithm<R>,
     area: Logarithm<R>,
@@ -267,8 +275,8 @@ pub struct Logarithms<R: Real> {
     product_2: R,
     product_3: R,
     inverse: R,
-    /// Where F is finite, upright and of a size that its strains can be computed from.
-    pub regular: R::Mask,
+    /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
+    pub doubt: R,
 }
 
 impl<R: Real> Logarithms<R> {
@@ -287,7 +295,11 @@ impl<R: Real> Logarithms<R> {
             product_2,
             product_3,
             inverse: R::splat(1.0) / (product_3 * d_4),
-            regular: d.regular & least.lt(section.area_square) & growth.lt(most * most),
+            doubt: R::select(
+                d.regular & least.lt(section.area_square) & growth.lt(most * most),
+                R::splat(0.0),
+                R::splat(f64::NAN),
+            ),
         }
     }
 }
@@ -295,11 +307,10 @@ impl<R: Real> Logarithms<R> {
 /// The invariants.
 #[derive(Clone, Copy, Debug)]
 pub struct Strain<R> {
-    /// Elongation, compaction, distortion and longitudinal-shear invariant (Eq. 4.9).
+    /// Elongation, compaction and distortion invariant (Eq. 4.9).
     pub i_el: R,
     pub i_tc: R,
     pub i_td: R,
-    pub i_ld: R,
     /// 2 I_td/ŝ.
     pub distortion_ratio: R,
     /// 1/(a·a), for the stress.
@@ -323,7 +334,6 @@ impl<R: Real> Strain<R> {
             i_el: half * l.stretch.finish(over_1, d.lost, d.inverse_square),
             i_tc: R::splat(0.25) * l.area.finish(over_2, section.lost, section.inverse_area_square),
             i_td: half * asinh,
-            i_ld: d.h[0].mul_add(d.h[0], d.h[1] * d.h[1]).sqrt() * d.inverse_square,
             distortion_ratio,
             inverse_a_square: R::splat(1.0) / section.a_square,
         }

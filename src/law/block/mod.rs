@@ -20,7 +20,6 @@ mod x86;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
-use super::failure::Failure;
 use super::hyperelastic::{Hyperelastic, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
 use super::real::Real;
@@ -345,6 +344,11 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store_integers(self, to: *mut i32);
+    /// Stores where the mask holds. Elsewhere the value at `old` may be stored or nothing at all.
+    ///
+    /// # Safety
+    /// `to` has room for `COUNT` values, and `old` points to as many.
+    unsafe fn store_where(self, mask: Self::Mask, to: *mut T, old: *const T);
     /// Whether a mask holds for any of the points.
     fn any(mask: Self::Mask) -> bool;
 }
@@ -383,6 +387,11 @@ macro_rules! precision {
             unsafe fn store_integers(self, to: *mut i32) {
                 // SAFETY: the caller's promise.
                 unsafe { *to = self as i32 }
+            }
+            #[inline(always)]
+            unsafe fn store_where(self, mask: bool, to: *mut $t, old: *const $t) {
+                // SAFETY: the caller's promise.
+                unsafe { *to = if mask { self } else { *old } }
             }
             #[inline(always)]
             fn any(mask: bool) -> bool {
@@ -537,7 +546,7 @@ const WIDEST: usize = 16;
 
 /// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
 /// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
-const STAGED: usize = 8;
+const STAGED: usize = 6;
 
 /// What a stage leaves for the next ones.
 struct Stage<X>([MaybeUninit<X>; STAGED]);
@@ -611,7 +620,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut strains, mut powers, mut reduced, mut powered) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
     let mut outcomes = Stage::new();
     let zero = R::splat(0.0);
-    let mut any_kept = zero.lt(zero);
+    let mut all_new = zero.le(zero);
     let at = |k: usize| i + k * R::COUNT;
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the ones before have put.
@@ -638,21 +647,28 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             powered.put(k, powers.get(k).finish(*reduced.get(k)));
         }
         for k in 0..count {
-            let regular = match axes(k).1 {
-                Some(usable) => logarithms.get(k).regular & usable,
-                None => logarithms.get(k).regular,
+            let doubt = match axes(k).1 {
+                Some(usable) => R::select(usable, logarithms.get(k).doubt, R::splat(f64::NAN)),
+                None => logarithms.get(k).doubt,
             };
             let (d, section, strain) = (stretches.get(k), sections.get(k), strains.get(k));
-            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, strain, *powered.get(k), regular);
-            any_kept = any_kept | outcome.kept;
+            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, strain, *powered.get(k), doubt);
+            all_new = all_new & outcome.new;
             outcomes.put(k, outcome);
+        }
+        if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
+            for k in 0..count {
+                let (d, strain) = (stretches.get(k), strains.get(k));
+                remember::<T, R, WANT>(law, block, at(k), d, strain, *powered.get(k), outcomes.get(k));
+            }
+        }
+        if !R::any(!all_new) {
+            return;
         }
         // Points that failed before are nothing strange; what is, is rare.
         let mut any_strange = zero.lt(zero);
-        if R::any(any_kept) {
-            for k in 0..count {
-                any_strange = any_strange | strange::<T, R, WANT>(block, at(k), outcomes.get(k));
-            }
+        for k in 0..count {
+            any_strange = any_strange | retain::<T, R, WANT>(block, at(k), outcomes.get(k));
         }
         if R::any(any_strange) {
             for k in 0..count {
@@ -714,13 +730,15 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
     }
 }
 
-/// Where points keep their old state, and the latch of the old state.
+/// Where points have a new state, where they are flawed, and the latch of the old state.
 struct Outcome<R: Real> {
-    kept: R::Mask,
+    new: R::Mask,
+    flawed: R::Mask,
     latch: R,
 }
 
-/// The last stage: the answer, stored. A point that keeps its state has no stress, and its status is to come.
+/// The stress, stored; flawed points still want theirs. The state is stored apart from it: a processor keeps at hand the places
+/// of few pages to store to, and each component lies in another one.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
@@ -734,7 +752,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     section: &Section<R>,
     strain: &Strain<R>,
     power: R,
-    regular: R::Mask,
+    doubt: R,
 ) -> Outcome<R> {
     let zero = R::splat(0.0);
     let asked = WANT & AS_ASKED != 0;
@@ -749,30 +767,12 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let frame = if request.modes { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let shear = WANT & SHEAR != 0;
-        let r = law.respond(d, section, strain, &k, &frame, regular, latch, request, shear);
+        let r = law.respond(d, section, strain, &k, &frame, doubt, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
                 r.stress[c].store(block.stress[c].add(i));
             }
-        }
-        let kept = |old: *const T, at: usize, new: R| R::select(r.kept, R::load(old.add(at)), new);
-        if request.energies {
-            for c in 0..4 {
-                let at = c * stride + i;
-                kept(block.energies_old, at, r.energies[c]).store(block.energies.add(at));
-            }
-        }
-        if request.invariants {
-            for c in 0..4 {
-                let at = c * stride + i;
-                kept(block.invariants_old, at, r.invariants[c]).store(block.invariants.add(at));
-            }
-        }
-        if request.failure {
-            kept(block.failure_old, i, r.failure_index).store(block.failure.add(i));
-            r.failed.store(block.failure.add(stride + i));
-            (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
         if request.modes {
             for (mode, s) in r.modes.iter().enumerate() {
@@ -789,43 +789,90 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         if !asked || !block.status.is_null() {
             zero.store_integers(block.status.add(i));
         }
-        Outcome { kept: r.kept, latch }
+        Outcome { new: r.new, flawed: r.flawed, latch }
     }
 }
 
-/// Where points keep their old state for another reason than that they had failed before, or keep one that is not finite.
+/// Stores what the points remember. Those whose state is not new still want their old one.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
 #[inline(always)]
-unsafe fn strange<T: Precision, R: Lanes<T>, const WANT: u8>(
+unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    d: &Stretch<R>,
+    strain: &Strain<R>,
+    power: R,
+    outcome: &Outcome<R>,
+) {
+    let request = request::<T, WANT>(block);
+    let stride = block.leading_dimension;
+    let k = law.kirchhoff(d, strain, power);
+    let r = law.history(d, strain, &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
+    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
+    unsafe {
+        if request.energies {
+            for c in 0..4 {
+                let at = c * stride + i;
+                r.energies[c].store_where(outcome.new, block.energies.add(at), block.energies_old.add(at));
+            }
+        }
+        if request.invariants {
+            for c in 0..4 {
+                let at = c * stride + i;
+                r.invariants[c].store_where(outcome.new, block.invariants.add(at), block.invariants_old.add(at));
+            }
+        }
+        if request.failure {
+            r.failure_index.store_where(outcome.new, block.failure.add(i), block.failure_old.add(i));
+            r.failed.store(block.failure.add(stride + i));
+            (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
+        }
+    }
+}
+
+/// Gives points whose state is not new their old one. Returns where there is more to be said of them than that they had failed
+/// before: they are flawed, or what they keep is not finite.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`finish`].
+#[inline(always)]
+unsafe fn retain<T: Precision, R: Lanes<T>, const WANT: u8>(
     block: &Pointers<T>,
     i: usize,
     outcome: &Outcome<R>,
 ) -> R::Mask {
     let request = request::<T, WANT>(block);
     let (zero, stride) = (R::splat(0.0), block.leading_dimension);
-    // The latch of a point that has failed is finite, or that is strange in itself.
     let mut sum = outcome.latch;
-    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
-    unsafe {
-        for (asked, array) in [(request.energies, block.energies), (request.invariants, block.invariants)] {
-            if asked {
-                let value = |c: usize| R::load(array.add(c * stride + i));
-                sum = sum + ((value(0) + value(1)) + (value(2) + value(3)));
-            }
+    let mut component = |old: *const T, new: *mut T, c: usize| {
+        // SAFETY: the arrays have the component, and the lanes from i on.
+        unsafe {
+            let (old, new) = (old.add(c * stride + i), new.add(c * stride + i));
+            let value = R::load(old);
+            sum = sum + value;
+            value.store_where(!outcome.new, new, new);
         }
-        if request.failure {
-            sum = sum + R::load(block.failure.add(i));
-        }
+    };
+    if request.energies {
+        (0..4).for_each(|c| component(block.energies_old, block.energies, c));
     }
-    outcome.kept & (Failure::intact(outcome.latch) | !(sum * zero).le(zero))
+    if request.invariants {
+        (0..4).for_each(|c| component(block.invariants_old, block.invariants, c));
+    }
+    if request.failure {
+        component(block.failure_old, block.failure, 0);
+    }
+    outcome.flawed | (!outcome.new & !(sum * zero).le(zero))
 }
 
-/// Says why points have kept their old state, and drops what is not finite in it. Returns the worst code.
+/// Says why points have kept their old state, drops what is not finite in it, and takes the stress of flawed ones away. Returns
+/// the worst code.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`finish`].
+/// As for [`sweep`], for the lanes from i on, after [`retain`].
 #[inline(always)]
 unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -836,38 +883,38 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     outcome: &Outcome<R>,
     worst: R,
 ) -> R {
-    let zero = R::splat(0.0);
+    let (zero, stride) = (R::splat(0.0), block.leading_dimension);
     let request = request::<T, WANT>(block);
-    let kept = outcome.kept;
     let mut dropped = zero.lt(zero);
     let mut clean = |array: *mut T, c: usize| {
         // SAFETY: the array has the component, and the lanes from i on.
         unsafe {
-            let place = array.add(c * block.leading_dimension + i);
+            let place = array.add(c * stride + i);
             let value = R::load(place);
-            let wrong = kept & !(value * zero).le(zero);
+            let wrong = !outcome.new & !(value * zero).le(zero);
             dropped = dropped | wrong;
             R::select(wrong, zero, value).store(place);
         }
     };
     if request.energies {
-        for c in 0..4 {
-            clean(block.energies, c);
-        }
+        (0..4).for_each(|c| clean(block.energies, c));
     }
     if request.invariants {
-        for c in 0..4 {
-            clean(block.invariants, c);
-        }
+        (0..4).for_each(|c| clean(block.invariants, c));
     }
     if request.failure {
         clean(block.failure, 0);
     }
     // SAFETY: the caller's promise.
     unsafe {
+        if request.stress {
+            for place in block.stress {
+                R::select(outcome.new, R::load(place.add(i)), zero).store(place.add(i));
+            }
+        }
         let code = law.verdict(&gradient(block, i), d, usable, outcome.latch);
         let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
-        let code = R::select(kept, code, zero);
+        let code = R::select(outcome.new, zero, code);
         if WANT & AS_ASKED == 0 || !block.status.is_null() {
             code.store_integers(block.status.add(i));
         }
