@@ -349,6 +349,8 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values, and `old` points to as many.
     unsafe fn store_where(self, mask: Self::Mask, to: *mut T, old: *const T);
+    /// Has the processor fetch what is at an address, if there is anything.
+    fn prefetch(place: *const T);
     /// Whether a mask holds for any of the points.
     fn any(mask: Self::Mask) -> bool;
 }
@@ -393,6 +395,8 @@ macro_rules! precision {
                 // SAFETY: the caller's promise.
                 unsafe { *to = if mask { self } else { *old } }
             }
+            #[inline(always)]
+            fn prefetch(_: *const $t) {}
             #[inline(always)]
             fn any(mask: bool) -> bool {
                 mask
@@ -546,7 +550,7 @@ const WIDEST: usize = 16;
 
 /// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
 /// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
-const STAGED: usize = 6;
+const STAGED: usize = 8;
 
 /// What a stage leaves for the next ones.
 struct Stage<X>([MaybeUninit<X>; STAGED]);
@@ -639,12 +643,15 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         for k in 0..count {
             powers.put(k, law.compaction(strains.get(k)));
+            announce::<T, R, 4>(WANT & (ENERGIES | AS_ASKED) != 0, block.energies, block.leading_dimension, at(k));
         }
         for k in 0..count {
             reduced.put(k, powers.get(k).reduce(&law.exponent));
+            announce::<T, R, 4>(WANT & (HISTORY | AS_ASKED) != 0, block.invariants, block.leading_dimension, at(k));
         }
         for k in 0..count {
             powered.put(k, powers.get(k).finish(*reduced.get(k)));
+            announce::<T, R, 3>(WANT & (HISTORY | AS_ASKED) != 0, block.failure, block.leading_dimension, at(k));
         }
         for k in 0..count {
             let doubt = match axes(k).1 {
@@ -830,6 +837,14 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
+    }
+}
+
+/// Has the processor fetch what [`remember`] will store to.
+#[inline(always)]
+fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T, leading_dimension: usize, i: usize) {
+    if wanted {
+        (0..COMPONENTS).for_each(|c| R::prefetch(array.wrapping_add(c * leading_dimension + i)));
     }
 }
 

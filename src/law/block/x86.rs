@@ -235,6 +235,11 @@ macro_rules! register {
                 unsafe { $store_where }
             }
             #[inline(always)]
+            fn prefetch(place: *const $t) {
+                // SAFETY: a prefetch never faults.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) }
+            }
+            #[inline(always)]
             fn any($any_mask: $mask) -> bool {
                 // SAFETY: the dispatch has found the instructions.
                 #[allow(unused_unsafe)]
