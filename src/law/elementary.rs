@@ -252,24 +252,35 @@ impl<R: Real> Power<R> {
 
     /// The second: i^q = 2^n e^r, |r| ≤ ½ ln 2.
     #[inline(always)]
-    pub fn reduce(&self, q: &Exponent<R>) -> (R, R) {
+    pub fn reduce(&self, q: &Exponent<R>) -> Reduced<R> {
         let (k, ln_z) = (self.logarithm.k, self.logarithm.of_mantissa(self.reciprocal));
         let n = q.over_ln_2.mul_add(ln_z, q.value * k).round();
         let d = q.high.mul_add(k, -n);
-        (n, d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z)))
+        let r = d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z));
+        Reduced { n, r, vanishes: self.vanishes }
     }
+}
 
+/// A power two steps on its way.
+#[derive(Clone, Copy)]
+pub struct Reduced<R: Real> {
+    n: R,
+    r: R,
+    vanishes: R::Mask,
+}
+
+impl<R: Real> Reduced<R> {
     /// The third: 2^n e^r, or 0 for a base so small that the power is.
     #[inline(always)]
-    pub fn finish(&self, (n, r): (R, R)) -> R {
+    pub fn finish(&self) -> R {
+        let Reduced { n, r, vanishes } = *self;
         let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
-        R::select(self.vanishes, R::splat(0.0), exponential.times_power_of_two(n))
+        R::select(vanishes, R::splat(0.0), exponential.times_power_of_two(n))
     }
 }
 
 /// i^q for i ≥ 0 and q > 0.
 #[inline(always)]
 pub fn power<R: Real>(i: R, q: &Exponent<R>) -> R {
-    let power = Power::new(i, q);
-    power.finish(power.reduce(q))
+    Power::new(i, q).reduce(q).finish()
 }

@@ -201,10 +201,12 @@ impl<R: Real> Hyperelastic<R> {
     /// which holds its digits where the section is hardly distorted. So
     /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     pub fn cauchy(
         &self,
         d: &Stretch<R>,
         section: &Section<R>,
+        [image_a, image_b]: &[[R; 3]; 2],
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
         intact: R::Mask,
@@ -220,8 +222,8 @@ impl<R: Real> Hyperelastic<R> {
         let factor = |x: R| R::select(intact, x, zero);
         let (across, along_fibre) = (factor(across), factor(along_fibre));
         let (c, w) = (d.c1, scale(along_fibre, d.c1));
-        let a = scale(factor(distortion * strain.inverse_a_square), section.a);
-        let v = along(scale(section.delta, section.a), section.x23, section.b);
+        let a = scale(factor(distortion * strain.inverse_a_square), *image_a);
+        let v = along(scale(section.delta, *image_a), section.x23, *image_b);
         let mut stress = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),
@@ -232,7 +234,7 @@ impl<R: Real> Hyperelastic<R> {
         ];
         if shear {
             let factor = factor(k.shear * d.inverse_square * d.inverse_jacobian);
-            let u = along(scale(factor * d.h[0], section.a), factor * d.h[1], section.b);
+            let u = along(scale(factor * d.h[0], *image_a), factor * d.h[1], *image_b);
             for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
                 stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
             }
@@ -274,6 +276,7 @@ impl<R: Real> Hyperelastic<R> {
         &self,
         d: &Stretch<R>,
         section: &Section<R>,
+        images: &[[R; 3]; 2],
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
         frame: &FibreFrame<R>,
@@ -284,7 +287,7 @@ impl<R: Real> Hyperelastic<R> {
     ) -> Response<R> {
         let zero = R::splat(0.0);
         let intact = Failure::intact(latch);
-        let stress = if request.stress { self.cauchy(d, section, strain, k, intact, shear) } else { [zero; 6] };
+        let stress = if request.stress { self.cauchy(d, section, images, strain, k, intact, shear) } else { [zero; 6] };
 
         // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
         // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
@@ -295,7 +298,7 @@ impl<R: Real> Hyperelastic<R> {
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
         if request.modes || request.wave_modulus {
-            let decomposition = Decomposition::new(d, section);
+            let decomposition = Decomposition::new(d, section, images);
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {
@@ -454,16 +457,16 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
-        let stretch = Stretch::new(f, axes);
-        let section = Section::new(&stretch, axes);
+        let (stretch, images) = Stretch::new(f, axes);
+        let (section, images) = Section::new(&stretch, images, axes);
         let logarithms = Logarithms::new(&stretch, &section);
         let strain = Strain::new(&stretch, &section, &logarithms);
         let power = self.compaction(&strain);
-        let k = self.kirchhoff(&stretch, &strain, power.finish(power.reduce(&self.exponent)));
+        let k = self.kirchhoff(&stretch, &strain, power.reduce(&self.exponent).finish());
         let (latch, shear) = (state[FAILED], self.shears());
         let zero = T::splat(0.0);
-        let doubt = T::select(usable, logarithms.doubt, T::splat(f64::NAN));
-        let r = self.respond(&stretch, &section, &strain, &k, frame, doubt, latch, request, shear);
+        let doubt = T::select(usable, strain.doubt, T::splat(f64::NAN));
+        let r = self.respond(&stretch, &section, &images, &strain, &k, frame, doubt, latch, request, shear);
         let history = self.history(&stretch, &strain, &k, r.new, latch, request, shear);
         let (mut stress, mut status) = (r.stress, status::OK);
         let mut new = [zero; HYPERELASTIC_STATE];

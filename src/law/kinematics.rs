@@ -137,9 +137,6 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
 pub struct Stretch<R: Real> {
     /// Image of the fibre direction.
     pub c1: [R; 3],
-    /// (F − σ1) t1 and (F − σ1) t2.
-    g2: [R; 3],
-    g3: [R; 3],
     /// 1 near the reference, else 0.
     sigma: R,
     near: R::Mask,
@@ -157,11 +154,11 @@ pub struct Stretch<R: Real> {
 }
 
 impl<R: Real> Stretch<R> {
-    /// Of `f` (columns of F) in the material axes.
+    /// Of `f` (columns of F) in the material axes; with it (F − σ1) t1 and (F − σ1) t2, which the section is made of.
     ///
-    /// Meaningful where [`Logarithms::doubt`] says so; what other points give must be masked out by the caller.
+    /// Meaningful where [`Strain::doubt`] says so; what other points give must be masked out by the caller.
     #[inline(always)]
-    pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> Self {
+    pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
 
         // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
@@ -184,10 +181,8 @@ impl<R: Real> Stretch<R> {
         let c1 = n.shifted(g1, sigma, 0);
         let u11 = dot(g1, n.shifted(c1, sigma, 0));
         let square = sigma + u11;
-        Stretch {
+        let stretch = Stretch {
             c1,
-            g2,
-            g3,
             sigma,
             near,
             regular: zero.lt(jacobian) & size.lt(R::splat(R::SQUARES.1)) & R::splat(R::SQUARES.0).lt(square),
@@ -197,7 +192,8 @@ impl<R: Real> Stretch<R> {
             inverse_square: one / square,
             lost: u11 - (square - sigma),
             h: [sigma.mul_add(n.component(g1, 1), dot(c1, g2)), sigma.mul_add(n.component(g1, 2), dot(c1, g3))],
-        }
+        };
+        (stretch, [g2, g3])
     }
 }
 
@@ -212,9 +208,6 @@ impl<R: Real> Stretch<R> {
 /// The section across the fibre.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
-    /// Images of the transverse axes less their parts along the fibre's image.
-    pub a: [R; 3],
-    pub b: [R; 3],
     /// ½(a·a − b·b), a·b and its square, a·a.
     pub delta: R,
     pub x23: R,
@@ -230,11 +223,13 @@ pub struct Section<R: Real> {
 }
 
 impl<R: Real> Section<R> {
+    /// Given (F − σ1) t1 and (F − σ1) t2; with it a and b, the images of the transverse axes less their parts along the
+    /// fibre's.
     #[inline(always)]
-    pub fn new<A: Axes<R>>(d: &Stretch<R>, n: &A) -> Self {
+    pub fn new<A: Axes<R>>(d: &Stretch<R>, [g2, g3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
-        let delta_2 = along(d.g2, -(d.h[0] * d.inverse_square), d.c1);
-        let delta_3 = along(d.g3, -(d.h[1] * d.inverse_square), d.c1);
+        let delta_2 = along(g2, -(d.h[0] * d.inverse_square), d.c1);
+        let delta_3 = along(g3, -(d.h[1] * d.inverse_square), d.c1);
         let a = n.shifted(delta_2, d.sigma, 1);
         let b = n.shifted(delta_3, d.sigma, 2);
 
@@ -249,9 +244,7 @@ impl<R: Real> Section<R> {
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
         let area_square = R::select(d.near, one + growth, ratio);
 
-        Section {
-            a,
-            b,
+        let section = Section {
             delta,
             x23,
             x23_square,
@@ -261,7 +254,8 @@ impl<R: Real> Section<R> {
             area_square,
             inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
             lost: d.sigma * (growth - (area_square - one)),
-        }
+        };
+        (section, [a, b])
     }
 }
 
@@ -315,6 +309,8 @@ pub struct Strain<R> {
     pub distortion_ratio: R,
     /// 1/(a·a), for the stress.
     pub inverse_a_square: R,
+    /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
+    pub doubt: R,
 }
 
 impl<R: Real> Strain<R> {
@@ -336,6 +332,7 @@ impl<R: Real> Strain<R> {
             i_td: half * asinh,
             distortion_ratio,
             inverse_a_square: R::splat(1.0) / section.a_square,
+            doubt: l.doubt,
         }
     }
 }
@@ -371,7 +368,7 @@ pub struct Decomposition<R> {
 
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
-    pub fn new(d: &Stretch<R>, section: &Section<R>) -> Self {
+    pub fn new(d: &Stretch<R>, section: &Section<R>, [a, _]: &[[R; 3]; 2]) -> Self {
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();
@@ -381,7 +378,7 @@ impl<R: Real> Decomposition<R> {
         let r12 = section.x23 * inverse_r11;
         Decomposition {
             e: scale(inverse_lambda, d.c1),
-            q1: scale(inverse_r11, section.a),
+            q1: scale(inverse_r11, *a),
             lambda,
             inverse_lambda,
             f_a: d.h[0] * inverse_lambda,

@@ -20,6 +20,7 @@ mod x86;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
+use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
 use super::real::Real;
@@ -578,6 +579,16 @@ impl<X> Stage<X> {
     }
 }
 
+/// What a stage hands to the next one and nobody else, in one place: what stages leave must stay in the nearest cache, with
+/// the points' own numbers.
+#[derive(Clone, Copy)]
+union Step<R: Real> {
+    logarithms: Logarithms<R>,
+    power: Power<R>,
+    reduced: Reduced<R>,
+    powered: R,
+}
+
 /// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
 ///
 /// # Safety
@@ -620,9 +631,8 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     axes: impl Fn(usize) -> (A, Option<R::Mask>),
     worst: &mut R,
 ) {
-    let (mut stretches, mut sections, mut logarithms) = (Stage::new(), Stage::new(), Stage::new());
-    let (mut strains, mut powers, mut reduced, mut powered) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
-    let mut outcomes = Stage::new();
+    let (mut stretches, mut sections, mut images) = (Stage::new(), Stage::new(), Stage::new());
+    let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
     let mut all_new = zero.le(zero);
     let at = |k: usize| i + k * R::COUNT;
@@ -630,43 +640,47 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     // what the ones before have put.
     unsafe {
         for k in 0..count {
-            stretches.put(k, Stretch::new(&gradient(block, at(k)), &axes(k).0));
+            let (stretch, vectors) = Stretch::new(&gradient(block, at(k)), &axes(k).0);
+            stretches.put(k, stretch);
+            images.put(k, vectors);
         }
         for k in 0..count {
-            sections.put(k, Section::new(stretches.get(k), &axes(k).0));
+            let (section, vectors) = Section::new(stretches.get(k), *images.get(k), &axes(k).0);
+            sections.put(k, section);
+            images.put(k, vectors);
         }
         for k in 0..count {
-            logarithms.put(k, Logarithms::new(stretches.get(k), sections.get(k)));
+            steps.put(k, Step { logarithms: Logarithms::new(stretches.get(k), sections.get(k)) });
         }
         for k in 0..count {
-            strains.put(k, Strain::new(stretches.get(k), sections.get(k), logarithms.get(k)));
+            strains.put(k, Strain::new(stretches.get(k), sections.get(k), &steps.get(k).logarithms));
         }
         for k in 0..count {
-            powers.put(k, law.compaction(strains.get(k)));
+            steps.put(k, Step { power: law.compaction(strains.get(k)) });
             announce::<T, R, 4>(WANT & (ENERGIES | AS_ASKED) != 0, block.energies, block.leading_dimension, at(k));
         }
         for k in 0..count {
-            reduced.put(k, powers.get(k).reduce(&law.exponent));
+            steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
             announce::<T, R, 4>(WANT & (HISTORY | AS_ASKED) != 0, block.invariants, block.leading_dimension, at(k));
         }
         for k in 0..count {
-            powered.put(k, powers.get(k).finish(*reduced.get(k)));
+            steps.put(k, Step { powered: steps.get(k).reduced.finish() });
             announce::<T, R, 3>(WANT & (HISTORY | AS_ASKED) != 0, block.failure, block.leading_dimension, at(k));
         }
         for k in 0..count {
             let doubt = match axes(k).1 {
-                Some(usable) => R::select(usable, logarithms.get(k).doubt, R::splat(f64::NAN)),
-                None => logarithms.get(k).doubt,
+                Some(usable) => R::select(usable, strains.get(k).doubt, R::splat(f64::NAN)),
+                None => strains.get(k).doubt,
             };
             let (d, section, strain) = (stretches.get(k), sections.get(k), strains.get(k));
-            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, strain, *powered.get(k), doubt);
+            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, images.get(k), strain, steps.get(k).powered, doubt);
             all_new = all_new & outcome.new;
             outcomes.put(k, outcome);
         }
         if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
             for k in 0..count {
                 let (d, strain) = (stretches.get(k), strains.get(k));
-                remember::<T, R, WANT>(law, block, at(k), d, strain, *powered.get(k), outcomes.get(k));
+                remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
             }
         }
         if !R::any(!all_new) {
@@ -757,6 +771,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     i: usize,
     d: &Stretch<R>,
     section: &Section<R>,
+    images: &[[R; 3]; 2],
     strain: &Strain<R>,
     power: R,
     doubt: R,
@@ -774,7 +789,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let frame = if request.modes { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let shear = WANT & SHEAR != 0;
-        let r = law.respond(d, section, strain, &k, &frame, doubt, latch, request, shear);
+        let r = law.respond(d, section, images, strain, &k, &frame, doubt, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
