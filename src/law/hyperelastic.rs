@@ -222,8 +222,9 @@ impl<R: Real> Hyperelastic<R> {
         let factor = |x: R| R::select(intact, x, zero);
         let (across, along_fibre) = (factor(across), factor(along_fibre));
         let (c, w) = (d.c1, scale(along_fibre, d.c1));
-        let a = scale(factor(distortion * strain.inverse_a_square), *image_a);
-        let v = along(scale(section.delta, *image_a), section.x23, *image_b);
+        let share = factor(distortion * strain.inverse_a_square);
+        let a = *image_a;
+        let v = along(scale(share * section.delta, a), share * section.x23, *image_b);
         let mut stress = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),

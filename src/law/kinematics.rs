@@ -140,8 +140,8 @@ pub struct Stretch<R: Real> {
     /// 1 near the reference, else 0.
     sigma: R,
     near: R::Mask,
-    /// Where F is upright, and neither it nor the fibre's stretch is too large or small.
-    regular: R::Mask,
+    /// The sum of the squared entries of F − 1.
+    size: R,
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
@@ -185,9 +185,9 @@ impl<R: Real> Stretch<R> {
             c1,
             sigma,
             near,
-            regular: zero.lt(jacobian) & size.lt(R::splat(R::SQUARES.1)) & R::splat(R::SQUARES.0).lt(square),
+            size,
             jacobian,
-            inverse_jacobian: jacobian.reciprocal(),
+            inverse_jacobian: one / jacobian,
             square,
             inverse_square: one / square,
             lost: u11 - (square - sigma),
@@ -289,8 +289,9 @@ impl<R: Real> Logarithms<R> {
             product_2,
             product_3,
             inverse: R::splat(1.0) / (product_3 * d_4),
+            // A size that is NaN stays so in the largest one.
             doubt: R::select(
-                d.regular & least.lt(section.area_square) & growth.lt(most * most),
+                least.lt(d.jacobian.min(d.square).min(section.area_square)) & growth.max(d.size).lt(most),
                 R::splat(0.0),
                 R::splat(f64::NAN),
             ),

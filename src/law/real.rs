@@ -36,6 +36,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// The larger one; `other` where `self` is NaN.
     fn max(self, other: Self) -> Self;
+    /// The smaller one; `other` where `self` is NaN.
+    fn min(self, other: Self) -> Self;
     fn lt(self, other: Self) -> Self::Mask;
     fn le(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, `b` elsewhere; what stands in the other one, NaN included, has no influence.
@@ -146,6 +148,10 @@ macro_rules! scalar {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if self > other { self } else { other }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                if self < other { self } else { other }
             }
             #[inline(always)]
             fn lt(self, other: Self) -> bool {

@@ -551,7 +551,7 @@ const WIDEST: usize = 16;
 
 /// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
 /// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
-const STAGED: usize = 8;
+const STAGED: usize = 6;
 
 /// What a stage leaves for the next ones.
 struct Stage<X>([MaybeUninit<X>; STAGED]);

@@ -20,7 +20,7 @@ macro_rules! register {
         $(#[$doc:meta])*
         $name:ident: $t:ident as $bits:ident x $count:literal in $f:ident / $i:ident;
         mask $mask:ident;
-        arithmetic $set1:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident;
+        arithmetic $set1:ident $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident $min:ident;
         bits $to:ident $from:ident $iset1:ident $iadd:ident $iand:ident $ior:ident $srl:ident $sll:ident;
         memory $load:ident $store:ident;
         integers ($x:ident, $to_int:ident) $store_integers:expr;
@@ -129,6 +129,11 @@ macro_rules! register {
             fn max(self, other: Self) -> Self {
                 // SAFETY: the dispatch has found the instructions.
                 $name(unsafe { $max(self.0, other.0) })
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                // SAFETY: the dispatch has found the instructions.
+                $name(unsafe { $min(self.0, other.0) })
             }
             #[inline(always)]
             fn lt(self, other: Self) -> $mask {
@@ -365,7 +370,7 @@ register! {
     /// 2 numbers of double precision, SSE2.
     F64x2: f64 as u64 x 2 in __m128d / __m128i;
     mask Mask64x2;
-    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd;
+    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
     bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
     memory _mm_loadu_pd _mm_storeu_pd;
     integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
@@ -386,7 +391,7 @@ register! {
     /// 4 numbers of single precision, SSE2.
     F32x4: f32 as u32 x 4 in __m128 / __m128i;
     mask Mask32x4;
-    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps;
+    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
     bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
     memory _mm_loadu_ps _mm_storeu_ps;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm_cvttps_epi32(x));
@@ -407,7 +412,7 @@ register! {
     /// 4 numbers of double precision, AVX2 with FMA.
     F64x4: f64 as u64 x 4 in __m256d / __m256i;
     mask Mask64x4;
-    arithmetic _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_max_pd;
+    arithmetic _mm256_set1_pd _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd;
     bits _mm256_castpd_si256 _mm256_castsi256_pd _mm256_set1_epi64x _mm256_add_epi64 _mm256_and_si256 _mm256_or_si256 _mm256_srli_epi64 _mm256_slli_epi64;
     memory _mm256_loadu_pd _mm256_storeu_pd;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm256_cvttpd_epi32(x));
@@ -428,7 +433,7 @@ register! {
     /// 8 numbers of single precision, AVX2 with FMA.
     F32x8: f32 as u32 x 8 in __m256 / __m256i;
     mask Mask32x8;
-    arithmetic _mm256_set1_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps _mm256_sqrt_ps _mm256_max_ps;
+    arithmetic _mm256_set1_ps _mm256_add_ps _mm256_sub_ps _mm256_mul_ps _mm256_div_ps _mm256_sqrt_ps _mm256_max_ps _mm256_min_ps;
     bits _mm256_castps_si256 _mm256_castsi256_ps _mm256_set1_epi32 _mm256_add_epi32 _mm256_and_si256 _mm256_or_si256 _mm256_srli_epi32 _mm256_slli_epi32;
     memory _mm256_loadu_ps _mm256_storeu_ps;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm256_cvttps_epi32(x));
@@ -449,7 +454,7 @@ register! {
     /// 8 numbers of double precision, AVX-512.
     F64x8: f64 as u64 x 8 in __m512d / __m512i;
     mask __mmask8;
-    arithmetic _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_max_pd;
+    arithmetic _mm512_set1_pd _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd;
     bits _mm512_castpd_si512 _mm512_castsi512_pd _mm512_set1_epi64 _mm512_add_epi64 _mm512_and_si512 _mm512_or_si512 _mm512_srli_epi64 _mm512_slli_epi64;
     memory _mm512_loadu_pd _mm512_storeu_pd;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm512_cvttpd_epi32(x));
@@ -476,7 +481,7 @@ register! {
     /// 16 numbers of single precision, AVX-512.
     F32x16: f32 as u32 x 16 in __m512 / __m512i;
     mask __mmask16;
-    arithmetic _mm512_set1_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps _mm512_sqrt_ps _mm512_max_ps;
+    arithmetic _mm512_set1_ps _mm512_add_ps _mm512_sub_ps _mm512_mul_ps _mm512_div_ps _mm512_sqrt_ps _mm512_max_ps _mm512_min_ps;
     bits _mm512_castps_si512 _mm512_castsi512_ps _mm512_set1_epi32 _mm512_add_epi32 _mm512_and_si512 _mm512_or_si512 _mm512_srli_epi32 _mm512_slli_epi32;
     memory _mm512_loadu_ps _mm512_storeu_ps;
     integers (x, to) _mm512_storeu_si512(to.cast(), _mm512_cvttps_epi32(x));
