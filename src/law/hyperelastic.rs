@@ -337,7 +337,11 @@ impl<R: Real> Hyperelastic<R> {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
             invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
             failure_index: index,
-            failed: R::select(Failure::intact(latch), R::select(new & Failure::reached(index), one, zero), one),
+            failed: R::select(
+                Failure::intact(latch),
+                R::select(new & Failure::reached(index), one, zero),
+                one,
+            ),
         }
     }
 

@@ -51,8 +51,11 @@ impl<R: Real> Hyperelastic<R> {
         let compaction = -strain.i_tc;
         let above = R::splat(COMPACTION_FLOOR).lt(compaction);
         let slope = R::splat(2.0) * k.pressure;
-        let curvature =
-            R::select(above, (self.p - one) * slope / R::select(above, compaction, one), self.greatest_curvature);
+        let curvature = R::select(
+            above,
+            (self.p - one) * slope / R::select(above, compaction, one),
+            self.greatest_curvature,
+        );
         let active = zero.le(compaction);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
