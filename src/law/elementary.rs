@@ -8,8 +8,8 @@
 //! |---|---|---|---|
 //! | `ln_sum(y, c)` = ln(y + c) | 3.0 | 3.0 | 0 < y < 2^1023 (f64), 2^127 (f32), normal, \|c\| ≤ ulp(y)/2 |
 //! | `ln_1p(x)` = ln(1 + x) | 3.0 | 3.0 | x > −1 |
-//! | `asinh(s)` | 11 | 11 | 0 ≤ s ≤ 1e150 (f64), 1e18 (f32) |
-//! | its (asinh s)/s | 13 | 13 | as above |
+//! | `asinh(s)` | 4.5 | 4.5 | 0 ≤ s ≤ 1e150 (f64), 1e18 (f32) |
+//! | its (asinh s)/s | 6.5 | 6.5 | as above |
 //! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below 2^−1001 (f64), 2^−105 (f32) are 0, those above 2^1004, 2^108 not promised |
 //!
 //! The coefficients are minimax polynomials found by Remez exchange in 300-bit arithmetic.

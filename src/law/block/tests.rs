@@ -348,8 +348,8 @@ fn powers_at_the_ends_of_the_range() {
 // for a + b q.
 const LN_SUM: (f64, f64) = (3.0, 3.0);
 const LN_1P: (f64, f64) = (3.0, 3.0);
-const ASINH: (f64, f64) = (11.0, 11.0);
-const RATIO: (f64, f64) = (13.0, 13.0);
+const ASINH: (f64, f64) = (4.5, 4.5);
+const RATIO: (f64, f64) = (6.5, 6.5);
 const POWER: ((f64, f64), (f64, f64)) = ((1.2, 1.5), (1.2, 1.8));
 
 struct Split;
