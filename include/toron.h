@@ -82,7 +82,7 @@
 #define TORON_NOT_FINITE -302
 
 /*
- A result does not fit the number format: the deformation or a property is astronomically large.
+ The deformation is too large or too small to evaluate, or a result does not fit the number format.
  */
 #define TORON_OVERFLOW -303
 

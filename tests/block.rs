@@ -127,7 +127,7 @@ fn baseline_is_the_scalar_law<T: Number>() {
         }
     };
     let inputs = [ordinary(100), extreme()].concat();
-    for (k, material) in materials([0.48, -0.6, 0.64]).into_iter().enumerate() {
+    for (k, material) in [materials([0.48, -0.6, 0.64]), materials(AXIS)].concat().into_iter().enumerate() {
         let law = law::<T>(material);
         let wanted: Vec<_> = inputs.iter().map(|input| Output::scalar(&law, input, call.density)).collect();
         let (found, worst) = run(&law, &inputs, &Call { gap: k % 3, offset: k % 4, ..call });
@@ -137,13 +137,8 @@ fn baseline_is_the_scalar_law<T: Number>() {
             let wanted: Vec<_> = wanted.iter().map(|output| output.of(asked)).collect();
             compare(&ordinary(100), &run(&law, &ordinary(100), &Call { asked, ..call }).0, &wanted);
         }
-        // A direction for each point: the law that has it as its property.
-        let own = |input: &Input<T>| {
-            let mut properties = material.map(T::splat);
-            properties[8..].copy_from_slice(&input.fibre);
-            let law = Hyperelastic::new(&properties).expect("valid properties");
-            Output::scalar(&law, input, call.density)
-        };
+        // A direction for each point.
+        let own = |input: &Input<T>| Output::along(&law, Some(input.fibre), input, call.density);
         let wanted: Vec<_> = inputs.iter().map(own).collect();
         compare(&inputs, &run(&law, &inputs, &Call { fibres: true, ..call }).0, &wanted);
     }
@@ -159,20 +154,18 @@ fn baseline_is_the_scalar_law_f32() {
     baseline_is_the_scalar_law::<f32>();
 }
 
-/// What is measured together, and how many roundings lanes may differ from the scalar law: four; six for the shear energy,
-/// a square of what is good to three, and for the modes, which 1/λ² pulls back whatever the sensitivity is.
+/// What is measured together, and how many roundings lanes may differ from the scalar law: four; six for the modes, which 1/λ²
+/// pulls back whatever the sensitivity is.
 fn groups() -> Vec<(&'static str, Range<usize>, f64)> {
-    let single = |name, range: Range<usize>, bound| range.map(move |c| (name, c..c + 1, bound));
-    let mut groups = vec![("stress", STRESS, 4.0)];
-    groups.extend(single("energy", 6..9, 4.0).chain(single("energy", 9..10, 6.0)).chain(single(
-        "invariant",
-        10..14,
-        4.0,
-    )));
-    groups.extend([("index", INDEX..INDEX + 1, 4.0), ("wave speed", WAVE_SPEED..VALUES, 4.0)]);
+    let single = |name, range: Range<usize>| range.map(move |c| (name, c..c + 1, APART));
+    let mut groups = vec![("stress", STRESS, APART)];
+    groups.extend(single("energy", 6..10).chain(single("invariant", 10..14)));
+    groups.extend([("index", INDEX..INDEX + 1, APART), ("wave speed", WAVE_SPEED..VALUES, APART)]);
     groups.extend(MODES.step_by(6).map(|c| ("mode", c..c + 6, 6.0)));
     groups
 }
+
+const APART: f64 = 4.0;
 
 fn norm(values: &[f64]) -> f64 {
     values.iter().map(|x| x * x).sum::<f64>().sqrt()
@@ -214,7 +207,7 @@ fn lanes_stay_with_the_scalar_law<T: Number>() {
     let inputs: Vec<Input<T>> = ordinary(1000).into_iter().filter(strained).collect();
     assert!(inputs.len() > 500);
     let mut worst = vec![[0.0_f64; Level::ALL.len()]; groups().len()];
-    for material in materials([0.48, -0.6, 0.64]).into_iter().step_by(3) {
+    for material in [materials([0.48, -0.6, 0.64]), materials(AXIS)].concat().into_iter().step_by(3) {
         let (law, exact) = (law::<T>(material), law::<f64>(material.map(|x| T::splat(x).into())));
         let allowed: Vec<_> = inputs.iter().map(|input| roundings(&exact, input)).collect();
         for (l, level) in levels().enumerate() {
@@ -227,18 +220,22 @@ fn lanes_stay_with_the_scalar_law<T: Number>() {
                     let distance = distance(&a, &b, &group);
                     let ratio = if distance == 0.0 { 0.0 } else { distance / allowed[i][g] };
                     worst[g][l] = worst[g][l].max(ratio);
-                    assert!(ratio <= bound, "{level:?}: {name} {group:?} {ratio}, {input:?}, {material:?}");
+                    if ratio > bound {
+                        println!("{level:?}: {name} {group:?} {ratio}, {input:?}, {material:?}");
+                    }
                 }
-                if (b[INDEX] - 1.0).abs() > 4.0 * allowed[i][INDEX_GROUP] {
+                if (b[INDEX] - 1.0).abs() > APART * allowed[i][INDEX_GROUP] {
                     assert_eq!((a[LATCH], a[LATCH + 1]), (b[LATCH], b[LATCH + 1]), "{level:?} {input:?}");
                 }
             }
         }
     }
     println!("roundings apart from the scalar law, level by level");
-    for ((name, group, bound), worst) in groups().iter().zip(worst) {
+    for ((name, group, bound), worst) in groups().iter().zip(&worst) {
         println!("{name:<12}{:>3} {worst:>6.2?} of {bound}", group.start);
     }
+    let within = groups().iter().zip(&worst).all(|((.., bound), worst)| worst.iter().all(|ratio| ratio <= bound));
+    assert!(within, "see above");
 }
 
 #[test]
@@ -307,8 +304,8 @@ fn truth_f32() {
 }
 
 /// Whatever the number of points, their leading dimension, place and neighbours: the bits of the point on its own.
-fn place_does_not_matter<T: Number>() {
-    let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
+fn place_does_not_matter<T: Number>([m_1, m_2, m_3]: [f64; 3]) {
+    let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, m_1, m_2, m_3]);
     let mut pool = [ordinary(160), extreme()].concat();
     // Ordinary and extreme points side by side.
     let count = pool.len();
@@ -340,12 +337,14 @@ fn place_does_not_matter<T: Number>() {
 
 #[test]
 fn place_does_not_matter_f64() {
-    place_does_not_matter::<f64>();
+    place_does_not_matter::<f64>([0.48, -0.6, 0.64]);
+    place_does_not_matter::<f64>(AXIS);
 }
 
 #[test]
 fn place_does_not_matter_f32() {
-    place_does_not_matter::<f32>();
+    place_does_not_matter::<f32>([0.48, -0.6, 0.64]);
+    place_does_not_matter::<f32>(AXIS);
 }
 
 /// Points that fail, have failed or cannot be evaluated, among good ones: each has its own code, and none disturbs another.
@@ -422,8 +421,8 @@ fn bad_points_keep_to_themselves_f32() {
 ///
 /// A point whose failure is not asked for does not fail. What is not asked for is not looked at: neither an overflow nor
 /// an old value that is not finite is noticed there.
-fn any_combination_of_outputs<T: Number>(k_ld: f64) {
-    let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, k_ld, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
+fn any_combination_of_outputs<T: Number>(k_ld: f64, [m_1, m_2, m_3]: [f64; 3]) {
+    let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, k_ld, 0.0458, 1.8, 0.3, m_1, m_2, m_3]);
     let inputs = [ordinary(30), extreme()].concat();
     let forget = |input: &Input<T>, latch_too: bool| {
         let mut input = *input;
@@ -472,14 +471,49 @@ fn unnoticed<T: Number>(input: &Input<T>, asked: Asked) -> bool {
 
 #[test]
 fn any_combination_of_outputs_f64() {
-    any_combination_of_outputs::<f64>(0.0);
-    any_combination_of_outputs::<f64>(1e9);
+    any_combination_of_outputs::<f64>(0.0, [0.48, -0.6, 0.64]);
+    any_combination_of_outputs::<f64>(1e9, AXIS);
 }
 
 #[test]
 fn any_combination_of_outputs_f32() {
-    any_combination_of_outputs::<f32>(0.0);
-    any_combination_of_outputs::<f32>(1e9);
+    any_combination_of_outputs::<f32>(0.0, [0.48, -0.6, 0.64]);
+    any_combination_of_outputs::<f32>(1e9, AXIS);
+}
+
+/// Properties at their bounds: what does not fit the number is an overflow, whatever outputs are asked for, and nothing of it
+/// leaves.
+fn greatest_properties<T: Number>() {
+    let section = |x: f64| Input::<T>::fresh([1.0, 0.2, 0.1, 0.1 * x, x, 0.0, 0.0, 0.0, x], AXIS);
+    let inputs: Vec<_> = [0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 2.0, 100.0].map(section).into();
+    for p in [1.000_001, 1.2, 2.0, 17.0, 40.0] {
+        let law = law::<T>([1e25, 1e25, p, 1e25, 1e25, 1e25, 1e25, 1e25, 1.0, 0.0, 0.0]);
+        for level in levels() {
+            for bits in 64..128 {
+                let asked = Asked::from_bits(bits);
+                let (outputs, _) = run(&law, &inputs, &Call { asked, ..Call::new(level) });
+                for (output, input) in outputs.iter().zip(&inputs) {
+                    let v = output.values::<T>();
+                    assert!(v.iter().all(|x| x.is_finite()), "{v:?} from {input:?}, p = {p}, {level:?} {asked:?}");
+                    assert!([status::OK, status::OVERFLOW].contains(&output.status), "{output:?} from {input:?}");
+                }
+                // A wave modulus of all these together is beyond single precision.
+                if size_of::<T>() == 8 || p == 1.2 && !asked.wave_speed {
+                    assert_eq!(outputs[0].status, status::OK, "p = {p}, {level:?} {asked:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn greatest_properties_f64() {
+    greatest_properties::<f64>();
+}
+
+#[test]
+fn greatest_properties_f32() {
+    greatest_properties::<f32>();
 }
 
 /// Arrays of a block of `n` points, as long as they must be.
@@ -678,11 +712,26 @@ fn any_law<T: Number>() -> impl Strategy<Value = (Hyperelastic<T>, T)> {
     let numbers = prop::collection::vec(any_number::<T>(), 12);
     numbers.prop_filter_map("refused properties", |x| {
         let density = x[11];
-        let mut properties: [T; 11] = std::array::from_fn(|c| if c < 8 { Real::abs(x[c]) } else { x[c] });
-        properties[2] = T::splat(1.0).max(properties[2]) + T::splat(0.125);
+        // Within the bounds: what is larger or meaningless becomes the greatest value.
+        let within =
+            |x: T, least: f64, most: f64| T::splat(Into::<f64>::into(Real::abs(x)).clamp(least, most).min(most));
+        let mut properties: [T; 11] = std::array::from_fn(|c| if c < 8 { within(x[c], 0.0, 9e24) } else { x[c] });
+        properties[2] = within(properties[2], 1.001, 40.0);
         let positive = Into::<f64>::into(density) >= T::MIN_POSITIVE && Into::<f64>::into(density) < f64::INFINITY;
         Hyperelastic::new(&properties).ok().filter(|_| positive).map(|law| (law, density))
     })
+}
+
+/// Whether the scalar law gives this status, or would for entries of F a few roundings away.
+fn could_be<T: Number>(law: &Hyperelastic<T>, input: &Input<T>, own: bool, code: i32) -> bool {
+    let code_of = |input: &Input<T>| Output::along(law, own.then_some(input.fibre), input, T::splat(1.0)).status;
+    code_of(input) == code
+        || (0..18).any(|k| {
+            let mut input = *input;
+            let sign = if k % 2 == 0 { 8.0 } else { -8.0 };
+            input.f[k / 2] = input.f[k / 2] * T::splat(1.0 + sign * T::ROUNDING);
+            code_of(&input) == code
+        })
 }
 
 /// Whatever comes in, what goes out are finite numbers, a latch of 0 or 1, and a code of the table.
@@ -699,6 +748,18 @@ fn nothing_meaningless_leaves<T: Number>(
             for (input, output) in inputs.iter().zip(&outputs) {
                 let v = output.values::<T>();
                 prop_assert!(v.iter().all(|x| x.is_finite()), "{v:?} from {input:?}, {call:?}");
+                if output.status != status::OK {
+                    prop_assert!(STRESS.chain(MODES).all(|c| v[c] == 0.0), "{input:?}, {call:?}");
+                    let kept = input.old.map(|x| if Into::<f64>::into(x).is_finite() { x.into() } else { 0.0 });
+                    let same = (0..9).all(|c| v[6 + c] == kept[c] || !asked.of_state(c));
+                    prop_assert!(same, "{v:?} from {input:?}, {call:?}");
+                }
+                if asked == Asked::ALL {
+                    prop_assert!(
+                        could_be(&law, input, call.fibres, output.status),
+                        "{output:?} from {input:?}, {call:?}"
+                    );
+                }
                 let name = status::name(output.status);
                 prop_assert!(name.is_some() && (output.status == 0 || output.status <= status::INVERTED), "{input:?}");
                 if asked.failure {

@@ -220,9 +220,9 @@ fn input_errors_name_file_line_and_what_was_expected() {
         (
             format!("{HEAD}properties = {{ k_el = -3 }}\n{step}"),
             4,
-            "(k_el, longitudinal elongation stiffness) is -3.0; allowed: a finite number >= 0",
+            "(k_el, longitudinal elongation stiffness) is -3.0; allowed: a number from 0 to 1e25",
         ),
-        (format!("{HEAD}properties = {{ p = 1 }}\n{step}"), 4, "allowed: a finite number > 1"),
+        (format!("{HEAD}properties = {{ p = 1 }}\n{step}"), 4, "allowed: a number > 1, at most 40"),
         (format!("{HEAD}properties = {{ k_e = 3 }}\n{step}"), 4, "property \"k_e\"; allowed: k_el k_tc p"),
         (
             format!("{HEAD}fibre = [0, 0, 0]\n{step}"),

@@ -176,7 +176,7 @@ fn kernel<'a>(functions: &'a BTreeMap<String, Function>, precision: &str, level:
     functions.get(&format!("<{name}>")).or_else(|| functions.get(&name)).unwrap_or_else(|| panic!("no function {name}"))
 }
 
-/// Stress; with energies; with energies and history. With shear and with fibre directions: 4 and 8 more.
+/// Stress; with energies; with energies and history. With shear 4 more; with fibre directions 8, along the first axis 16.
 const USUAL: [u8; 3] = [0, 1, 3];
 const AS_ASKED: u8 = 128;
 
@@ -186,7 +186,7 @@ fn usual_kernels_decide_nothing() {
     let mut faults = String::new();
     for precision in ["f64", "f32"] {
         for level in ["avx2", "avx512"] {
-            for want in USUAL.into_iter().flat_map(|want| [0, 4, 8, 12].map(|more| want + more)) {
+            for want in USUAL.into_iter().flat_map(|want| [0, 4, 8, 12, 16, 20].map(|more| want + more)) {
                 let function = kernel(&functions, precision, level, want);
                 let (size, found) = (function.size(), function.faults());
                 println!("{precision} {level} {want:>2}: {size} instructions, {found:?}");

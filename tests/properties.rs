@@ -113,6 +113,27 @@ proptest! {
         prop_assert_eq!(intact(&law(&material, &(m * 2f64.powi(exponent))), &f), point);
     }
 
+    /// A fibre along the first axis has formulas of its own: the numbers of the general ones, whatever its length.
+    #[test]
+    fn fibre_along_the_first_axis(Sample { f, m, .. } in states(), material in material(), length in 1e-3..1e3) {
+        // Turned so that the fibre lies along the axis.
+        let turn = Rotation3::rotation_between(&Vector3::x(), &m).unwrap_or_else(Rotation3::identity).into_inner();
+        let f = f * turn;
+        let aligned = law(&material, &Vector3::x());
+        let columns = std::array::from_fn(|j| std::array::from_fn(|i| f[(i, j)]));
+        let general = |m: [f64; 3]| aligned.point_along(&columns, Some(m), &START, Request::ALL);
+        let (point, allowances) = (intact(&aligned, &f), allowances(&aligned, &f).map(|x| x / 8.0));
+        assert_same(&general([1.0, 0.0, 0.0]), &point, &allowances)?;
+        assert_same(&general([length, 0.0, 0.0]), &point, &allowances)?;
+        for length in [2.0, length, 1e-200] {
+            prop_assert_eq!(intact(&law(&material, &(Vector3::x() * length)), &f), point);
+        }
+        // Close to the axis, but not on it.
+        assert_same(&intact(&law(&material, &Vector3::new(1.0, 1e-18, -1e-18)), &f), &point, &allowances)?;
+        // Along the axis the other way.
+        assert_same(&intact(&law(&material, &-Vector3::x()), &f), &point, &allowances)?;
+    }
+
     /// A rotated body at rest carries the rounding of its rotation matrix, a strain of some 10^-15, and no more.
     #[test]
     fn no_stress_at_rest(m in common::deformations::direction(), material in material(), q in rotation()) {

@@ -30,7 +30,7 @@ program lsdyna_test
 
   cm(1:11) = real(table(1)%properties)
   cm(3) = 0.5
-  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a finite number > 1')
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40')
   cm(3) = 2
   cm(9:11) = 0
   call refused('properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero')

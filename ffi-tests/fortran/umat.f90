@@ -38,7 +38,7 @@ program umat_test
   call refused('NLGEOM', 11, 12, 3)
   call prepare(table(1))
   props(3) = 0.5
-  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a finite number > 1', 11, 12, 3)
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40', 11, 12, 3)
   call refused('number of properties: 10 given, 11 needed', 10, 12, 3)
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)

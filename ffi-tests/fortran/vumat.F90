@@ -51,7 +51,7 @@ program vumat_test
   step_time = 1
 
   props(3) = 0.5
-  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a finite number > 1', 11, nstatev, 3)
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40', 11, nstatev, 3)
   call refused('number of properties: 10 given, 11 needed', 10, nstatev, 3)
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)

@@ -218,7 +218,7 @@ impl<R: Real> Hyperelastic<R> {
         // −(p + d)/J.
         let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
         let along_fibre = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
-        // Where all three factors are zero, so is the stress.
+        // Where all three factors are zero, so is the stress: the sum with +0 is never −0.
         let factor = |x: R| R::select(intact, x, zero);
         let (across, along_fibre) = (factor(across), factor(along_fibre));
         let (c, w) = (d.c1, scale(along_fibre, d.c1));
@@ -229,9 +229,9 @@ impl<R: Real> Hyperelastic<R> {
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),
             a[2].mul_add(v[2], a[2].mul_add(v[2], w[2].mul_add(c[2], across))),
-            a[0].mul_add(v[1], a[1].mul_add(v[0], w[0] * c[1])),
-            a[1].mul_add(v[2], a[2].mul_add(v[1], w[1] * c[2])),
-            a[2].mul_add(v[0], a[0].mul_add(v[2], w[2] * c[0])),
+            a[0].mul_add(v[1], a[1].mul_add(v[0], w[0].mul_add(c[1], zero))),
+            a[1].mul_add(v[2], a[2].mul_add(v[1], w[1].mul_add(c[2], zero))),
+            a[2].mul_add(v[0], a[0].mul_add(v[2], w[2].mul_add(c[0], zero))),
         ];
         if shear {
             let factor = factor(k.shear * d.inverse_square * d.inverse_jacobian);
@@ -292,7 +292,11 @@ impl<R: Real> Hyperelastic<R> {
 
         // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
         // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
+        // A compaction energy that does not fit shows in the stress, if that is asked for.
         let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + ((stress[4] + stress[5]) + doubt);
+        if request.energies && !request.stress {
+            probe = probe + k.compaction_energy;
+        }
         if request.energies && shear {
             probe = probe + self.energies(strain, d.shear_invariant(), k, shear)[3];
         }
@@ -355,13 +359,15 @@ impl<R: Real> Hyperelastic<R> {
     pub fn verdict(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: R::Mask, latch: R) -> R {
         let zero = R::splat(0.0);
         let code = |status: i32| R::splat(f64::from(status));
-        // A number times zero is zero unless it is NaN or infinite.
-        let mut finite = zero;
+        // A number times zero is zero unless it is NaN or infinite. What is too large has no determinant to speak of.
+        let (mut finite, mut size) = (zero, zero);
         for &entry in f.iter().flatten() {
             finite = entry.mul_add(zero, finite);
+            size = entry.mul_add(entry, size);
         }
+        let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
         // The first reason that applies, from the last to the first.
-        let flaw = R::select(d.jacobian.le(zero) | d.square.le(zero), code(status::INVERTED), code(status::OVERFLOW));
+        let flaw = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
         let flaw = R::select(usable, flaw, code(status::FIBRE_DIRECTION));
         let flaw = R::select(finite.le(zero), flaw, code(status::NOT_FINITE));
         let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));

@@ -35,7 +35,7 @@ pub const STATE_COUNT: i32 = -211;
 pub const INVERTED: i32 = -301;
 /// The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
 pub const NOT_FINITE: i32 = -302;
-/// A result does not fit the number format: the deformation or a property is astronomically large.
+/// The deformation is too large or too small to evaluate, or a result does not fit the number format.
 pub const OVERFLOW: i32 = -303;
 /// An old state variable is NaN or infinite.
 pub const STATE_NOT_FINITE: i32 = -304;
@@ -64,7 +64,11 @@ pub const TABLE: [(i32, &str, &str); 18] = [
     (STATE_COUNT, "state_count", "there are fewer state variables than the table's"),
     (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to nothing"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),
-    (OVERFLOW, "overflow", "a result does not fit the number format: the deformation or a property is too large"),
+    (
+        OVERFLOW,
+        "overflow",
+        "the deformation is too large or too small to evaluate, or a result does not fit the number format",
+    ),
     (STATE_NOT_FINITE, "state_not_finite", "an old state variable is NaN or infinite"),
     (FIBRE_DIRECTION, "fibre_direction", "the fibre direction of this point is zero, NaN or infinite"),
     (

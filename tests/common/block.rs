@@ -85,9 +85,15 @@ impl Output {
         self
     }
 
-    /// What the scalar law says.
+    /// What the scalar law says, with the fibre direction of the properties.
     pub fn scalar<T: Number>(law: &Hyperelastic<T>, input: &Input<T>, density: T) -> Output {
-        let point = law.point(&input.deformation_gradient(), &input.old, Request::ALL);
+        Output::along(law, None, input, density)
+    }
+
+    /// What the scalar law says, with a fibre direction of the point's own.
+    pub fn along<T: Number>(law: &Hyperelastic<T>, fibre: Option<[T; 3]>, input: &Input<T>, density: T) -> Output {
+        let columns = std::array::from_fn(|j| std::array::from_fn(|i| input.f[3 * j + i]));
+        let point = law.point_along(&columns, fibre, &input.old, Request::ALL);
         let speed = Real::sqrt(point.wave_modulus) / Real::sqrt(density);
         let values = [&point.stress[..], &point.state, point.modes.as_flattened(), &[speed]].concat();
         Output { bits: std::array::from_fn(|c| values[c].bits()), status: point.status }
@@ -122,6 +128,11 @@ impl Asked {
             wave_speed: bits & 32 != 0,
             status: bits & 64 != 0,
         }
+    }
+
+    /// Whether value `c` of the state is asked for.
+    pub fn of_state(&self, c: usize) -> bool {
+        self.value(STATE + c)
     }
 
     /// Whether value `c` of an output is asked for.

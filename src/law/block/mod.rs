@@ -14,6 +14,8 @@
 //! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff) |
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
 
+#[cfg(test)]
+mod tests;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 

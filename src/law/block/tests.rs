@@ -1,0 +1,455 @@
+//! The elementary functions and the lanes' operations, at every level of instructions that this machine has.
+//!
+//! The functions keep the errors that the table of `law/elementary.rs` promises, in units in the last place of the exact
+//! result. In double precision the reference has 128 binary digits; in single precision the double-precision library is
+//! exact enough, its error being below 2^-26 of such a unit. `--nocapture` prints the worst found and where.
+
+use std::fmt::Debug;
+
+use dashu_float::FBig;
+use dashu_float::round::mode::HalfEven;
+use fastrand::Rng;
+
+use super::{Lanes, Level, Precision};
+use crate::law::elementary::{Exponent, asinh, ln_1p, ln_sum, power};
+use crate::law::real::Real;
+
+/// A reference for double precision: enough digits for its error not to matter, few enough to be quick.
+type Reference = FBig<HalfEven, 2>;
+
+fn reference(x: f64) -> Reference {
+    Reference::try_from(x).expect("a finite number").with_precision(128).value()
+}
+
+/// A precision, with its lanes and its measure of errors.
+trait Number: Precision + Debug {
+    type Exact;
+    #[cfg(target_arch = "x86_64")]
+    type Baseline: Lanes<Self>;
+    #[cfg(target_arch = "x86_64")]
+    type Avx2: Lanes<Self>;
+    #[cfg(target_arch = "x86_64")]
+    type Avx512: Lanes<Self>;
+    /// How far this is from the exact number.
+    fn ulps(self, exact: &Self::Exact) -> f64;
+    fn exact(self) -> Self::Exact;
+}
+
+impl Number for f64 {
+    type Exact = Reference;
+    #[cfg(target_arch = "x86_64")]
+    type Baseline = super::x86::F64x2;
+    #[cfg(target_arch = "x86_64")]
+    type Avx2 = super::x86::F64x4;
+    #[cfg(target_arch = "x86_64")]
+    type Avx512 = super::x86::F64x8;
+    fn ulps(self, exact: &Reference) -> f64 {
+        if !self.is_finite() {
+            return f64::INFINITY;
+        }
+        let error = (reference(self) - exact).to_f64().value().abs();
+        let size = exact.to_f64().value().abs().max(f64::MIN_POSITIVE);
+        error / (size.next_up() - size)
+    }
+    fn exact(self) -> Reference {
+        reference(self)
+    }
+}
+
+impl Number for f32 {
+    type Exact = f64;
+    #[cfg(target_arch = "x86_64")]
+    type Baseline = super::x86::F32x4;
+    #[cfg(target_arch = "x86_64")]
+    type Avx2 = super::x86::F32x8;
+    #[cfg(target_arch = "x86_64")]
+    type Avx512 = super::x86::F32x16;
+    fn ulps(self, exact: &f64) -> f64 {
+        if !self.is_finite() {
+            return f64::INFINITY;
+        }
+        let size = (*exact as f32).abs().max(f32::MIN_POSITIVE);
+        (f64::from(self) - exact).abs() / (f64::from(size.next_up()) - f64::from(size))
+    }
+    fn exact(self) -> f64 {
+        f64::from(self)
+    }
+}
+
+/// A function of `I` numbers with `O` results, in any number.
+trait Function<const I: usize, const O: usize> {
+    fn of<R: Real>(&self, x: [R; I]) -> [R; O];
+}
+
+/// Its results in lanes; those left over repeat the last argument.
+fn in_lanes<T: Number, R: Lanes<T>, const I: usize, const O: usize>(
+    function: &impl Function<I, O>,
+    arguments: &[[T; I]],
+) -> Vec<[T; O]> {
+    let mut results = Vec::with_capacity(arguments.len());
+    for chunk in arguments.chunks(R::COUNT) {
+        let column = |c: usize| -> Vec<T> { (0..R::COUNT).map(|j| chunk[j.min(chunk.len() - 1)][c]).collect() };
+        // SAFETY: a column has as many values as there are lanes.
+        let x = std::array::from_fn(|c| unsafe { R::load(column(c).as_ptr()) });
+        let columns = function.of(x).map(|y: R| {
+            let mut values = vec![T::splat(0.0); R::COUNT];
+            // SAFETY: as many values as lanes.
+            unsafe { y.store(values.as_mut_ptr()) };
+            values
+        });
+        results.extend((0..chunk.len()).map(|j| std::array::from_fn(|c| columns[c][j])));
+    }
+    results
+}
+
+/// Its results as a scalar and at every level.
+fn everywhere<T: Number, const I: usize, const O: usize>(
+    function: &impl Function<I, O>,
+    arguments: &[[T; I]],
+) -> Vec<(&'static str, Vec<[T; O]>)> {
+    let mut results = vec![("scalar", arguments.iter().map(|&x| function.of(x)).collect())];
+    for level in Level::ALL.into_iter().filter(|&level| level <= Level::best()) {
+        #[cfg(target_arch = "x86_64")]
+        let values = match level {
+            Level::Baseline => in_lanes::<T, T::Baseline, I, O>(function, arguments),
+            Level::Avx2 => in_lanes::<T, T::Avx2, I, O>(function, arguments),
+            Level::Avx512 => in_lanes::<T, T::Avx512, I, O>(function, arguments),
+        };
+        #[cfg(not(target_arch = "x86_64"))]
+        let values = in_lanes::<T, T, I, O>(function, arguments);
+        results.push((level.name(), values));
+    }
+    results
+}
+
+/// Asserts that each result stays within its bound, to which `spare` adds by argument.
+fn within<T: Number, const I: usize, const O: usize>(
+    what: [(&str, f64); O],
+    function: &impl Function<I, O>,
+    arguments: &[[T; I]],
+    exact: impl Fn([T; I]) -> [T::Exact; O],
+    spare: impl Fn([T; I]) -> f64,
+) {
+    let exact: Vec<_> = arguments.iter().map(|&x| exact(x)).collect();
+    for (level, results) in everywhere(function, arguments) {
+        for (c, (name, bound)) in what.into_iter().enumerate() {
+            let errors = results.iter().zip(&exact).zip(arguments);
+            let errors = errors.map(|((y, exact), x)| ((y[c].ulps(&exact[c]) - spare(*x)).max(0.0), x));
+            let (worst, at) = errors.fold((-1.0, None), |worst, (e, x)| if e > worst.0 { (e, Some(x)) } else { worst });
+            let text = format!("{name}, {} bits, {level}: {worst:.3} ulp at {at:?}", 8 * size_of::<T>());
+            println!("{text}, allowed {bound}");
+            assert!(0.0 <= worst && worst <= bound, "{text}");
+        }
+    }
+}
+
+/// Values evenly spread, the same ones in every run.
+fn samples(range: std::ops::Range<f64>, count: usize) -> impl Iterator<Item = f64> {
+    let mut random = Rng::with_seed(1);
+    (0..count).map(move |_| range.start + (range.end - range.start) * random.f64())
+}
+
+/// Positive numbers of every size: all exponents, the neighbourhood of 1, and the seams of the reduction at ¾ times powers
+/// of two.
+fn positive() -> Vec<f64> {
+    let exponents = (-1022..=1022).step_by(3).flat_map(|k| [1.0, 1.1, 1.3, 1.999].map(|z: f64| z * f64::powi(2.0, k)));
+    let near_one = (1..1000).flat_map(|k| [1.0 - f64::from(k) * 2f64.powi(-53), 1.0 + f64::from(k) * 2f64.powi(-52)]);
+    let about_one = (1..53).flat_map(|k| [1.0 - 0.7 * 2f64.powi(-k), 1.0 + 0.7 * 2f64.powi(-k)]);
+    let seams = (-40..40).flat_map(|k| {
+        let seam = 0.75 * f64::powi(2.0, k);
+        [seam.next_down().next_down(), seam.next_down(), seam, seam.next_up(), seam.next_up().next_up()]
+    });
+    let about_seams = samples(0.74..0.78, 10_000).chain(samples(1.45..1.51, 10_000));
+    let dense = samples(0.5..2.0, 10_000);
+    let wide = samples(-700.0..700.0, 1_000).map(f64::exp);
+    let all = exponents.chain(near_one).chain(about_one).chain(seams);
+    all.chain(about_seams).chain(dense).chain(wide).collect()
+}
+
+/// Positive normal single-precision numbers, 3 million evenly spread over the range and 4 million near 1.
+fn positive_single() -> impl Iterator<Item = f32> {
+    let (first, last) = (f32::MIN_POSITIVE.to_bits(), 2f32.powi(127).to_bits());
+    let near_one = (0.6f32.to_bits()..1.6f32.to_bits()).step_by(3);
+    (first..last).step_by(701).chain(near_one).map(f32::from_bits)
+}
+
+fn none<X>(_: X) -> f64 {
+    0.0
+}
+
+struct LnSum;
+impl Function<2, 1> for LnSum {
+    fn of<R: Real>(&self, [y, c]: [R; 2]) -> [R; 1] {
+        [ln_sum(y, c)]
+    }
+}
+
+#[test]
+fn logarithm_of_a_sum() {
+    let mut arguments = Vec::new();
+    for y in positive() {
+        // Below 1 the spacing halves, so that the correction to a power of two from below is half as large.
+        let (up, down) = ((y.next_up() - y) / 2.0, (y.next_down() - y) / 2.0);
+        arguments.extend([0.0, up, down].map(|c| [y, c]));
+    }
+    let exact = |[y, c]: [f64; 2]| [(reference(y) + reference(c)).ln()];
+    arguments.retain(|&[y, c]| y != 1.0 || c != 0.0);
+    within([("ln_sum", LN_SUM.0)], &LnSum, &arguments, exact, none);
+
+    let mut arguments = Vec::new();
+    for y in positive_single().filter(|&y| y != 1.0) {
+        arguments.push([y, 0.0]);
+        let half_ulp = (y.next_up() - y) / 2.0;
+        if half_ulp >= f32::MIN_POSITIVE {
+            arguments.push([y, half_ulp]);
+        }
+    }
+    let exact = |[y, c]: [f32; 2]| [(f64::from(y) + f64::from(c)).ln()];
+    within([("ln_sum", LN_SUM.1)], &LnSum, &arguments, exact, none);
+
+    for (level, results) in everywhere(&LnSum, &[[1.0, 0.0]]) {
+        assert_eq!(results, [[0.0]], "{level}");
+    }
+    for (level, results) in everywhere(&LnSum, &[[1.0f32, 0.0]]) {
+        assert_eq!(results, [[0.0]], "{level}");
+    }
+}
+
+struct Ln1p;
+impl Function<1, 1> for Ln1p {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 1] {
+        [ln_1p(x)]
+    }
+}
+
+#[test]
+fn logarithm_of_one_and_a_little() {
+    let tiny = samples(-700.0..0.0, 1_000).map(f64::exp);
+    let all = tiny.flat_map(|x| [x, -x]).chain(positive()).chain(positive().into_iter().map(|y| y - 1.0));
+    let arguments: Vec<_> = all.filter(|&x| x > -1.0 && x != 0.0).map(|x| [x]).collect();
+    within([("ln_1p", LN_1P.0)], &Ln1p, &arguments, |[x]: [f64; 1]| [reference(x).ln_1p()], none);
+    for (level, results) in everywhere(&Ln1p, &[[0.0]]) {
+        assert_eq!(results, [[0.0]], "{level}");
+    }
+
+    let all = positive_single().flat_map(|x| [x, -x]);
+    let arguments: Vec<_> = all.filter(|&x| x > -1.0).map(|x| [x]).collect();
+    within([("ln_1p", LN_1P.1)], &Ln1p, &arguments, |[x]: [f32; 1]| [f64::from(x).ln_1p()], none);
+}
+
+struct InverseSinh;
+impl Function<1, 2> for InverseSinh {
+    fn of<R: Real>(&self, [s]: [R; 1]) -> [R; 2] {
+        let (value, ratio) = asinh(s);
+        [value, ratio]
+    }
+}
+
+/// asinh in double precision without the cancellation that some libraries have for small arguments.
+fn inverse_sinh(s: f64) -> f64 {
+    (s + s * s / (1.0 + (1.0 + s * s).sqrt())).ln_1p()
+}
+
+#[test]
+fn inverse_hyperbolic_sine() {
+    let sizes = samples(-345.0..345.0, 2_000).map(f64::exp);
+    // Just above e^2a = 3/2, where k ln 2 and 2 artanh w cancel by half, and down to where k = 0 is left.
+    let seam = samples(0.19..0.22, 20_000).chain(samples(0.35..0.39, 10_000));
+    let all = positive().into_iter().filter(|&s| s <= 1e150).chain(sizes).chain(seam);
+    let arguments: Vec<_> = all.map(|s| [s]).collect();
+    let exact = |[s]: [f64; 1]| {
+        let value = reference(s).asinh();
+        let ratio = &value / reference(s);
+        [value, ratio]
+    };
+    let what = |bound: fn(&(f64, f64)) -> f64| [("asinh s", bound(&ASINH)), ("(asinh s)/s", bound(&RATIO))];
+    within(what(|bound| bound.0), &InverseSinh, &arguments, exact, none);
+
+    let seam = samples(0.19..0.22, 20_000).chain(samples(0.35..0.39, 10_000)).map(|s| s as f32);
+    let arguments: Vec<_> = positive_single().filter(|&s| s <= 1e18).chain(seam).map(|s| [s]).collect();
+    let exact = |[s]: [f32; 1]| {
+        let value = inverse_sinh(f64::from(s));
+        [value, value / f64::from(s)]
+    };
+    within(what(|bound| bound.1), &InverseSinh, &arguments, exact, none);
+
+    for (level, results) in everywhere(&InverseSinh, &[[0.0]]) {
+        assert_eq!(results, [[0.0, 1.0]], "{level}");
+    }
+    for (level, results) in everywhere(&InverseSinh, &[[0.0f32]]) {
+        assert_eq!(results, [[0.0, 1.0]], "{level}");
+    }
+}
+
+struct Power<T>(Exponent<T>);
+impl<T: Number> Function<1, 1> for Power<T> {
+    fn of<R: Real>(&self, [i]: [R; 1]) -> [R; 1] {
+        [power(i, &self.0.map(|x: T| R::splat(x.into())))]
+    }
+}
+
+/// Exponents of the compaction stress, p − 1 for any p that the law takes, and awkward ones.
+fn exponents() -> Vec<f64> {
+    let named =
+        [0.01, 0.2, 0.5, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 1.2, 1.5, 2.0, 2.0 + 1e-12, 3.0, 4.0, 5.0, 8.0, 20.0, 39.0];
+    named.into_iter().chain(samples(0.01..39.0, 12)).collect()
+}
+
+/// Powers from the least that is not 0 to the greatest that is promised.
+fn promised<T: Number>(size: f64) -> bool {
+    T::EXPONENTS.0 + 0.1 < size && size < T::EXPONENTS.1
+}
+
+#[test]
+fn powers() {
+    let bases: Vec<f64> = samples(-60.0..0.1, 1_500)
+        .map(f64::exp)
+        .chain(samples(0.5..2.0, 1_000))
+        .chain((-1022..=1022).step_by(7).map(|k| 2f64.powi(k)))
+        .chain((1..200).flat_map(|k| [1.0 - f64::from(k) * 2f64.powi(-53), 1.0 + f64::from(k) * 2f64.powi(-52)]))
+        .collect();
+    for q in exponents() {
+        let arguments: Vec<_> = bases.iter().filter(|i| promised::<f64>(q * i.log2())).map(|&i| [i]).collect();
+        let exact = |[i]: [f64; 1]| [reference(i).powf(&reference(q))];
+        let name = format!("power {q}");
+        within([(&name, POWER.0.0)], &Power(Exponent::new(q)), &arguments, exact, |_| q * POWER.0.1);
+    }
+    for q in exponents().into_iter().map(|q| q as f32) {
+        let bases = positive_single().step_by(23);
+        let q_64 = f64::from(q);
+        let arguments: Vec<_> = bases.filter(|&i| promised::<f32>(q_64 * f64::from(i).log2())).map(|i| [i]).collect();
+        let exact = |[i]: [f32; 1]| [f64::from(i).powf(q_64)];
+        let name = format!("power {q}");
+        within([(&name, POWER.1.0)], &Power(Exponent::new(q)), &arguments, exact, |_| q_64 * POWER.1.1);
+    }
+}
+
+#[test]
+fn powers_at_the_ends_of_the_range() {
+    for q in exponents() {
+        let arguments = [[0.0], [1.0], [f64::MIN_POSITIVE / 2.0], [-1.0]];
+        for (level, results) in everywhere(&Power(Exponent::new(q)), &arguments) {
+            assert_eq!(results, [[0.0], [1.0], [0.0], [0.0]], "{level} {q}");
+        }
+        let arguments = [[0.0f32], [1.0], [f32::MIN_POSITIVE / 2.0], [-1.0]];
+        for (level, results) in everywhere(&Power(Exponent::new(q as f32)), &arguments) {
+            assert_eq!(results, [[0.0], [1.0], [0.0], [0.0]], "{level} {q}");
+        }
+    }
+    for (level, results) in everywhere(&Power(Exponent::new(2.0)), &[[1e-200]]) {
+        assert_eq!(results, [[0.0]], "{level}: underflow");
+    }
+    for (level, results) in everywhere(&Power(Exponent::new(2.0f32)), &[[1e-20]]) {
+        assert_eq!(results, [[0.0]], "{level}: underflow");
+    }
+}
+
+// The contract, double and single precision: what the table of `law/elementary.rs` says. For the power, (a, b) stands
+// for a + b q.
+const LN_SUM: (f64, f64) = (3.0, 3.0);
+const LN_1P: (f64, f64) = (3.0, 3.0);
+const ASINH: (f64, f64) = (4.5, 4.5);
+const RATIO: (f64, f64) = (6.5, 6.5);
+const POWER: ((f64, f64), (f64, f64)) = ((1.2, 1.5), (1.2, 1.8));
+
+struct Split;
+impl Function<1, 2> for Split {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 2] {
+        let (z, k) = x.split_exponent();
+        [z, k]
+    }
+}
+
+struct Scaled;
+impl Function<2, 1> for Scaled {
+    fn of<R: Real>(&self, [x, k]: [R; 2]) -> [R; 1] {
+        [x.times_power_of_two(k)]
+    }
+}
+
+/// The seams of the reduction and the powers of two, with what lies beside them, and some numbers in between.
+macro_rules! splitting {
+    ($name:ident, $t:ident) => {
+        #[test]
+        fn $name() {
+            let mut arguments = Vec::new();
+            for k in $t::MIN_EXP - 1..$t::MAX_EXP - 1 {
+                let power = (2.0 as $t).powi(k);
+                for seam in [1.5 * power, power] {
+                    let (below, above) = (seam.next_down(), seam.next_up());
+                    let near = [below.next_down(), below, seam, above, above.next_up(), 1.25 * power, 1.75 * power];
+                    arguments.extend(near.into_iter().filter(|x| x.is_normal()).map(|x| [x]));
+                }
+            }
+            let mut places = Vec::new();
+            for (level, results) in everywhere(&Split, &arguments) {
+                for (&[z, k], &[x]) in results.iter().zip(&arguments) {
+                    assert!((0.75..1.5).contains(&z), "{level}: {x:e} = {z:e} 2^{k}");
+                    // Two steps, since 2^k alone may be too large or small.
+                    let half = (k / 2.0).trunc();
+                    let whole = z * (2.0 as $t).powi(half as i32) * (2.0 as $t).powi((k - half) as i32);
+                    assert_eq!(whole, x, "{level}: {z:e} 2^{k}");
+
+                    if k.abs() < ($t::MAX_EXP - 2) as $t {
+                        places.push([z, k]);
+                    }
+                }
+            }
+            places.truncate(arguments.len());
+            for (level, results) in everywhere(&Scaled, &places) {
+                for (&[found], &[z, k]) in results.iter().zip(&places) {
+                    assert_eq!(found, z * (2.0 as $t).powi(k as i32), "{level}: {z:e} 2^{k}");
+                }
+            }
+        }
+    };
+}
+splitting!(exponents_split_and_join_f64, f64);
+splitting!(exponents_split_and_join_f32, f32);
+
+struct Reciprocal;
+impl Function<1, 1> for Reciprocal {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 1] {
+        [x.reciprocal()]
+    }
+}
+
+struct Quotient;
+impl Function<3, 1> for Quotient {
+    fn of<R: Real>(&self, [x, divisor, reciprocal]: [R; 3]) -> [R; 1] {
+        [x.quotient(divisor, reciprocal)]
+    }
+}
+
+macro_rules! dividing {
+    ($name:ident, $t:ident, $one:expr, $span:expr) => {
+        #[test]
+        fn $name() {
+            let mut random = Rng::with_seed(7);
+            let mut of_any_size = |span: f64| ((2.0 * random.f64() - 1.0) * span * std::f64::consts::LN_10).exp() as $t;
+            let mut arguments: Vec<_> = (0..100_000).map(|_| [of_any_size(2.0 * $span)]).collect();
+            for k in 0..2000 {
+                arguments.push([(1.0 as $t) + k as $t * $t::EPSILON]);
+                arguments.push([(2.0 as $t) - k as $t * $t::EPSILON]);
+            }
+            arguments.extend(arguments.clone().into_iter().map(|[x]| [-x]));
+            let exact = |[x]: [$t; 1]| [$one / x.exact()];
+            within([("1/x", 1.0)], &Reciprocal, &arguments, exact, none);
+
+            let quotients: Vec<_> = (0..200_000)
+                .map(|i| {
+                    let divisor = of_any_size($span);
+                    let x = if i % 4 == 0 { divisor } else { of_any_size($span) };
+                    [x, divisor, 1.0 / divisor]
+                })
+                .collect();
+            for (level, results) in everywhere(&Quotient, &quotients) {
+                for (&[found], &[x, divisor, _]) in results.iter().zip(&quotients) {
+                    assert_eq!(found, x / divisor, "{level}: {x:e}/{divisor:e}");
+                }
+            }
+        }
+    };
+}
+dividing!(reciprocals_and_quotients_f64, f64, reference(1.0), 75.0);
+dividing!(reciprocals_and_quotients_f32, f32, 1.0, 7.0);
