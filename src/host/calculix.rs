@@ -1,0 +1,212 @@
+//! CalculiX: an external behaviour through the native interface, `*MATERIAL, NAME=@TORON_HYPERELASTIC`.
+//!
+//! | | |
+//! |---|---|
+//! | found as | `HYPERELASTIC` in `libTORON.so`, a link to `libtoron.so` |
+//! | properties | elconloc(1) … elconloc(11), kode = −100 − 11 |
+//! | deformation | xkl(3,3), F by columns, global |
+//! | state | xstateini, xstate: (nstate_, mi(1), elements), nstate_ ≥ 11 |
+//! | stress | stre(6): second Piola–Kirchhoff 11 22 33 **12 13 23** |
+//! | tangent | stiff(21): dS/dE, tensor components, the upper triangle of that order by columns; on every call |
+//! | failure | stress 0; stiff keeps a millionth, or the nodes between failed elements would hang on nothing |
+//! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
+//!
+//! No `*ORIENTATION`, no initial stress, and NLGEOM. The header does not declare the entry: CalculiX alone calls it.
+
+use core::ffi::c_char;
+
+use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::parameters;
+use crate::law::state::{FAILED, HYPERELASTIC_STATE};
+use crate::law::status::{self, Error};
+
+use super::c_api::properties;
+
+/// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
+const CUTBACK: f64 = 0.25;
+
+/// What CalculiX ends with after an error in a material.
+const EXIT_CODE: i32 = 201;
+
+/// The stiffness of a point that carries nothing, relative to the fibre's.
+const RESIDUAL_STIFFNESS: f64 = 1e-6;
+
+/// What the law has a use for among CalculiX's arguments.
+struct Arguments<'a> {
+    /// −100 less the number of constants.
+    kode: i32,
+    constants: *const f64,
+    /// Lagrange strain 11 22 33 12 13 23, without its quadratic part where the analysis is linear.
+    strain: &'a [f64; 6],
+    initial_stress: &'a [f64; 6],
+    f: &'a [[f64; 3]; 3],
+    orientation: i32,
+    state_count: i32,
+}
+
+impl Arguments<'_> {
+    /// The law of the deck's properties.
+    ///
+    /// # Errors
+    /// Whatever a deck may have wrong that the arguments show.
+    fn law(&self) -> Result<Hyperelastic<f64>, Error> {
+        let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
+        // SAFETY: CalculiX's promise: as many constants as kode says.
+        let law = Hyperelastic::new(unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?)?;
+        if self.state_count < HYPERELASTIC_STATE as i32 {
+            return Err(Error::Plain(status::STATE_COUNT));
+        }
+        if self.orientation != 0 {
+            let value = f64::from(self.orientation);
+            return Err(Error::Argument { name: "*ORIENTATION", value, wanted: "none: m_1 m_2 m_3 are global" });
+        }
+        if let Some(&value) = self.initial_stress.iter().find(|&&x| x != 0.0) {
+            return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
+        }
+        if self.is_linear() {
+            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        }
+        Ok(law)
+    }
+
+    /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
+    fn is_linear(&self) -> bool {
+        const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+        let identity = |i, j| if i == j { 1.0 } else { 0.0 };
+        let (mut missing, mut off) = (0.0_f64, 0.0_f64);
+        for (&strain, (i, j)) in self.strain.iter().zip(PAIRS) {
+            let h = |i: usize, j: usize| self.f[j][i] - identity(i, j);
+            let quadratic = 0.5 * (h(0, i) * h(0, j) + h(1, i) * h(1, j) + h(2, i) * h(2, j));
+            missing = missing.max(quadratic.abs());
+            off = off.max((strain - 0.5 * (h(i, j) + h(j, i))).abs());
+        }
+        missing > 1e-9 && off < 1e-3 * missing
+    }
+}
+
+/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
+fn refuse(material: &[u8; 80], error: Error) -> ! {
+    let print = |text: &str| {
+        // SAFETY: the format takes a length and as many bytes.
+        unsafe { libc::printf(c"%.*s".as_ptr(), text.len() as libc::c_int, text.as_ptr()) };
+    };
+    print(" *ERROR: toron, material ");
+    print(core::str::from_utf8(material).unwrap_or("").trim_end());
+    print(": ");
+    error.describe(&mut |piece| print(piece));
+    print("\n");
+    // SAFETY: CalculiX's own way out, which writes what its files still lack.
+    unsafe { libc::exit(EXIT_CODE) }
+}
+
+/// The hyperelastic law as an external behaviour of CalculiX. Arguments as CalculiX passes them, see its `umat_user.f`.
+///
+/// # Safety
+/// CalculiX's promise: every pointer has as many values as said there.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+#[allow(non_snake_case)] // CalculiX looks for capitals.
+pub unsafe extern "C" fn HYPERELASTIC(
+    amat: *const c_char,
+    iel: *const i32,
+    iint: *const i32,
+    kode: *const i32,
+    elconloc: *const f64,
+    emec: *const f64,
+    _emec0: *const f64,
+    beta: *const f64,
+    _xokl: *const f64,
+    _voj: *const f64,
+    xkl: *const f64,
+    _vj: *const f64,
+    _ithermal: *const i32,
+    _t1l: *const f64,
+    _dtime: *const f64,
+    _time: *const f64,
+    _ttime: *const f64,
+    _icmd: *const i32,
+    _ielas: *const i32,
+    mi: *const i32,
+    nstate_: *const i32,
+    xstateini: *const f64,
+    xstate: *mut f64,
+    stre: *mut f64,
+    stiff: *mut f64,
+    iorien: *const i32,
+    _pgauss: *const f64,
+    _orab: *const f64,
+    pnewdt: *mut f64,
+    _ipkon: *const i32,
+    _amat_length: i32,
+) {
+    // SAFETY: CalculiX's promise.
+    let arguments = unsafe {
+        Arguments {
+            kode: *kode,
+            constants: elconloc,
+            strain: &*emec.cast(),
+            initial_stress: &*beta.cast(),
+            f: &*xkl.cast(),
+            orientation: *iorien,
+            state_count: *nstate_,
+        }
+    };
+    let law = match arguments.law() {
+        Ok(law) => law,
+        // SAFETY: a material's name has 80 characters.
+        Err(error) => refuse(unsafe { &*amat.cast() }, error),
+    };
+    // SAFETY: CalculiX's promise; integration points and elements count from 1.
+    let (old, new) = unsafe {
+        let place = (*iel as usize - 1) * *mi as usize + (*iint as usize - 1);
+        let place = place * *nstate_ as usize;
+        (&*xstateini.add(place).cast::<[f64; HYPERELASTIC_STATE]>(), xstate.add(place))
+    };
+    let point = law.point_along(arguments.f, None, old, Request { stress: false, wave_modulus: false, ..Request::ALL });
+    let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
+    let [s11, s22, s33, s12, s23, s13] = stress;
+    // SAFETY: as above.
+    unsafe {
+        *stre.cast::<[f64; 6]>() = [s11, s22, s33, s12, s13, s23];
+        *stiff.cast::<[f64; 21]>() = tangent(&law, arguments.f, old, point.status);
+        *new.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
+        if point.status != status::OK {
+            *pnewdt = if *pnewdt > 0.0 { (*pnewdt).min(CUTBACK) } else { CUTBACK };
+        }
+    }
+}
+
+/// INTERIM numerical dS/dE.
+fn tangent(law: &Hyperelastic<f64>, f: &[[f64; 3]; 3], old: &[f64; HYPERELASTIC_STATE], code: i32) -> [f64; 21] {
+    let residual = RESIDUAL_STIFFNESS * law.bulk_and_shear()[0];
+    let mut c = [0.0; 21];
+    if code != status::OK || old[FAILED] != 0.0 {
+        for i in [0, 2, 5, 9, 14, 20] {
+            c[i] = residual;
+        }
+        return c;
+    }
+    let fm = nalgebra::Matrix3::from_fn(|i, j| f[j][i]);
+    let inv_t = fm.try_inverse().unwrap().transpose();
+    const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+    let s = |e: &nalgebra::Matrix3<f64>| {
+        let g = fm + inv_t * e;
+        let cols = [[g.m11, g.m21, g.m31], [g.m12, g.m22, g.m32], [g.m13, g.m23, g.m33]];
+        let p = law.point_along(&cols, None, old, Request { modes: true, ..Request::default() });
+        let st: [f64; 6] = core::array::from_fn(|c| p.modes.iter().map(|mode| mode[c]).sum());
+        [st[0], st[1], st[2], st[3], st[5], st[4]]
+    };
+    let mut k = 0;
+    for (b, &(i, j)) in PAIRS.iter().enumerate() {
+        let mut e = nalgebra::Matrix3::zeros();
+        let h = 1e-6;
+        e[(i, j)] = h;
+        e[(j, i)] = h;
+        let (up, down) = (s(&e), s(&-e));
+        for a in 0..=b {
+            c[k] = (up[a] - down[a]) / (2.0 * h) * if i == j { 1.0 } else { 0.5 };
+            k += 1;
+        }
+    }
+    c
+}

@@ -1,0 +1,173 @@
+//! Runs decks of `ffi-tests/calculix` in CalculiX and reads what it writes.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
+
+use super::library::{LIBRARY, ROOT, folder, run};
+
+/// Which material a deck runs with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tangent {
+    /// The library's own.
+    Analytic,
+    /// Central differences of the library's stress.
+    Numerical,
+}
+
+/// The name by which the decks call the library's material.
+const MATERIAL: &str = "@TORON_HYPERELASTIC";
+
+static DECKS: LazyLock<PathBuf> = LazyLock::new(|| Path::new(ROOT).join("ffi-tests/calculix"));
+
+/// The solver, built if it is not there yet.
+static SOLVER: LazyLock<PathBuf> = LazyLock::new(|| {
+    let output = run(Command::new("sh").arg(DECKS.join("build.sh")), "dash");
+    PathBuf::from(String::from_utf8(output.stdout).expect("a path").trim())
+});
+
+/// A folder with the libraries under the names that CalculiX looks for.
+static LIBRARIES: LazyLock<PathBuf> = LazyLock::new(|| {
+    let folder = folder("calculix-libraries");
+    std::fs::copy(LIBRARY.join("libtoron.so"), folder.join("libTORON.so")).expect("libTORON.so");
+    let mut gcc = Command::new("gcc");
+    gcc.args(["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2", "-shared", "-fPIC", "-o"]);
+    gcc.arg(folder.join("libNUMERICAL.so")).arg(DECKS.join("numerical_tangent.c")).arg("-L").arg(&folder);
+    run(gcc.arg("-lTORON"), "gcc");
+    folder
+});
+
+/// Tolerances of the iterations: residual over average force, largest correction over largest increment.
+pub fn control(residual: f64, correction: f64) -> String {
+    format!(
+        "*CONTROLS, PARAMETERS=FIELD\n{residual:e}, {correction:e}\n\
+         *CONTROLS, PARAMETERS=TIME INCREMENTATION\n8, 10, 9, 40, 20, 10, , 10\n"
+    )
+}
+
+/// A deck, with the files that it includes.
+pub struct Job<'a> {
+    pub deck: &'a str,
+    pub includes: &'a [(&'a str, String)],
+    pub tangent: Tangent,
+}
+
+impl Job<'_> {
+    /// The deck as it is committed.
+    pub fn deck(name: &str) -> String {
+        std::fs::read_to_string(DECKS.join(name)).expect("a deck")
+    }
+
+    /// Runs the deck, changed by `edit`, to whatever end it comes.
+    pub fn attempt(&self, name: &str, edit: impl Fn(String) -> String) -> (Output, PathBuf) {
+        let folder = folder(&format!("calculix-{name}-{:?}", self.tangent));
+        let mut deck = edit(Self::deck(self.deck));
+        if self.tangent == Tangent::Numerical {
+            deck = deck.replace(MATERIAL, "@NUMERICAL_TANGENT");
+        }
+        std::fs::write(folder.join("job.inp"), deck).expect("a file");
+        for (file, text) in self.includes {
+            std::fs::write(folder.join(file), text).expect("a file");
+        }
+        let mut solver = Command::new(&*SOLVER);
+        solver.arg("job").current_dir(&folder).env("LD_LIBRARY_PATH", &*LIBRARIES).env("OMP_NUM_THREADS", "2");
+        (solver.output().expect("CalculiX runs"), folder)
+    }
+
+    /// Runs the deck to its end, which must be a good one.
+    pub fn run(&self) -> Results {
+        let name = self.deck.trim_end_matches(".inp");
+        let start = std::time::Instant::now();
+        let (output, folder) = self.attempt(name, |deck| deck);
+        let seconds = start.elapsed().as_secs_f64();
+        let log = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(output.status.success(), "{name}, {:?}: {}\n{log}", self.tangent, output.status);
+        let read = |file: &str| std::fs::read_to_string(folder.join(file)).expect("a file of results");
+        Results { iterations: iterations(&read("job.cvg")), tables: tables(&read("job.dat")), log, seconds }
+    }
+}
+
+/// The eleven properties of a deck's only user material.
+pub fn properties(deck: &str) -> Vec<f64> {
+    let deck = Job::deck(deck);
+    let lines = deck.lines().skip_while(|line| !line.starts_with("*USER MATERIAL")).skip(1);
+    let values = lines.take_while(|line| !line.starts_with('*')).flat_map(|line| line.split(','));
+    values.map(|value| value.trim().parse().expect("a property")).collect()
+}
+
+/// A line of the file on convergence.
+#[derive(Clone, Copy, Debug)]
+pub struct Iteration {
+    pub increment: usize,
+    pub attempt: usize,
+    /// Number of contact elements.
+    pub contact: usize,
+    /// Largest residual over average force, and largest correction over largest increment of the displacements.
+    pub residual: f64,
+    pub correction: f64,
+}
+
+/// A table of printed values, a row a node or an integration point.
+#[derive(Debug)]
+pub struct Table {
+    pub title: String,
+    pub time: f64,
+    pub rows: Vec<Vec<f64>>,
+}
+
+pub struct Results {
+    pub iterations: Vec<Iteration>,
+    pub tables: Vec<Table>,
+    pub log: String,
+    pub seconds: f64,
+}
+
+impl Results {
+    /// The tables whose title starts like this, one a printed increment.
+    pub fn all(&self, title: &str) -> Vec<&Table> {
+        self.tables.iter().filter(|table| table.title.starts_with(title)).collect()
+    }
+
+    /// The last of them.
+    pub fn last(&self, title: &str) -> &Table {
+        self.all(title).last().unwrap_or_else(|| panic!("no table of {title}"))
+    }
+
+    /// The iterations of every attempt at an increment.
+    pub fn attempts(&self) -> impl Iterator<Item = &[Iteration]> {
+        self.iterations.chunk_by(|a, b| (a.increment, a.attempt) == (b.increment, b.attempt))
+    }
+}
+
+/// A number as Fortran prints it: exponents of three digits have no E.
+fn number(text: &str) -> f64 {
+    let sign = text.rfind(['+', '-']).filter(|&i| i > 0 && text.as_bytes()[i - 1].is_ascii_digit());
+    let with_e = sign.map_or_else(|| text.to_string(), |i| format!("{}E{}", &text[..i], &text[i..]));
+    with_e.parse().unwrap_or_else(|_| panic!("{text} is no number"))
+}
+
+fn iterations(text: &str) -> Vec<Iteration> {
+    let rows = text.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let rows = rows.filter(|row| row.len() == 9 && row[0].parse::<usize>().is_ok());
+    let count = |text: &str| text.parse().expect("a count");
+    rows.map(|row| Iteration {
+        increment: count(row[1]),
+        attempt: count(row[2]),
+        contact: count(row[4]),
+        residual: number(row[5]) / 100.0,
+        correction: number(row[6]) / 100.0,
+    })
+    .collect()
+}
+
+fn tables(text: &str) -> Vec<Table> {
+    let mut tables: Vec<Table> = Vec::new();
+    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        if let Some((title, time)) = line.split_once(" and time ") {
+            tables.push(Table { title: title.to_string(), time: number(time.trim()), rows: Vec::new() });
+        } else if let Some(table) = tables.last_mut() {
+            table.rows.push(line.split_whitespace().map(number).collect());
+        }
+    }
+    tables
+}
