@@ -18,6 +18,9 @@ use super::parameters::{self, FIBRE};
 use super::real::{Real, along, scale};
 use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use super::status::{self, Error};
+use super::stress::{square, symmetric_product as product};
+use super::tangent::unrepresentable;
+use super::wave_speed::COMPACTION_FLOOR;
 
 /// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
 const LEAST_LIMIT: f64 = 1e-30;
@@ -32,6 +35,9 @@ pub struct Hyperelastic<R> {
     pub(super) k_ld: R,
     /// p − 1, the exponent of the compaction stress.
     exponent: Exponent<R>,
+    /// W″ of a compaction of at most `held_below`, where an exponent p ≤ 2 would make it infinite or 0/0.
+    pub(super) held_below: R,
+    pub(super) held_curvature: R,
     failure: Failure<R>,
     pub(super) frame: FibreFrame<R>,
 }
@@ -99,6 +105,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         let one = T::splat(1.0);
         let fails = zero.lt(eps_lim);
         let weight = |x: T| T::select(fails, x, zero);
+        let [held_below, held_curvature] = held_stiffness(k_tc, p);
         Ok(Hyperelastic {
             k_el,
             k_tc,
@@ -106,6 +113,8 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             k_td,
             k_ld,
             exponent: Exponent::new(p - one),
+            held_below,
+            held_curvature,
             failure: Failure {
                 limit: T::select(fails, ln_1p(eps_lim).max(T::splat(LEAST_LIMIT)), T::splat(f64::INFINITY)),
                 alpha: weight(alpha),
@@ -114,6 +123,15 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             frame,
         })
     }
+}
+
+/// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
+fn held_stiffness<T: Real>(k_tc: T, p: T) -> [T; 2] {
+    let (zero, two) = (T::splat(0.0), T::splat(2.0));
+    let floor = T::splat(COMPACTION_FLOOR);
+    let exponent = p - T::splat(1.0);
+    let held = exponent * p * k_tc * (power(floor, Exponent::new(exponent)) / floor);
+    [T::select(p.le(two), floor, zero), T::select(p.le(two), held, zero)]
 }
 
 /// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
@@ -150,6 +168,8 @@ impl<R: Real> Hyperelastic<R> {
             k_td: lane(self.k_td),
             k_ld: lane(self.k_ld),
             exponent: self.exponent.map(lane),
+            held_below: lane(self.held_below),
+            held_curvature: lane(self.held_curvature),
             failure: Failure {
                 limit: lane(self.failure.limit),
                 alpha: lane(self.failure.alpha),
@@ -219,19 +239,14 @@ impl<R: Real> Hyperelastic<R> {
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
     #[inline(always)]
     pub fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
-        let one = R::splat(1.0);
-        let (inverse_11, inverse_22) = (one / d.r11, one / d.r22);
-        // F⁻¹e, F⁻¹q1, F⁻¹q2.
-        let w1 = scale(d.inverse_lambda, n.m);
-        let w2 = scale(inverse_11, along(n.t1, -(d.f_a * d.inverse_lambda), n.m));
-        let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * d.inverse_lambda), n.m), -d.r12, w2));
+        let [w1, w2, w3] = d.pulled_back(n);
         let two = R::splat(2.0);
         let (d1, d2) = (k.distortion * d.d1, k.distortion * d.d2);
         let [t12, t13] = shear_components(d, k.shear);
         [
-            product(k.tension, w1, w1),
-            sum(product(-k.pressure, w2, w2), product(-k.pressure, w3, w3)),
-            sum(sum(product(d1, w2, w2), product(-d1, w3, w3)), product(two * d2, w2, w3)),
+            square(k.tension, w1),
+            sum(square(-k.pressure, w2), square(-k.pressure, w3)),
+            sum(sum(square(d1, w2), square(-d1, w3)), product(two * d2, w2, w3)),
             sum(product(two * t12, w1, w2), product(two * t13, w1, w3)),
         ]
     }
@@ -332,20 +347,6 @@ impl<R: Real> Hyperelastic<R> {
     }
 }
 
-/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
-#[inline(always)]
-fn product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
-    let half = R::splat(0.5) * s;
-    [
-        s * a[0] * b[0],
-        s * a[1] * b[1],
-        s * a[2] * b[2],
-        half * a[0].mul_add(b[1], a[1] * b[0]),
-        half * a[1].mul_add(b[2], a[2] * b[1]),
-        half * a[2].mul_add(b[0], a[0] * b[2]),
-    ]
-}
-
 /// The sum of two tensors of six components.
 #[inline(always)]
 fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
@@ -400,12 +401,42 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
+        self.point_with(f, fibre, state, request, |_, _, _, _| [T::splat(0.0); 0]).0
+    }
+
+    /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
+    /// and where the point cannot be evaluated, which it cannot where the tangent is not finite.
+    #[inline(always)]
+    pub(super) fn point_with<X: AsMut<[T]>>(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+        tangent: impl FnOnce(&Decomposition<T>, &Strain<T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
+    ) -> (Point<T>, X) {
+        let zero = T::splat(0.0);
         let (frame, usable) = fibre.map_or((self.frame, true), FibreFrame::new);
         let d = Decomposition::new(f, &frame);
         let strain = Strain::new(&d);
         let k = self.kirchhoff(&d, &strain);
-        let flaw = self.flaw(&d, usable);
+        let mut flaw = self.flaw(&d, usable);
+        let mut tangent = tangent(&d, &strain, &k, &frame);
+        if !(flaw.lt(zero) | unrepresentable(tangent.as_mut()).le(zero)) {
+            flaw = T::splat(status::OVERFLOW as f64);
+        }
         let r = self.respond(&d, &strain, &k, &frame, flaw, state[FAILED], request, self.shears());
+        if r.kept {
+            tangent.as_mut().fill(zero);
+        }
+        (Point::new(&r, state), tangent)
+    }
+}
+
+impl<T: Real<Mask = bool> + Into<f64>> Point<T> {
+    /// The answer with the new state, given the old one.
+    #[inline(always)]
+    fn new(r: &Response<T>, state: &[T; HYPERELASTIC_STATE]) -> Self {
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

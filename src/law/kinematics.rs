@@ -184,6 +184,17 @@ impl<R: Real> Decomposition<R> {
         cross(self.e, self.q1)
     }
 
+    /// F⁻¹e, F⁻¹q1, F⁻¹q2, by the triangle R: no inverse of F.
+    #[inline(always)]
+    pub fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+        let one = R::splat(1.0);
+        let (inverse_11, inverse_22) = (one / self.r11, one / self.r22);
+        let w1 = scale(self.inverse_lambda, n.m);
+        let w2 = scale(inverse_11, along(n.t1, -(self.f_a * self.inverse_lambda), n.m));
+        let w3 = scale(inverse_22, along(along(n.t2, -(self.f_b * self.inverse_lambda), n.m), -self.r12, w2));
+        [w1, w2, w3]
+    }
+
     /// The longitudinal-shear invariant I_ld, the only one that needs no logarithm.
     #[inline(always)]
     pub fn shear_invariant(&self) -> R {

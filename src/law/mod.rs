@@ -11,4 +11,5 @@ pub mod real;
 pub mod state;
 pub mod status;
 pub mod stress;
+pub mod tangent;
 pub mod wave_speed;

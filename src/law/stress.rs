@@ -2,6 +2,33 @@
 
 use nalgebra::Matrix3;
 
+use super::real::Real;
+
+/// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
+pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// s a⊗a, 11 22 33 12 23 31.
+#[inline(always)]
+pub fn square<R: Real>(s: R, a: [R; 3]) -> [R; 6] {
+    let [x, y, z] = [s * a[0], s * a[1], s * a[2]];
+    [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]]
+}
+
+/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
+#[inline(always)]
+pub fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
+    let half = R::splat(0.5) * s;
+    [
+        s * a[0] * b[0],
+        s * a[1] * b[1],
+        s * a[2] * b[2],
+        half * a[0].mul_add(b[1], a[1] * b[0]),
+        half * a[1].mul_add(b[2], a[2] * b[1]),
+        half * a[2].mul_add(b[0], a[0] * b[2]),
+    ]
+}
+
 /// The symmetric matrix of six components 11 22 33 12 23 31.
 pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
     Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
