@@ -1,5 +1,6 @@
 //! The constitutive laws: no host, no file, no allocation, no standard library.
 
+pub mod acoustic;
 pub mod block;
 pub mod elementary;
 pub mod failure;

@@ -58,3 +58,74 @@ pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
     matrix(cauchy) * cofactors(f)
 }
+
+/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no order, and an orthonormal axis for each, by Jacobi rotations.
+pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
+    let [mut a, mut b, mut c, mut ab, mut bc, mut ca] = *s;
+    let [mut x, mut y, mut z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // One rotation: annihilates pq, couples p and q to the third axis, and turns theirs.
+    type Axis = [f64; 3];
+    let rotate = |p: &mut f64, q: &mut f64, pq: &mut f64, pr: &mut f64, qr: &mut f64, u: &mut Axis, v: &mut Axis| {
+        if *pq == 0.0 {
+            return;
+        }
+        let theta = (*q - *p) / (2.0 * *pq);
+        let root = libm::sqrt(theta * theta + 1.0);
+        let t = if theta < 0.0 { -1.0 / (root - theta) } else { 1.0 / (root + theta) };
+        let cosine = 1.0 / libm::sqrt(t * t + 1.0);
+        let sine = t * cosine;
+        *p -= t * *pq;
+        *q += t * *pq;
+        *pq = 0.0;
+        let turn = |x: &mut f64, y: &mut f64| (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+        turn(pr, qr);
+        for (x, y) in u.iter_mut().zip(v) {
+            turn(x, y);
+        }
+    };
+    // Quadratic convergence: six sweeps take any 3×3 matrix to rounding.
+    for _ in 0..6 {
+        rotate(&mut a, &mut b, &mut ab, &mut ca, &mut bc, &mut x, &mut y);
+        rotate(&mut b, &mut c, &mut bc, &mut ab, &mut ca, &mut y, &mut z);
+        rotate(&mut c, &mut a, &mut ca, &mut bc, &mut ab, &mut z, &mut x);
+    }
+    ([a, b, c], [x, y, z])
+}
+
+/// The Truesdell modulus of a Jaumann modulus and the Cauchy stress σ, 11 22 33 12 23 31:
+/// c_ijkl − ½(δ_ik σ_jl + δ_jl σ_ik + δ_il σ_jk + δ_jk σ_il).
+pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64; 6]; 6] {
+    let mut truesdell = *jaumann;
+    for (row, (i, j)) in truesdell.iter_mut().zip(PAIRS) {
+        for (entry, (k, l)) in row.iter_mut().zip(PAIRS) {
+            let term = |a: usize, b: usize, c: usize, d: usize| if a == b { 0.5 * cauchy[VOIGT[c][d]] } else { 0.0 };
+            *entry -= (term(i, k, j, l) + term(j, l, i, k)) + (term(i, l, j, k) + term(j, k, i, l));
+        }
+    }
+    truesdell
+}
+
+/// dS/dE of a Truesdell modulus of the Cauchy stress: J F⁻¹F⁻¹F⁻¹F⁻¹ c; `None` where F has no inverse.
+pub fn pulled_back(truesdell: &[[f64; 6]; 6], f: &Matrix3<f64>) -> Option<[[f64; 6]; 6]> {
+    let inverse = f.try_inverse()?;
+    // Of a symmetric tensor's components, those of its pull-back: T c Tᵀ, off the diagonal two at a time.
+    let mut t = [[0.0; 6]; 6];
+    for (row, (a, b)) in t.iter_mut().zip(PAIRS) {
+        for (entry, (i, j)) in row.iter_mut().zip(PAIRS) {
+            let one = inverse[(a, i)] * inverse[(b, j)];
+            *entry = if i == j { one } else { one + inverse[(a, j)] * inverse[(b, i)] };
+        }
+    }
+    let mut material = [[0.0; 6]; 6];
+    for (row, left) in material.iter_mut().zip(&t) {
+        for (entry, right) in row.iter_mut().zip(&t) {
+            for (moduli, x) in truesdell.iter().zip(left) {
+                for (modulus, y) in moduli.iter().zip(right) {
+                    *entry += x * modulus * y;
+                }
+            }
+            *entry *= f.determinant();
+        }
+    }
+    Some(material)
+}

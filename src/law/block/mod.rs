@@ -13,6 +13,7 @@
 //! | `failure` | failure index, failed, alive |
 //! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff) |
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
+//! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric |
 
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -24,6 +25,7 @@ use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Decomposition, FibreFrame, Strain};
 use super::real::Real;
 use super::status::{self, Error};
+use super::tangent::{Measure, unrepresentable};
 use super::wave_speed;
 
 /// A block as a host passes it: null is left out.
@@ -47,6 +49,8 @@ pub struct Pointers<T> {
     pub failure: *mut T,
     pub modes: *mut T,
     pub wave_speed: *mut T,
+    pub tangent: *mut T,
+    pub measure: Measure,
     pub status: *mut i32,
     /// The instructions to use, no better than the processor has; `None`: the best.
     pub level: Option<Level>,
@@ -82,6 +86,8 @@ pub struct Arrays<'a, T> {
     pub failure: Option<&'a mut [T]>,
     pub modes: Option<&'a mut [T]>,
     pub wave_speed: Option<&'a mut [T]>,
+    pub tangent: Option<&'a mut [T]>,
+    pub measure: Measure,
     pub status: Option<&'a mut [i32]>,
     pub level: Option<Level>,
 }
@@ -143,6 +149,8 @@ impl<'a, T: Precision> Block<'a, T> {
             failure,
             modes: output("entries of modes", arrays.modes, 24)?,
             wave_speed: output("entries of wave_speed", arrays.wave_speed, 1)?,
+            tangent: output("entries of tangent", arrays.tangent, arrays.measure.components())?,
+            measure: arrays.measure,
             status: match arrays.status {
                 Some(array) => check("entries of status", array.len(), 1).map(|()| array.as_mut_ptr())?,
                 None => core::ptr::null_mut(),
@@ -188,6 +196,7 @@ impl<T> Pointers<T> {
             failure: output(self.failure),
             modes: output(self.modes),
             wave_speed: output(self.wave_speed),
+            tangent: output(self.tangent),
             status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
             ..self
         }
@@ -437,7 +446,7 @@ macro_rules! specialised {
     ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
         let shear = $law.shears();
-        let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
+        let usual = stress && !modes && !wave_modulus && $block.tangent.is_null() && !$block.status.is_null();
         let fibres = !$block.fibre[0].is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
@@ -628,9 +637,33 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     unsafe {
         let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
         let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
-        // The modes alone want the frame again.
-        let frame = if request.modes { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
+        // The modes and the tangent alone want the frame again.
+        let tangent = asked && !block.tangent.is_null();
+        let again = request.modes || tangent;
+        let frame = if again { frame(law, block, i, !block.fibre[0].is_null()).0 } else { law.frame };
+        let mut rows = MaybeUninit::<[R; 81]>::uninit();
+        let flaw = if tangent {
+            let overflow = if block.measure == Measure::Nominal {
+                let a = law.nominal_tangent(&gradient(block, i), d, strain, stress, &frame, shear);
+                rows.write(a);
+                unrepresentable(&a)
+            } else {
+                let c = law.moduli(d, strain, stress, &frame, block.measure, shear);
+                let rows = rows.as_mut_ptr().cast::<[[R; 6]; 6]>();
+                rows.write(c.matrix());
+                unrepresentable(&c.0)
+            };
+            R::select(flaw.lt(zero) | overflow.le(zero), flaw, R::splat(status::OVERFLOW as f64))
+        } else {
+            flaw
+        };
         let r = law.respond(d, strain, stress, &frame, flaw, latch, request, shear);
+        if tangent {
+            let rows = rows.as_ptr().cast::<R>();
+            for c in 0..block.measure.components() {
+                R::select(r.kept, zero, *rows.add(c)).store(block.tangent.add(c * stride + i));
+            }
+        }
 
         if request.stress {
             for c in 0..6 {
@@ -706,7 +739,8 @@ const FAILURE_ROW: usize = 20;
 const STRESS_ROW: usize = 23;
 const MODE_ROW: usize = 29;
 const WAVE_ROW: usize = 53;
-const ROWS: usize = 54;
+const TANGENT_ROW: usize = 54;
+const ROWS: usize = 54 + 81;
 
 impl<T: Precision> LeftOver<T> {
     fn new() -> Self {
@@ -756,6 +790,7 @@ impl<T: Precision> LeftOver<T> {
             failure: output(block.failure, FAILURE_ROW),
             modes: output(block.modes, MODE_ROW),
             wave_speed: output(block.wave_speed, WAVE_ROW),
+            tangent: output(block.tangent, TANGENT_ROW),
             status: if block.status.is_null() { block.status } else { self.codes.as_mut_ptr() },
             ..*block
         };
@@ -807,6 +842,9 @@ impl<T: Precision> LeftOver<T> {
                 self.put_row(component(block.modes, c), MODE_ROW + c);
             }
             self.put_row(block.wave_speed, WAVE_ROW);
+            for c in 0..block.measure.components() {
+                self.put_row(component(block.tangent, c), TANGENT_ROW + c);
+            }
             if !block.status.is_null() {
                 for (j, &code) in self.codes.iter().take(self.count).enumerate() {
                     *block.status.add(self.first + j) = code;
