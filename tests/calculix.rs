@@ -2,8 +2,8 @@
 //! the library's own answer and equilibrium recomputed here; with the library's tangent and with one differentiated
 //! numerically.
 //!
-//! CalculiX prints seven digits, hence the tolerances: 2e-6 of the largest value where one printed number stands against
-//! a closed form, 2e-5 where printed displacements go through differences over an element and the fibre's stiffness.
+//! CalculiX prints seven digits, hence the tolerances: 1e-6 of the largest value where one printed number stands against
+//! a closed form, 5e-6 where printed displacements go through differences over an element and the fibre's stiffness.
 #![cfg(feature = "driver")]
 
 #[path = "common/calculix.rs"]
@@ -21,14 +21,11 @@ use toron::law::hyperelastic::{Hyperelastic, Point, Request};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::{first_piola_kirchhoff, matrix};
 
-const PRINTED: f64 = 2e-6;
-const DIFFERENCED: f64 = 2e-5;
+const PRINTED: f64 = 1e-6;
+const DIFFERENCED: f64 = 5e-6;
 
 /// The edge of the blocks: large, since CalculiX takes residual forces below 1e-6 for 0.
 const EDGE: f64 = 100.0;
-
-/// A residual, over the average force, from which on Newton's method must converge quadratically.
-const NEAR: f64 = 1e-2;
 
 fn law(deck: &str) -> Hyperelastic<f64> {
     Hyperelastic::new(&properties(deck)).expect("the deck's properties")
@@ -55,37 +52,36 @@ fn vectors(table: &Table) -> Vec<Vector3<f64>> {
     table.rows.iter().map(|row| Vector3::from_column_slice(&row[row.len() - 3..])).collect()
 }
 
-/// The order of convergence at the end of every attempt that comes near: ln(r₃/r₂)/ln(r₂/r₁) of the last three residuals
-/// that are not 0, while the contact stays as it is.
-fn orders(results: &Results) -> Vec<f64> {
-    let order = |attempt: &[Iteration]| {
-        let residuals: Vec<_> = attempt.iter().filter(|iteration| iteration.residual > 0.0).collect();
-        let [a, b, c] = residuals.last_chunk()?;
-        let settled = a.contact == b.contact && b.contact == c.contact;
-        let order = (c.residual / b.residual).ln() / (b.residual / a.residual).ln();
-        (settled && b.residual < NEAR && b.residual < a.residual).then_some(order)
+/// A residual over the average force, from which on Newton's method has to converge quadratically.
+const NEAR: f64 = 3e-2;
+
+/// Pairs of residuals, one iteration after another, where the first is near and the contact stays as it is.
+fn near_pairs(results: &Results) -> Vec<[f64; 2]> {
+    let near = |pair: &[Iteration]| match pair {
+        [a, b] => (a.residual > 0.0 && a.residual < NEAR && a.contact == b.contact).then_some([a.residual, b.residual]),
+        _ => None,
     };
-    results.attempts().filter_map(order).collect()
+    results.attempts().flat_map(|attempt| attempt.windows(2).filter_map(near)).collect()
 }
 
-/// Runs a deck with both tangents; the analytic one may not need more iterations, and must converge quadratically.
+/// Runs a deck with both tangents; the analytic one may not need more iterations, and must converge quadratically: a
+/// residual below 3 % is followed by one not above its square.
 fn run(deck: &str, includes: &[(&str, String)]) -> Results {
     let [results, numerical] =
         [Tangent::Analytic, Tangent::Numerical].map(|tangent| Job { deck, includes, tangent }.run());
     let (count, reference) = (results.iterations.len(), numerical.iterations.len());
-    let orders = orders(&results);
-    println!(
-        "{deck}: {count} iterations in {:.2} s; numerical tangent {reference} in {:.2} s",
-        results.seconds, numerical.seconds
-    );
-    println!("  orders of convergence {orders:.2?}");
+    let [time, reference_time] = [&results, &numerical].map(|results| results.seconds);
+    println!("{deck}: {count} iterations in {time:.2} s; numerical tangent {reference} in {reference_time:.2} s");
     for attempt in results.attempts() {
         let residuals: Vec<_> = attempt.iter().map(|iteration| format!("{:.1e}", iteration.residual)).collect();
         println!("  increment {}, attempt {}: {}", attempt[0].increment, attempt[0].attempt, residuals.join(" "));
     }
     assert!(count <= reference, "{deck}: {count} iterations, {reference} with the numerical tangent");
-    assert!(!orders.is_empty(), "{deck}: no attempt shows three residuals");
-    assert!(orders.iter().all(|&order| order > 1.7), "{deck}: orders of convergence {orders:?}");
+    let pairs = near_pairs(&results);
+    assert!(!pairs.is_empty(), "{deck}: no residual comes near");
+    for [before, after] in pairs {
+        assert!(after <= before * before, "{deck}: a residual of {before:e} is followed by {after:e}");
+    }
     results
 }
 

@@ -17,8 +17,9 @@ use core::ffi::c_char;
 
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
-use crate::law::state::{FAILED, HYPERELASTIC_STATE};
+use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status::{self, Error};
+use crate::law::tangent::{Measure, Moduli};
 
 use super::c_api::properties;
 
@@ -28,8 +29,30 @@ const CUTBACK: f64 = 0.25;
 /// What CalculiX ends with after an error in a material.
 const EXIT_CODE: i32 = 201;
 
-/// The stiffness of a point that carries nothing, relative to the fibre's.
+/// What stiff keeps where a point has none, relative to the fibre's bulk modulus. With 0 CalculiX's equation solver ends the
+/// job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
+
+/// CalculiX's components 11 22 33 12 13 23 in the law's order 11 22 33 12 23 31.
+const COMPONENTS: [usize; 6] = [0, 1, 2, 3, 5, 4];
+
+/// Where the law keeps each entry of stiff, and whether it stands on the diagonal: the upper triangle by columns.
+const PLACES: [usize; 21] = UPPER_TRIANGLE.0;
+const DIAGONAL: [bool; 21] = UPPER_TRIANGLE.1;
+const UPPER_TRIANGLE: ([usize; 21], [bool; 21]) = {
+    let (mut places, mut diagonal) = ([0; 21], [false; 21]);
+    let (mut entry, mut column) = (0, 0);
+    while column < 6 {
+        let mut row = 0;
+        while row <= column {
+            places[entry] = Moduli::<f64>::place(COMPONENTS[row], COMPONENTS[column]);
+            diagonal[entry] = row == column;
+            (entry, row) = (entry + 1, row + 1);
+        }
+        column += 1;
+    }
+    (places, diagonal)
+};
 
 /// What the law has a use for among CalculiX's arguments.
 struct Arguments<'a> {
@@ -82,6 +105,14 @@ impl Arguments<'_> {
         }
         missing > 1e-9 && off < 1e-3 * missing
     }
+}
+
+/// dS/dE as CalculiX stores it; `residual` times the identity where there is none.
+fn stiffness(moduli: &Moduli<f64>, residual: f64) -> [f64; 21] {
+    if moduli.0.iter().all(|&c| c == 0.0) {
+        return DIAGONAL.map(|diagonal| if diagonal { residual } else { 0.0 });
+    }
+    PLACES.map(|place| moduli.0[place])
 }
 
 /// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
@@ -162,51 +193,16 @@ pub unsafe extern "C" fn HYPERELASTIC(
         let place = place * *nstate_ as usize;
         (&*xstateini.add(place).cast::<[f64; HYPERELASTIC_STATE]>(), xstate.add(place))
     };
-    let point = law.point_along(arguments.f, None, old, Request { stress: false, wave_modulus: false, ..Request::ALL });
+    let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
+    let (point, moduli) = law.point_with_moduli(arguments.f, None, old, request, Measure::Material);
     let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
-    let [s11, s22, s33, s12, s23, s13] = stress;
     // SAFETY: as above.
     unsafe {
-        *stre.cast::<[f64; 6]>() = [s11, s22, s33, s12, s13, s23];
-        *stiff.cast::<[f64; 21]>() = tangent(&law, arguments.f, old, point.status);
+        *stre.cast::<[f64; 6]>() = COMPONENTS.map(|c| stress[c]);
+        *stiff.cast::<[f64; 21]>() = stiffness(&moduli, RESIDUAL_STIFFNESS * law.bulk_and_shear()[0]);
         *new.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
         if point.status != status::OK {
             *pnewdt = if *pnewdt > 0.0 { (*pnewdt).min(CUTBACK) } else { CUTBACK };
         }
     }
-}
-
-/// INTERIM numerical dS/dE.
-fn tangent(law: &Hyperelastic<f64>, f: &[[f64; 3]; 3], old: &[f64; HYPERELASTIC_STATE], code: i32) -> [f64; 21] {
-    let residual = RESIDUAL_STIFFNESS * law.bulk_and_shear()[0];
-    let mut c = [0.0; 21];
-    if code != status::OK || old[FAILED] != 0.0 {
-        for i in [0, 2, 5, 9, 14, 20] {
-            c[i] = residual;
-        }
-        return c;
-    }
-    let fm = nalgebra::Matrix3::from_fn(|i, j| f[j][i]);
-    let inv_t = fm.try_inverse().unwrap().transpose();
-    const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-    let s = |e: &nalgebra::Matrix3<f64>| {
-        let g = fm + inv_t * e;
-        let cols = [[g.m11, g.m21, g.m31], [g.m12, g.m22, g.m32], [g.m13, g.m23, g.m33]];
-        let p = law.point_along(&cols, None, old, Request { modes: true, ..Request::default() });
-        let st: [f64; 6] = core::array::from_fn(|c| p.modes.iter().map(|mode| mode[c]).sum());
-        [st[0], st[1], st[2], st[3], st[5], st[4]]
-    };
-    let mut k = 0;
-    for (b, &(i, j)) in PAIRS.iter().enumerate() {
-        let mut e = nalgebra::Matrix3::zeros();
-        let h = 1e-6;
-        e[(i, j)] = h;
-        e[(j, i)] = h;
-        let (up, down) = (s(&e), s(&-e));
-        for a in 0..=b {
-            c[k] = (up[a] - down[a]) / (2.0 * h) * if i == j { 1.0 } else { 0.5 };
-            k += 1;
-        }
-    }
-    c
 }
