@@ -115,7 +115,7 @@ impl<T: Precision> Scene<T> {
     }
 }
 
-fn stress_arrays<'a, T: Real>(
+fn stress_arrays<'a, T: Default>(
     n: usize,
     leading_dimension: usize,
     deformation_gradient: &'a [T],
@@ -127,16 +127,10 @@ fn stress_arrays<'a, T: Real>(
         n,
         leading_dimension,
         deformation_gradient,
-        fibre: None,
-        density: T::splat(0.0),
         stress: Some(stress),
-        energies: None,
-        invariants: None,
-        failure: None,
-        modes: None,
-        wave_speed: None,
         status: Some(status),
         level: Some(level),
+        ..Arrays::default()
     }
 }
 
