@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::law::block::{Arrays, Level, Precision};
 use crate::law::real::Real;
+use crate::law::tangent::Measure;
 
 /// Numbers in a cache line, of single precision: arrays and columns start on one.
 const LINE: usize = 16;
@@ -115,7 +116,7 @@ impl<T: Precision> Scene<T> {
     }
 }
 
-fn stress_arrays<'a, T: Default>(
+fn stress_arrays<'a, T: Real>(
     n: usize,
     leading_dimension: usize,
     deformation_gradient: &'a [T],
@@ -127,10 +128,18 @@ fn stress_arrays<'a, T: Default>(
         n,
         leading_dimension,
         deformation_gradient,
+        fibre: None,
+        density: T::splat(0.0),
         stress: Some(stress),
+        energies: None,
+        invariants: None,
+        failure: None,
+        modes: None,
+        wave_speed: None,
+        tangent: None,
+        measure: Measure::Jaumann,
         status: Some(status),
         level: Some(level),
-        ..Arrays::default()
     }
 }
 
