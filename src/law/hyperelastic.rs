@@ -147,6 +147,11 @@ pub struct Kirchhoff<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// The fibre direction of the properties with two axes across it.
+    pub fn frame(&self) -> FibreFrame<R> {
+        self.frame
+    }
+
     /// Bulk and shear modulus of an isotropic solid whose longitudinal wave is the fibre's: K + 4G/3 = k_el. For hosts that
     /// take their time step and contact stiffness from two constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
