@@ -7,13 +7,15 @@
 #![cfg(feature = "driver")]
 
 #[path = "common/calculix.rs"]
+#[allow(dead_code)]
 mod calculix;
 #[path = "common/hexahedra.rs"]
 mod hexahedra;
 #[path = "common/library.rs"]
+#[allow(dead_code)]
 mod library;
 
-use calculix::{Iteration, Job, Results, Table, Tangent, control, properties};
+use calculix::{Job, Results, Tangent, both_tangents as run, control, properties, vectors};
 use hexahedra::Mesh;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use toron::driver::newton::{self, Prescribed};
@@ -45,44 +47,6 @@ fn deviation(found: &[f64], expected: &[f64]) -> f64 {
 /// A symmetric tensor in CalculiX's order of printing: xx yy zz xy xz yz.
 fn printed_order([s11, s22, s33, s12, s23, s31]: [f64; 6]) -> [f64; 6] {
     [s11, s22, s33, s12, s31, s23]
-}
-
-/// The columns behind the element and the integration point, or behind the node.
-fn vectors(table: &Table) -> Vec<Vector3<f64>> {
-    table.rows.iter().map(|row| Vector3::from_column_slice(&row[row.len() - 3..])).collect()
-}
-
-/// A residual over the average force, from which on Newton's method has to converge quadratically.
-const NEAR: f64 = 3e-2;
-
-/// Pairs of residuals, one iteration after another, where the first is near and the contact stays as it is.
-fn near_pairs(results: &Results) -> Vec<[f64; 2]> {
-    let near = |pair: &[Iteration]| match pair {
-        [a, b] => (a.residual > 0.0 && a.residual < NEAR && a.contact == b.contact).then_some([a.residual, b.residual]),
-        _ => None,
-    };
-    results.attempts().flat_map(|attempt| attempt.windows(2).filter_map(near)).collect()
-}
-
-/// Runs a deck with both tangents; the analytic one may not need more iterations, and must converge quadratically: a
-/// residual below 3 % is followed by one not above its square.
-fn run(deck: &str, includes: &[(&str, String)]) -> Results {
-    let [results, numerical] =
-        [Tangent::Analytic, Tangent::Numerical].map(|tangent| Job { deck, includes, tangent }.run());
-    let (count, reference) = (results.iterations.len(), numerical.iterations.len());
-    let [time, reference_time] = [&results, &numerical].map(|results| results.seconds);
-    println!("{deck}: {count} iterations in {time:.2} s; numerical tangent {reference} in {reference_time:.2} s");
-    for attempt in results.attempts() {
-        let residuals: Vec<_> = attempt.iter().map(|iteration| format!("{:.1e}", iteration.residual)).collect();
-        println!("  increment {}, attempt {}: {}", attempt[0].increment, attempt[0].attempt, residuals.join(" "));
-    }
-    assert!(count <= reference, "{deck}: {count} iterations, {reference} with the numerical tangent");
-    let pairs = near_pairs(&results);
-    assert!(!pairs.is_empty(), "{deck}: no residual comes near");
-    for [before, after] in pairs {
-        assert!(after <= before * before, "{deck}: a residual of {before:e} is followed by {after:e}");
-    }
-    results
 }
 
 /// Every integration point's Cauchy stress and invariants against one answer of the library.

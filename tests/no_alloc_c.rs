@@ -7,6 +7,7 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::*;
 use toron::host::c_api::*;
+use toron::host::calculix::HYPERELASTIC;
 use toron::host::lsdyna::*;
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
@@ -55,6 +56,7 @@ fn entries() -> Vec<&'static str> {
     let sources = [
         include_str!("../src/host/c_api.rs"),
         include_str!("../src/host/abaqus.rs"),
+        include_str!("../src/host/calculix.rs"),
         include_str!("../src/host/lsdyna.rs"),
     ];
     let definitions = sources.iter().flat_map(|source| source.split("extern \"C\" fn ").skip(1));
@@ -237,6 +239,55 @@ fn double_precision_only() {
             quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 0);
             quiet!(toron_abaqus_umat_f64, s, null_mut(), &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 1);
         }
+    }
+}
+
+/// Right decks only: a wrong one ends the process.
+#[test]
+fn calculix() {
+    let yarn = YARNS[0].as_ptr();
+    // A strain that is not the linear one of any F below.
+    let (strain, zeros) = ([1e3; 6], [0.0; S]);
+    let (e, z, one, no, constants, n) = (strain.as_ptr(), zeros.as_ptr(), &1, &0, &(-100 - P as i32), &(S as i32));
+    for f in deformations() {
+        let (mut stress, mut stiff, mut state, mut step) = ([0.0; 6], [0.0; 21], [0.0; S], -1.0);
+        let (s, c, h, f) = (stress.as_mut_ptr(), stiff.as_mut_ptr(), state.as_mut_ptr(), f.as_ptr());
+        let name = [b' ' as c_char; 80];
+        quiet!(
+            HYPERELASTIC,
+            name.as_ptr(),
+            one,
+            one,
+            constants,
+            yarn,
+            e,
+            z,
+            z,
+            f,
+            z,
+            f,
+            z,
+            no,
+            z,
+            z,
+            z,
+            z,
+            no,
+            no,
+            one,
+            n,
+            z,
+            h,
+            s,
+            c,
+            no,
+            z,
+            z,
+            &mut step,
+            no,
+            80,
+        );
+        assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
     }
 }
 

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
+use nalgebra::Vector3;
+
 use super::library::{LIBRARY, ROOT, folder, run};
 
 /// Which material a deck runs with.
@@ -98,6 +100,7 @@ pub fn properties(deck: &str) -> Vec<f64> {
 /// A line of the file on convergence.
 #[derive(Clone, Copy, Debug)]
 pub struct Iteration {
+    pub step: usize,
     pub increment: usize,
     pub attempt: usize,
     /// Number of contact elements.
@@ -135,7 +138,7 @@ impl Results {
 
     /// The iterations of every attempt at an increment.
     pub fn attempts(&self) -> impl Iterator<Item = &[Iteration]> {
-        self.iterations.chunk_by(|a, b| (a.increment, a.attempt) == (b.increment, b.attempt))
+        self.iterations.chunk_by(|a, b| (a.step, a.increment, a.attempt) == (b.step, b.increment, b.attempt))
     }
 }
 
@@ -151,6 +154,7 @@ fn iterations(text: &str) -> Vec<Iteration> {
     let rows = rows.filter(|row| row.len() == 9 && row[0].parse::<usize>().is_ok());
     let count = |text: &str| text.parse().expect("a count");
     rows.map(|row| Iteration {
+        step: count(row[0]),
         increment: count(row[1]),
         attempt: count(row[2]),
         contact: count(row[4]),
@@ -170,4 +174,50 @@ fn tables(text: &str) -> Vec<Table> {
         }
     }
     tables
+}
+
+/// A residual over the average force, from which on Newton's method has to converge quadratically.
+const NEAR: f64 = 3e-2;
+
+/// r' ≤ C r² there. A tangent that is off by 1 % leaves r' = 0.01 r: too much from r = 1e-3 downwards.
+const CONSTANT: f64 = 10.0;
+
+/// Pairs of residuals, one iteration after another, where the first is near and the contact stays as it is.
+fn near_pairs(results: &Results) -> Vec<[f64; 2]> {
+    let near = |pair: &[Iteration]| match pair {
+        [a, b] => (a.residual > 0.0 && a.residual < NEAR && a.contact == b.contact).then_some([a.residual, b.residual]),
+        _ => None,
+    };
+    results.attempts().flat_map(|attempt| attempt.windows(2).filter_map(near)).collect()
+}
+
+/// Runs a deck with both tangents; the analytic one may not need more iterations, and must converge quadratically.
+pub fn both_tangents(deck: &str, includes: &[(&str, String)]) -> Results {
+    let [results, numerical] =
+        [Tangent::Analytic, Tangent::Numerical].map(|tangent| Job { deck, includes, tangent }.run());
+    let (count, reference) = (results.iterations.len(), numerical.iterations.len());
+    let [time, reference_time] = [&results, &numerical].map(|results| results.seconds);
+    println!("{deck}: {count} iterations in {time:.2} s; numerical tangent {reference} in {reference_time:.2} s");
+    for attempt in results.attempts() {
+        let residuals: Vec<_> = attempt.iter().map(|iteration| format!("{:.1e}", iteration.residual)).collect();
+        println!(
+            "  step {} increment {} attempt {}: {}",
+            attempt[0].step,
+            attempt[0].increment,
+            attempt[0].attempt,
+            residuals.join(" ")
+        );
+    }
+    assert!(count <= reference, "{deck}: {count} iterations, {reference} with the numerical tangent");
+    let pairs = near_pairs(&results);
+    assert!(!pairs.is_empty(), "{deck}: no residual comes near");
+    for [before, after] in pairs {
+        assert!(after <= CONSTANT * before * before, "{deck}: a residual of {before:e} is followed by {after:e}");
+    }
+    results
+}
+
+/// The last three columns of each row: the components behind a node.
+pub fn vectors(table: &Table) -> Vec<Vector3<f64>> {
+    table.rows.iter().map(|row| Vector3::from_column_slice(&row[row.len() - 3..])).collect()
 }

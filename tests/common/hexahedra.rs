@@ -48,6 +48,46 @@ impl Mesh {
         mesh
     }
 
+    /// A quarter of an elliptical cylinder along x, of these half axes along y and z: a square of n × n elements in its
+    /// middle, n rings of 2n around it, one layer along x. Also the elements of the outermost ring, whose third and fourth
+    /// edges' face, S4 in Abaqus's count, is the skin.
+    pub fn quarter_ellipse(n: usize, thickness: f64, axes: [f64; 2]) -> (Mesh, Vec<usize>) {
+        let part = |i: usize| i as f64 / n as f64;
+        let mut flat: Vec<[f64; 2]> = Vec::new();
+        for (j, i) in (0..=n).flat_map(|j| (0..=n).map(move |i| (j, i))) {
+            let size = 0.5 - 0.03 * (part(i).powi(2) + part(j).powi(2));
+            flat.push([size * part(i), size * part(j)]);
+        }
+        let core = |i: usize, j: usize| i + (n + 1) * j;
+        let mut quads: Vec<[usize; 4]> = (0..n)
+            .flat_map(|j| (0..n).map(move |i| [core(i, j), core(i + 1, j), core(i + 1, j + 1), core(i, j + 1)]))
+            .collect();
+        let inside: Vec<usize> = (0..=n).map(|j| core(n, j)).chain((0..n).rev().map(|i| core(i, n))).collect();
+        let mut previous = inside.clone();
+        for ring in 1..=n {
+            let start = flat.len();
+            for (q, &from) in inside.iter().enumerate() {
+                let (sine, cosine) = (0.5 * part(q) * std::f64::consts::FRAC_PI_2).sin_cos();
+                let [y, z] = flat[from];
+                flat.push([y + (cosine - y) * part(ring), z + (sine - z) * part(ring)]);
+            }
+            let outer = |q: usize| start + q;
+            quads.extend((0..2 * n).map(|q| [previous[q], outer(q), outer(q + 1), previous[q + 1]]));
+            previous = (start..flat.len()).collect();
+        }
+        let layer = |x: f64| flat.iter().map(move |[y, z]| Vector3::new(x, axes[0] * y, axes[1] * z));
+        let nodes = layer(0.0).chain(layer(thickness)).collect();
+        let elements: Vec<_> = quads
+            .iter()
+            .map(|&[a, b, c, d]| {
+                let far = flat.len();
+                [a, b, c, d, a + far, b + far, c + far, d + far]
+            })
+            .collect();
+        let outermost = (elements.len() - 2 * n..elements.len()).collect();
+        (Mesh { nodes, elements }, outermost)
+    }
+
     /// The cards of the nodes and elements, into these sets; `first` are the numbers of the first ones.
     pub fn cards(&self, node_set: &str, element_set: &str, first: [usize; 2]) -> String {
         let mut text = format!("*NODE, NSET={node_set}\n");
