@@ -20,6 +20,7 @@ use crate::law::parameters;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status::{self, Error};
 use crate::law::tangent::{Measure, Moduli};
+use nalgebra::Matrix3;
 
 use super::c_api::properties;
 
@@ -94,16 +95,13 @@ impl Arguments<'_> {
 
     /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
     fn is_linear(&self) -> bool {
-        const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-        let identity = |i, j| if i == j { 1.0 } else { 0.0 };
-        let (mut missing, mut off) = (0.0_f64, 0.0_f64);
-        for (&strain, (i, j)) in self.strain.iter().zip(PAIRS) {
-            let h = |i: usize, j: usize| self.f[j][i] - identity(i, j);
-            let quadratic = 0.5 * (h(0, i) * h(0, j) + h(1, i) * h(1, j) + h(2, i) * h(2, j));
-            missing = missing.max(quadratic.abs());
-            off = off.max((strain - 0.5 * (h(i, j) + h(j, i))).abs());
-        }
-        missing > 1e-9 && off < 1e-3 * missing
+        let h = Matrix3::from(*self.f) - Matrix3::identity();
+        let six = |s: Matrix3<f64>| [s.m11, s.m22, s.m33, s.m12, s.m13, s.m23];
+        let largest = |s: [f64; 6]| s.into_iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let (linear, quadratic) = (six(0.5 * (h + h.transpose())), largest(six(0.5 * h.tr_mul(&h))));
+        let mut off = *self.strain;
+        off.iter_mut().zip(linear).for_each(|(strain, linear)| *strain -= linear);
+        quadratic > 1e-9 && largest(off) < 1e-3 * quadratic
     }
 }
 

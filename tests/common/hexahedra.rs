@@ -49,8 +49,8 @@ impl Mesh {
     }
 
     /// A quarter of an elliptical cylinder along x, of these half axes along y and z: a square of n × n elements in its
-    /// middle, n rings of 2n around it, one layer along x. Also the elements of the outermost ring, whose third and fourth
-    /// edges' face, S4 in Abaqus's count, is the skin.
+    /// middle, n rings of 2n around it, one layer along x. Also the elements of the outermost ring: their face S4 is the
+    /// skin.
     pub fn quarter_ellipse(n: usize, thickness: f64, axes: [f64; 2]) -> (Mesh, Vec<usize>) {
         let part = |i: usize| i as f64 / n as f64;
         let mut flat: Vec<[f64; 2]> = Vec::new();
@@ -71,19 +71,14 @@ impl Mesh {
                 let [y, z] = flat[from];
                 flat.push([y + (cosine - y) * part(ring), z + (sine - z) * part(ring)]);
             }
-            let outer = |q: usize| start + q;
-            quads.extend((0..2 * n).map(|q| [previous[q], outer(q), outer(q + 1), previous[q + 1]]));
+            quads.extend((0..2 * n).map(|q| [previous[q], start + q, start + q + 1, previous[q + 1]]));
             previous = (start..flat.len()).collect();
         }
         let layer = |x: f64| flat.iter().map(move |[y, z]| Vector3::new(x, axes[0] * y, axes[1] * z));
         let nodes = layer(0.0).chain(layer(thickness)).collect();
-        let elements: Vec<_> = quads
-            .iter()
-            .map(|&[a, b, c, d]| {
-                let far = flat.len();
-                [a, b, c, d, a + far, b + far, c + far, d + far]
-            })
-            .collect();
+        let far = flat.len();
+        let drawn_out = |&[a, b, c, d]: &[usize; 4]| [a, b, c, d, a + far, b + far, c + far, d + far];
+        let elements: Vec<_> = quads.iter().map(drawn_out).collect();
         let outermost = (elements.len() - 2 * n..elements.len()).collect();
         (Mesh { nodes, elements }, outermost)
     }
