@@ -644,7 +644,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let mut rows = MaybeUninit::<[R; 81]>::uninit();
         let flaw = if tangent {
             let overflow = if block.measure == Measure::Nominal {
-                let a = law.nominal_tangent(&gradient(block, i), d, strain, stress, &frame, shear);
+                let a = law.nominal_tangent(d, strain, stress, &frame, shear);
                 rows.write(a);
                 unrepresentable(&a)
             } else {
