@@ -33,15 +33,16 @@ fn way(material: &Material, start: &Matrix3<f64>, target: &Matrix3<f64>) -> Solu
     newton::solve(&stress, start, &prescribed, material.stress_scale()).expect("a solution")
 }
 
-/// Every residual small enough to be in the quadratic regime is followed by one below a multiple of its square.
+/// Every residual small enough to be in the quadratic regime is followed by one below a multiple of its square: over the
+/// largest stiffness, a residual of the softest mode counts for some hundred times as much.
 fn assert_quadratic(name: &str, solution: &Solution, scale: f64) {
     let relative: Vec<_> = solution.residuals.iter().map(|r| r / scale).collect();
     println!("{name}: {relative:?}");
     assert!(relative.len() <= 8, "{name}: {relative:?}");
-    let small = relative.windows(2).filter(|pair| pair[0] < 1e-2).collect::<Vec<_>>();
+    let small = relative.windows(2).filter(|pair| pair[0] < 1e-4).collect::<Vec<_>>();
     assert!(small.len() >= 2, "{name}: {relative:?}");
     for pair in small {
-        assert!(pair[1] <= 100.0 * pair[0] * pair[0] + 1e-13, "{name}: {relative:?}");
+        assert!(pair[1] <= 1e3 * pair[0] * pair[0] + 1e-13, "{name}: {relative:?}");
     }
 }
 

@@ -389,12 +389,12 @@ fn loss_of_ellipticity() {
         assert_eq!(least >= -1e-12 * 80.0, stable, "I_el = {i_el}: {least}");
         assert!(stable || (least - 80.0 * (1.0 - i_el)).abs() < 1e-9, "I_el = {i_el}: {least}");
     }
-    // Held by a tension of 0.8, more than ½ k_td I_td.
-    let section = Stiffness { k_el: 80.0, k_tc: 0.0, p: 2.2, k_td: 1.0, k_ld: 0.0 };
+    // Held by a tension of 0.8, more than ½ k_td I_td, of a fibre so stiff that slip along it takes no part.
+    let section = Stiffness { k_el: 8e6, k_tc: 0.0, p: 2.2, k_td: 1.0, k_ld: 0.0 };
     for (i_td, stable) in [(0.0, true), (0.25, true), (0.499, true), (0.501, false), (0.7, false)] {
-        let wave = wave(&section, 0.01, 0.0, i_td);
-        assert_eq!(wave.modulus >= -1e-12, stable, "I_td = {i_td}: {wave:?}");
-        assert!(stable || wave.direction[0].abs() + wave.polarisation[0].abs() < 1e-6, "{wave:?}");
+        let wave = wave(&section, 1e-7, 0.0, i_td);
+        assert_eq!(wave.modulus >= -1e-6, stable, "I_td = {i_td}: {wave:?}");
+        assert!(stable || wave.direction[0].abs() + wave.polarisation[0].abs() < 1e-3, "{wave:?}");
     }
     let yarn = Stiffness { k_el: 82.3, k_tc: 1.055, p: 2.2, k_td: 0.65, k_ld: 0.0 };
     assert!(wave(&yarn, 0.01, 0.0, 0.6).modulus < wave(&yarn, 0.01, -0.3, 0.6).modulus);
