@@ -78,6 +78,16 @@ impl Acoustic {
         q
     }
 
+    /// The tensor whose extreme eigenvalues over directions are those of all waves of polarisation u: c:(·⊗u)(·⊗u) + τ,
+    /// 11 22 33 12 23 31.
+    pub fn tensor_of_directions(&self, u: [f64; 3]) -> [f64; 6] {
+        let mut tensor = self.contracted(u);
+        for (entry, &stress) in tensor.iter_mut().zip(&self.stress) {
+            *entry += self.jacobian * stress;
+        }
+        tensor
+    }
+
     /// J c_ijkl v_j v_l; c being symmetric, J c_jilk v_j v_l as well.
     fn contracted(&self, v: [f64; 3]) -> [f64; 6] {
         let entry = |i: usize, k: usize| {
@@ -132,11 +142,8 @@ impl Acoustic {
     /// Takes turns between direction and polarisation until nothing is gained.
     fn settled(&self, mut wave: Wave, sign: f64, turns: i32) -> Wave {
         for _ in 0..turns {
-            let mut of_direction = self.contracted(wave.polarisation);
-            for (entry, &stress) in of_direction.iter_mut().zip(&self.stress) {
-                *entry += self.jacobian * stress;
-            }
-            let next = self.polarised(extreme_axis(&of_direction, sign).1, sign);
+            let of_directions = self.tensor_of_directions(wave.polarisation);
+            let next = self.polarised(extreme_axis(&of_directions, sign).1, sign);
             let gain = sign * (next.modulus - wave.modulus);
             if gain > 0.0 {
                 wave = next;

@@ -126,12 +126,13 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
 }
 
 /// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
-fn held_stiffness<T: Real>(k_tc: T, p: T) -> [T; 2] {
-    let (zero, two) = (T::splat(0.0), T::splat(2.0));
+fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T) -> [T; 2] {
+    if p.into() > 2.0 {
+        return [T::splat(0.0); 2];
+    }
     let floor = T::splat(COMPACTION_FLOOR);
     let exponent = p - T::splat(1.0);
-    let held = exponent * p * k_tc * (power(floor, Exponent::new(exponent)) / floor);
-    [T::select(p.le(two), floor, zero), T::select(p.le(two), held, zero)]
+    [floor, exponent * p * k_tc * (power(floor, Exponent::new(exponent)) / floor)]
 }
 
 /// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
@@ -441,7 +442,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 impl<T: Real<Mask = bool> + Into<f64>> Point<T> {
     /// The answer with the new state, given the old one.
     #[inline(always)]
-    fn new(r: &Response<T>, state: &[T; HYPERELASTIC_STATE]) -> Self {
+    pub(super) fn new(r: &Response<T>, state: &[T; HYPERELASTIC_STATE]) -> Self {
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

@@ -17,7 +17,7 @@ use nalgebra::Matrix3;
 
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Point, Request, shear_components};
 use super::kinematics::{Decomposition, FibreFrame, Strain};
-use super::real::{Real, along, scale};
+use super::real::{Real, along, dot, scale};
 use super::state::HYPERELASTIC_STATE;
 use super::stress::{PAIRS, VOIGT, square, symmetric_product};
 
@@ -337,41 +337,39 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// dP/dF: ∂P_iJ/∂F_kL = F_iM F_kN (dS/dE)_MJNL + δ_ik S_JL, by columns of P and F.
+    /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus of σ.
     #[inline(always)]
     pub fn nominal_tangent(
         &self,
-        columns: &[[R; 3]; 3],
         d: &Decomposition<R>,
         strain: &Strain<R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
         shear: bool,
     ) -> [R; 81] {
-        let c = self.material_tangent(d, strain, k, n, shear).matrix();
-        let modes = self.modes(d, k, n);
-        let mut s = add(add(modes[0], modes[1]), modes[2]);
-        if shear {
-            s = add(s, modes[3]);
-        }
+        let c = self.spatial_tangent(d, strain, k, Measure::Truesdell, shear).matrix();
+        let stress = self.cauchy(d, k, shear);
+        let [w1, w2, w3] = d.pulled_back(n);
+        let (e, q1, q2) = (d.e, d.q1, d.q2());
+        let inverse = |row: usize| along(along(scale(w1[row], e), w2[row], q1), w3[row], q2);
+        let inverse = [inverse(0), inverse(1), inverse(2)];
         let mut a = [R::splat(0.0); 81];
-        for big_j in 0..3 {
-            for big_l in 0..3 {
-                // (dS/dE)_MJNL as a matrix of M and N, then F from both sides.
-                let inner = |m: usize, n: usize| c[VOIGT[m][big_j]][VOIGT[n][big_l]];
-                for i in 0..3 {
-                    let half = |n: usize| {
-                        columns[0][i]
-                            .mul_add(inner(0, n), columns[1][i].mul_add(inner(1, n), columns[2][i] * inner(2, n)))
-                    };
-                    let half = [half(0), half(1), half(2)];
-                    for k in 0..3 {
-                        let mut sum =
-                            columns[0][k].mul_add(half[0], columns[1][k].mul_add(half[1], columns[2][k] * half[2]));
-                        if i == k {
-                            sum = sum + s[VOIGT[big_j][big_l]];
-                        }
-                        a[(i + 3 * big_j) + 9 * (k + 3 * big_l)] = sum;
+        for i in 0..3 {
+            for k in i..3 {
+                let row = |j: usize| {
+                    let moduli = &c[VOIGT[i][j]];
+                    let row = [moduli[VOIGT[k][0]], moduli[VOIGT[k][1]], moduli[VOIGT[k][2]]];
+                    let stress = [stress[VOIGT[j][0]], stress[VOIGT[j][1]], stress[VOIGT[j][2]]];
+                    if i == k { add(row, stress) } else { row }
+                };
+                let rows = [row(0), row(1), row(2)];
+                for (big_l, last) in inverse.iter().enumerate() {
+                    let half = scale(d.jacobian, [dot(rows[0], *last), dot(rows[1], *last), dot(rows[2], *last)]);
+                    // With i = k the block is symmetric of itself.
+                    for (big_j, first) in inverse.iter().enumerate().take(if i == k { big_l + 1 } else { 3 }) {
+                        let entry = dot(*first, half);
+                        a[(i + 3 * big_j) + 9 * (k + 3 * big_l)] = entry;
+                        a[(k + 3 * big_l) + 9 * (i + 3 * big_j)] = entry;
                     }
                 }
             }
@@ -444,7 +442,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         request: Request,
     ) -> (Point<T>, [T; 81]) {
         let shear = self.shears();
-        self.point_with(f, fibre, state, request, |d, strain, k, n| self.nominal_tangent(f, d, strain, k, n, shear))
+        self.point_with(f, fibre, state, request, |d, strain, k, n| self.nominal_tangent(d, strain, k, n, shear))
     }
 
     /// The law at one point with the fibre direction of the properties, and the full matrix of a measure with six rows.

@@ -15,6 +15,7 @@
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
 //! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric |
 
+pub mod single;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -644,7 +645,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let mut rows = MaybeUninit::<[R; 81]>::uninit();
         let flaw = if tangent {
             let overflow = if block.measure == Measure::Nominal {
-                let a = law.nominal_tangent(&gradient(block, i), d, strain, stress, &frame, shear);
+                let a = law.nominal_tangent(d, strain, stress, &frame, shear);
                 rows.write(a);
                 unrepresentable(&a)
             } else {
