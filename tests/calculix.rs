@@ -105,6 +105,22 @@ fn patch_test_with_a_rotation() {
     assert_uniform(&results, &expected);
     let displacement = vectors(results.last("displacements"))[inner];
     assert!((displacement - moved(&mesh.nodes[inner])).norm() < PRINTED * displacement.norm());
+
+    // The same fibre as the first of rectangular axes, and as the third of cylindrical ones.
+    let job = Job { deck: "patch.inp", includes: &includes, tangent: Tangent::Analytic };
+    let axes = [
+        ("1.0, 0.0, 0.0", "SYSTEM=RECTANGULAR\n0.6, 0.48, 0.64, 1.0, 0.0, 0.0"),
+        ("0.0, 0.0, 1.0", "SYSTEM=CYLINDRICAL\n-7.0, 0.0, 0.0, -6.4, 0.48, 0.64"),
+    ];
+    for (i, (fibre, system)) in axes.into_iter().enumerate() {
+        let results = job.run_edited(&format!("axes-{i}"), |deck| {
+            let orientation = format!("*ORIENTATION, NAME=AXES, {system}\n*SOLID SECTION, ORIENTATION=AXES,");
+            deck.replace("0.6, 0.48, 0.64\n", &format!("{fibre}\n"))
+                .replace("*SOLID SECTION,", &orientation)
+                .replace("*EL PRINT,", "*EL PRINT, GLOBAL=YES,")
+        });
+        assert_uniform(&results, &expected);
+    }
 }
 
 /// The free width under a given height, at F11 = 1: P22 = 0.
@@ -265,13 +281,12 @@ fn wrong_decks_are_refused() {
         ("boundary.inp", mesh.boundary(|x| [None, None, Some(0.1 * x.z)])),
         ("control.inp", String::new()),
     ];
-    let orientation = "*ORIENTATION, NAME=AXES\n0.0, 1.0, 0.0, 1.0, 0.0, 0.0\n*SOLID SECTION, ORIENTATION=AXES,";
     let wrong = [
         ("CONSTANTS=11", "CONSTANTS=10", "number of properties: 10 given, 11 needed"),
         ("2.2,", "1.0,", "property 3 (p, transverse compaction exponent) is 1.0; allowed: a finite number > 1"),
         ("*DEPVAR\n11", "*DEPVAR\n10", "there are fewer state variables than the table's"),
         (", NLGEOM", "", "switch to large displacements (NLGEOM)"),
-        ("*SOLID SECTION,", orientation, "*ORIENTATION"),
+        ("*STEP,", "*INITIAL CONDITIONS, TYPE=STRESS\n1, 1, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0\n*STEP,", "initial stress is"),
     ];
     for (i, (from, to, message)) in wrong.into_iter().enumerate() {
         let job = Job { deck: "compression.inp", includes: &includes, tangent: Tangent::Analytic };

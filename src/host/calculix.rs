@@ -11,7 +11,8 @@
 //! | failure | stress 0; stiff keeps a millionth, or the nodes between failed elements would hang on nothing |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! No `*ORIENTATION`, no initial stress, and NLGEOM. The header does not declare the entry: CalculiX alone calls it.
+//! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM, and
+//! no initial stress. The header does not declare the entry: CalculiX alone calls it.
 
 use core::ffi::c_char;
 
@@ -20,7 +21,7 @@ use crate::law::parameters;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status::{self, Error};
 use crate::law::tangent::{Measure, Moduli};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::c_api::properties;
 
@@ -64,25 +65,23 @@ struct Arguments<'a> {
     strain: &'a [f64; 6],
     initial_stress: &'a [f64; 6],
     f: &'a [[f64; 3]; 3],
-    orientation: i32,
+    /// Axes of `*ORIENTATION` and the place of the point, if there are any.
+    orientation: Option<(&'a [f64; 7], &'a [f64; 3])>,
     state_count: i32,
 }
 
 impl Arguments<'_> {
-    /// The law of the deck's properties.
+    /// The law of the deck's properties, and the fibre direction where it is not theirs.
     ///
     /// # Errors
     /// Whatever a deck may have wrong that the arguments show.
-    fn law(&self) -> Result<Hyperelastic<f64>, Error> {
+    fn law(&self) -> Result<(Hyperelastic<f64>, Option<[f64; 3]>), Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
         // SAFETY: CalculiX's promise: as many constants as kode says.
-        let law = Hyperelastic::new(unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?)?;
+        let properties = unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?;
+        let law = Hyperelastic::new(properties)?;
         if self.state_count < HYPERELASTIC_STATE as i32 {
             return Err(Error::Plain(status::STATE_COUNT));
-        }
-        if self.orientation != 0 {
-            let value = f64::from(self.orientation);
-            return Err(Error::Argument { name: "*ORIENTATION", value, wanted: "none: m_1 m_2 m_3 are global" });
         }
         if let Some(&value) = self.initial_stress.iter().find(|&&x| x != 0.0) {
             return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
@@ -90,7 +89,11 @@ impl Arguments<'_> {
         if self.is_linear() {
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
-        Ok(law)
+        let fibre = match (self.orientation, properties) {
+            (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
+            _ => None,
+        };
+        Ok((law, fibre))
     }
 
     /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
@@ -103,6 +106,26 @@ impl Arguments<'_> {
         off.iter_mut().zip(linear).for_each(|(strain, linear)| *strain -= linear);
         quadratic > 1e-9 && largest(off) < 1e-3 * quadratic
     }
+}
+
+/// The vector whose components in the axes of `*ORIENTATION` are `m`: rectangular axes by two vectors, or cylindrical ones about
+/// the line through two points, as CalculiX's `transformatrix.f` reads them.
+fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place: &[f64; 3]) -> [f64; 3] {
+    let (a, b) = (Vector3::new(a_1, a_2, a_3), Vector3::new(b_1, b_2, b_3));
+    let unit = |v: Vector3<f64>| v / v.norm();
+    let across = |v: Vector3<f64>, axis: Vector3<f64>| unit(v - axis * axis.dot(&v));
+    let (e1, e2, e3);
+    if system > 0.0 {
+        e1 = unit(a);
+        e2 = across(b, e1);
+        e3 = e1.cross(&e2);
+    } else {
+        e3 = unit(b - a);
+        e1 = across(Vector3::from(*place) - a, e3);
+        e2 = e3.cross(&e1);
+    }
+    let [m_1, m_2, m_3] = m;
+    (e1 * m_1 + e2 * m_2 + e3 * m_3).into()
 }
 
 /// dS/dE as CalculiX stores it; `residual` times the identity where there is none.
@@ -162,8 +185,8 @@ pub unsafe extern "C" fn HYPERELASTIC(
     stre: *mut f64,
     stiff: *mut f64,
     iorien: *const i32,
-    _pgauss: *const f64,
-    _orab: *const f64,
+    pgauss: *const f64,
+    orab: *const f64,
     pnewdt: *mut f64,
     _ipkon: *const i32,
     _amat_length: i32,
@@ -176,11 +199,11 @@ pub unsafe extern "C" fn HYPERELASTIC(
             strain: &*emec.cast(),
             initial_stress: &*beta.cast(),
             f: &*xkl.cast(),
-            orientation: *iorien,
+            orientation: usize::try_from(*iorien - 1).ok().map(|i| (&*orab.cast::<[f64; 7]>().add(i), &*pgauss.cast())),
             state_count: *nstate_,
         }
     };
-    let law = match arguments.law() {
+    let (law, fibre) = match arguments.law() {
         Ok(law) => law,
         // SAFETY: a material's name has 80 characters.
         Err(error) => refuse(unsafe { &*amat.cast() }, error),
@@ -192,7 +215,7 @@ pub unsafe extern "C" fn HYPERELASTIC(
         (&*xstateini.add(place).cast::<[f64; HYPERELASTIC_STATE]>(), xstate.add(place))
     };
     let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
-    let (point, moduli) = law.point_with_moduli(arguments.f, None, old, request, Measure::Material);
+    let (point, moduli) = law.point_with_moduli(arguments.f, fibre, old, request, Measure::Material);
     let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
     // SAFETY: as above.
     unsafe {

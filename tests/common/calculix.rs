@@ -78,9 +78,13 @@ impl Job<'_> {
 
     /// Runs the deck to its end, which must be a good one.
     pub fn run(&self) -> Results {
-        let name = self.deck.trim_end_matches(".inp");
+        self.run_edited(self.deck.trim_end_matches(".inp"), |deck| deck)
+    }
+
+    /// Runs the deck, changed by `edit`, to its end, which must be a good one.
+    pub fn run_edited(&self, name: &str, edit: impl Fn(String) -> String) -> Results {
         let start = std::time::Instant::now();
-        let (output, folder) = self.attempt(name, |deck| deck);
+        let (output, folder) = self.attempt(name, edit);
         let seconds = start.elapsed().as_secs_f64();
         let log = String::from_utf8_lossy(&output.stdout).into_owned();
         assert!(output.status.success(), "{name}, {:?}: {}\n{log}", self.tangent, output.status);
