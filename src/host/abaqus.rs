@@ -105,10 +105,16 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     let (point, moduli) = law.evaluate(&Input { f: &f, fibre: None, state: &old, request, measure });
     if !ddsdde.is_null() {
         let rows = moduli.matrix();
-        let places = components.iter().flat_map(|&i| components.iter().map(move |&j| (i, j)));
-        for (k, (i, j)) in places.enumerate() {
-            // SAFETY: k < ntens².
-            unsafe { *ddsdde.add(k) = rows[i][j] };
+        let rows = ORDER.map(|i| ORDER.map(|j| rows[i][j]));
+        // SAFETY: ntens² entries, for ntens = 6 or 4.
+        unsafe {
+            if nshr == 3 {
+                *ddsdde.cast() = rows;
+            } else {
+                for (k, [c1, c2, c3, c4, ..]) in rows.iter().take(4).enumerate() {
+                    *ddsdde.cast::<[f64; 4]>().add(k) = [*c1, *c2, *c3, *c4];
+                }
+            }
         }
     }
     // SAFETY: as above.

@@ -21,6 +21,9 @@ pub trait Real:
     /// Coefficients of the logarithm and of the exponential, see [`elementary`](super::elementary).
     const LN: &'static [f64];
     const EXP: &'static [f64];
+    /// Whether a point stands alone, so that what counts is how long it waits, not how much there is to do: a division of its
+    /// own is then better than a share in one.
+    const ALONE: bool = false;
 
     /// The same value in every lane, rounded to this precision.
     fn splat(x: f64) -> Self;

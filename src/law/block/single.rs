@@ -95,17 +95,17 @@ fn evaluate<T: Precision, R: Lanes<T>>(law: &Hyperelastic<T>, input: &Input<T>) 
         }
     }
     let response = Response {
-        stress: r.stress.map(first),
-        energies: r.energies.map(first),
-        invariants: r.invariants.map(first),
+        stress: firsts(r.stress),
+        energies: firsts(r.energies),
+        invariants: firsts(r.invariants),
         failure_index: first(r.failure_index),
         failed: first(r.failed),
-        modes: r.modes.map(|mode| mode.map(first)),
+        modes: [firsts(r.modes[0]), firsts(r.modes[1]), firsts(r.modes[2]), firsts(r.modes[3])],
         wave_modulus: first(r.wave_modulus),
         status: first(r.status),
         kept: first(R::select(r.kept, R::splat(1.0), zero)) != T::splat(0.0),
     };
-    (Point::new(&response, input.state), Moduli(moduli.map(first)))
+    (Point::new(&response, input.state), Moduli(firsts(moduli)))
 }
 
 /// The first lane.
@@ -115,4 +115,13 @@ fn first<T: Precision, R: Lanes<T>>(x: R) -> T {
     // SAFETY: there is room for the widest lanes.
     unsafe { x.store(lanes.as_mut_ptr()) };
     lanes[0]
+}
+
+#[inline(always)]
+fn firsts<T: Precision, R: Lanes<T>, const N: usize>(x: [R; N]) -> [T; N] {
+    let mut lanes = [T::splat(0.0); N];
+    for (lane, &x) in lanes.iter_mut().zip(&x) {
+        *lane = first(x);
+    }
+    lanes
 }

@@ -28,7 +28,7 @@ macro_rules! register {
         select ($m:ident, $yes:ident, $no:ident) $select:expr;
         mul_add ($fa:ident, $fb:ident, $fc:ident) $mul_add:expr;
         difference ($da:ident, $db:ident, $dc:ident, $dd:ident) $difference:expr;
-        series $ln:ident $exp:ident
+        series $ln:ident $exp:ident alone $alone:literal
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -90,6 +90,7 @@ macro_rules! register {
             const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
+            const ALONE: bool = $alone;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -298,7 +299,7 @@ register! {
     select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
     mul_add (a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
     difference (a, b, c, d) split_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    series LN_F64 EXP_F64 alone false
 }
 
 register! {
@@ -313,7 +314,7 @@ register! {
     select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
     mul_add (a, b, c) _mm_add_ps(_mm_mul_ps(a, b), c);
     difference (a, b, c, d) widened_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    series LN_F32 EXP_F32 alone false
 }
 
 register! {
@@ -328,7 +329,7 @@ register! {
     select (mask, a, b) _mm256_blendv_pd(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    series LN_F64 EXP_F64 alone false
 }
 
 register! {
@@ -343,7 +344,7 @@ register! {
     select (mask, a, b) _mm256_blendv_ps(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    series LN_F32 EXP_F32 alone false
 }
 
 register! {
@@ -358,7 +359,7 @@ register! {
     select (mask, a, b) _mm512_mask_blend_pd(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    series LN_F64 EXP_F64 alone false
 }
 
 register! {
@@ -373,7 +374,7 @@ register! {
     select (mask, a, b) _mm512_mask_blend_ps(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    series LN_F32 EXP_F32 alone false
 }
 
 register! {
@@ -388,7 +389,7 @@ register! {
     select (mask, a, b) _mm_blendv_pd(b, a, mask.0);
     mul_add (a, b, c) _mm_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64
+    series LN_F64 EXP_F64 alone true
 }
 
 register! {
@@ -403,5 +404,5 @@ register! {
     select (mask, a, b) _mm_blendv_ps(b, a, mask.0);
     mul_add (a, b, c) _mm_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32
+    series LN_F32 EXP_F32 alone true
 }
