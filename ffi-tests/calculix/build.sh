@@ -9,15 +9,16 @@ if [ -x "$cache/ccx" ]; then
     exit
 fi
 refuse() {
-    echo "$1: run ./test.sh, which installs what is missing (Debian, Ubuntu)" >&2
+    echo "CalculiX cannot be built: $1" >&2
     exit 1
 }
 for tool in apt-get dpkg-source gcc gfortran make nm; do
-    command -v "$tool" >/dev/null 2>&1 || refuse "CalculiX cannot be built without $tool"
+    command -v "$tool" >/dev/null 2>&1 || refuse "there is no $tool; ./test.sh installs it (Debian, Ubuntu)"
 done
 echo "building CalculiX, about 3 minutes" >&2
-build="$cache.building"
-rm -rf "$build"
+mkdir -p "$cache"
+build="$(mktemp -d "$cache/build.XXXXXX")"
+trap 'rm -rf "$build"' EXIT
 mkdir -p "$build/sources" "$build/lists/partial" "$build/archives/partial"
 
 # Every entry for binary packages becomes one for source packages.
@@ -34,18 +35,16 @@ apt() {
 }
 cd "$build"
 apt update || true # one entry without sources is no reason to stop
-apt source --download-only calculix-ccx || refuse "the source package calculix-ccx cannot be had"
-dpkg-source -x calculix-ccx_*.dsc source >&2
+apt source --download-only calculix-ccx || refuse "the source package calculix-ccx cannot be had from this machine's sources"
+dpkg-source --no-check -x calculix-ccx_*.dsc source >/dev/null # apt has checked it
 
 cd source/ccx_*/src
 program="$(basename "$(dirname "$PWD")")"
 make -s -j "$(nproc)" "$program" LDFLAGS=-ldl FFLAGS="-O2 -w -fopenmp -fallow-argument-mismatch" CFLAGS="-O2 -w \
     -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1 \
     -DCALCULIX_EXTERNAL_BEHAVIOURS_SUPPORT" >make.log 2>&1 ||
-    { tail -20 make.log >&2; refuse "CalculiX does not build"; }
+    { tail -20 make.log >&2; refuse "see above; ./test.sh installs the libraries that it needs"; }
 # Without dlopen it would take the decks without a word, and answer nonsense.
-nm -D "$program" | grep -q dlopen || refuse "CalculiX has been built without external behaviours"
-mkdir -p "$cache"
+nm -D "$program" | grep -q dlopen || refuse "it has no external behaviours"
 mv "$program" "$cache/ccx"
-rm -rf "$build"
 echo "$cache/ccx"

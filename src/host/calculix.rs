@@ -11,8 +11,8 @@
 //! | failure | stress 0; stiff keeps a millionth, or the nodes between failed elements would hang on nothing |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM, and
-//! no initial stress. The header does not declare the entry: CalculiX alone calls it.
+//! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM,
+//! and no initial stress. The header does not declare the entry: CalculiX alone calls it.
 
 use core::ffi::c_char;
 
