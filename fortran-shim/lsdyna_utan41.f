@@ -12,7 +12,7 @@
      &  c_int32_t, c_size_t
       implicit none
       real :: cm(*), eps(6), sig(6), epsp, hsv(*), dt1, capa, tt, temper
-      real :: es(6, 6), crv(*), cma(*), qmat(3, 3)
+      real :: es(*), crv(*), cma(*), qmat(3, 3)
       character(len=5) :: etype
       logical :: unsym, failel
       integer :: nnpcrv(*)

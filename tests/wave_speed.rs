@@ -394,7 +394,7 @@ fn loss_of_ellipticity() {
     for (i_td, stable) in [(0.0, true), (0.25, true), (0.499, true), (0.501, false), (0.7, false)] {
         let wave = wave(&section, 1e-7, 0.0, i_td);
         assert_eq!(wave.modulus >= -1e-6, stable, "I_td = {i_td}: {wave:?}");
-        assert!(stable || wave.direction[0].abs() + wave.polarisation[0].abs() < 1e-3, "{wave:?}");
+        assert!(stable || wave.direction[0].abs() + wave.polarisation[0].abs() < 1e-2, "{wave:?}");
     }
     let yarn = Stiffness { k_el: 82.3, k_tc: 1.055, p: 2.2, k_td: 0.65, k_ld: 0.0 };
     assert!(wave(&yarn, 0.01, 0.0, 0.6).modulus < wave(&yarn, 0.01, -0.3, 0.6).modulus);

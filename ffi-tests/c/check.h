@@ -217,9 +217,9 @@ static inline void check_tangent(const truth *t, const real *c, size_t stride, c
             square += (found - wanted) * (found - wanted);
             size += wanted * wanted;
         }
-    /* In single precision a stiffness near a kink says little. */
+    /* In single precision the rounding of F decides on which side of a kink a small strain is. */
     if (sizeof(real) == sizeof(float))
-        allowed = allowed <= 2e-12 * sqrt(size) ? 3e8 * allowed : 1e300;
+        allowed = fabs(t->invariants[0]) > 1e-3 && fabs(t->invariants[1]) > 1e-3 && allowed < 1e300 ? 3e-4 * sqrt(size) : 1e300;
     CHECK(sqrt(square) <= allowed, "case %d: error %g of %g", t->id, sqrt(square), sqrt(size));
 }
 

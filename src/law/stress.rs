@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::real::Real;
+use super::tangent::Moduli;
 
 /// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
@@ -92,15 +93,73 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
     ([a, b, c], [x, y, z])
 }
 
-/// The Truesdell modulus of a Jaumann modulus and the Cauchy stress σ, 11 22 33 12 23 31:
-/// c_ijkl − ½(δ_ik σ_jl + δ_jl σ_ik + δ_il σ_jk + δ_jk σ_il).
+/// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.
+macro_rules! upper_triangle {
+    ($entry:ident($($argument:expr),*)) => {
+        [
+            $entry::<_, 0, 0>($($argument),*), $entry::<_, 0, 1>($($argument),*), $entry::<_, 0, 2>($($argument),*),
+            $entry::<_, 0, 3>($($argument),*), $entry::<_, 0, 4>($($argument),*), $entry::<_, 0, 5>($($argument),*),
+            $entry::<_, 1, 1>($($argument),*), $entry::<_, 1, 2>($($argument),*), $entry::<_, 1, 3>($($argument),*),
+            $entry::<_, 1, 4>($($argument),*), $entry::<_, 1, 5>($($argument),*), $entry::<_, 2, 2>($($argument),*),
+            $entry::<_, 2, 3>($($argument),*), $entry::<_, 2, 4>($($argument),*), $entry::<_, 2, 5>($($argument),*),
+            $entry::<_, 3, 3>($($argument),*), $entry::<_, 3, 4>($($argument),*), $entry::<_, 3, 5>($($argument),*),
+            $entry::<_, 4, 4>($($argument),*), $entry::<_, 4, 5>($($argument),*), $entry::<_, 5, 5>($($argument),*),
+        ]
+    };
+}
+
+pub(super) use upper_triangle;
+
+/// An entry of A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik.
+#[inline(always)]
+pub(super) fn paired<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
+    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
+    let (ik, jl, il, jk) = (VOIGT[i][k], VOIGT[j][l], VOIGT[i][l], VOIGT[j][k]);
+    if ROW < 3 && COLUMN < 3 {
+        R::splat(4.0) * a[ik] * b[ik]
+    } else if ROW < 3 {
+        R::splat(2.0) * a[ik].mul_add(b[il], a[il] * b[ik])
+    } else {
+        a[ik].mul_add(b[jl], a[jl].mul_add(b[ik], a[il].mul_add(b[jk], a[jk] * b[il])))
+    }
+}
+
+/// An entry of 1⊙B, where there is one.
+#[inline(always)]
+pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
+    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
+    if ROW == COLUMN {
+        return Some(if ROW < 3 { R::splat(4.0) * b[ROW] } else { b[VOIGT[i][i]] + b[VOIGT[j][j]] });
+    }
+    if ROW < 3 {
+        // i = j: an index of the column's is the row's, or none is.
+        return if COLUMN >= 3 && (k == i || l == i) { Some(b[COLUMN] + b[COLUMN]) } else { None };
+    }
+    // Two different pairs of different indices share one; the others remain.
+    Some(
+        b[if i == k {
+            VOIGT[j][l]
+        } else if i == l {
+            VOIGT[j][k]
+        } else if j == k {
+            VOIGT[i][l]
+        } else {
+            VOIGT[i][k]
+        }],
+    )
+}
+
+#[inline(always)]
+fn half_with_one<R: Real, const ROW: usize, const COLUMN: usize>(stress: &[R; 6]) -> R {
+    paired_with_one::<R, ROW, COLUMN>(stress).map_or(R::splat(0.0), |entry| R::splat(0.5) * entry)
+}
+
+/// The Truesdell modulus of a Jaumann modulus and the Cauchy stress σ, 11 22 33 12 23 31: c − ½ 1⊙σ.
 pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64; 6]; 6] {
     let mut truesdell = *jaumann;
-    for (row, (i, j)) in truesdell.iter_mut().zip(PAIRS) {
-        for (entry, (k, l)) in row.iter_mut().zip(PAIRS) {
-            let term = |a: usize, b: usize, c: usize, d: usize| if a == b { 0.5 * cauchy[VOIGT[c][d]] } else { 0.0 };
-            *entry -= (term(i, k, j, l) + term(j, l, i, k)) + (term(i, l, j, k) + term(j, k, i, l));
-        }
+    let stress = Moduli(upper_triangle!(half_with_one(cauchy))).matrix();
+    for (entry, stress) in truesdell.iter_mut().flatten().zip(stress.iter().flatten()) {
+        *entry -= stress;
     }
     truesdell
 }

@@ -19,7 +19,7 @@ use super::hyperelastic::{Hyperelastic, Kirchhoff, Point, Request, shear_compone
 use super::kinematics::{Decomposition, FibreFrame, Strain};
 use super::real::{Real, along, dot, scale};
 use super::state::HYPERELASTIC_STATE;
-use super::stress::{PAIRS, VOIGT, square, symmetric_product};
+use super::stress::{VOIGT, paired, paired_with_one, square, symmetric_product, upper_triangle};
 
 /// Which derivative of which stress. Rows and columns of the 6×6 are 11 22 33 12 23 31, its columns engineering shears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -123,60 +123,6 @@ struct Terms<R> {
     /// The two factors of the other product; none: 1, and the second one.
     first: Option<[R; 6]>,
     second: [R; 6],
-}
-
-/// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.
-macro_rules! upper_triangle {
-    ($entry:ident($($argument:expr),*)) => {
-        [
-            $entry::<_, 0, 0>($($argument),*), $entry::<_, 0, 1>($($argument),*), $entry::<_, 0, 2>($($argument),*),
-            $entry::<_, 0, 3>($($argument),*), $entry::<_, 0, 4>($($argument),*), $entry::<_, 0, 5>($($argument),*),
-            $entry::<_, 1, 1>($($argument),*), $entry::<_, 1, 2>($($argument),*), $entry::<_, 1, 3>($($argument),*),
-            $entry::<_, 1, 4>($($argument),*), $entry::<_, 1, 5>($($argument),*), $entry::<_, 2, 2>($($argument),*),
-            $entry::<_, 2, 3>($($argument),*), $entry::<_, 2, 4>($($argument),*), $entry::<_, 2, 5>($($argument),*),
-            $entry::<_, 3, 3>($($argument),*), $entry::<_, 3, 4>($($argument),*), $entry::<_, 3, 5>($($argument),*),
-            $entry::<_, 4, 4>($($argument),*), $entry::<_, 4, 5>($($argument),*), $entry::<_, 5, 5>($($argument),*),
-        ]
-    };
-}
-
-/// An entry of A⊙B.
-#[inline(always)]
-fn paired<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
-    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
-    let (ik, jl, il, jk) = (VOIGT[i][k], VOIGT[j][l], VOIGT[i][l], VOIGT[j][k]);
-    if ROW < 3 && COLUMN < 3 {
-        R::splat(4.0) * a[ik] * b[ik]
-    } else if ROW < 3 {
-        R::splat(2.0) * a[ik].mul_add(b[il], a[il] * b[ik])
-    } else {
-        a[ik].mul_add(b[jl], a[jl].mul_add(b[ik], a[il].mul_add(b[jk], a[jk] * b[il])))
-    }
-}
-
-/// An entry of 1⊙B, where there is one.
-#[inline(always)]
-fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
-    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
-    if ROW == COLUMN {
-        return Some(if ROW < 3 { R::splat(4.0) * b[ROW] } else { b[VOIGT[i][i]] + b[VOIGT[j][j]] });
-    }
-    if ROW < 3 {
-        // i = j: an index of the column's is the row's, or none is.
-        return if COLUMN >= 3 && (k == i || l == i) { Some(b[COLUMN] + b[COLUMN]) } else { None };
-    }
-    // Two different pairs of different indices share one; the others remain.
-    Some(
-        b[if i == k {
-            VOIGT[j][l]
-        } else if i == l {
-            VOIGT[j][k]
-        } else if j == k {
-            VOIGT[i][l]
-        } else {
-            VOIGT[i][k]
-        }],
-    )
 }
 
 #[inline(always)]
