@@ -361,6 +361,9 @@ pub struct Decomposition<R> {
     pub r11: R,
     pub r12: R,
     pub r22: R,
+    /// det F and its reciprocal.
+    pub jacobian: R,
+    pub inverse_jacobian: R,
     pub area_ratio: R,
     pub d1: R,
     pub d2: R,
@@ -389,6 +392,8 @@ impl<R: Real> Decomposition<R> {
             r11,
             r12,
             r22: area_ratio * inverse_r11,
+            jacobian: d.jacobian,
+            inverse_jacobian: d.inverse_jacobian,
             area_ratio,
             d1: r12.mul_add(r12, section.delta) * inverse_area,
             d2: r12 * inverse_r11,
@@ -401,5 +406,16 @@ impl<R: Real> Decomposition<R> {
     #[inline(always)]
     pub fn q2(&self) -> [R; 3] {
         cross(self.e, self.q1)
+    }
+
+    /// F⁻¹e, F⁻¹q1, F⁻¹q2, by the triangle R: no inverse of F.
+    #[inline(always)]
+    pub fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+        let one = R::splat(1.0);
+        let (inverse_11, inverse_22) = (one / self.r11, one / self.r22);
+        let w1 = scale(self.inverse_lambda, n.m);
+        let w2 = scale(inverse_11, along(n.t1, -(self.f_a * self.inverse_lambda), n.m));
+        let w3 = scale(inverse_22, along(along(n.t2, -(self.f_b * self.inverse_lambda), n.m), -self.r12, w2));
+        [w1, w2, w3]
     }
 }
