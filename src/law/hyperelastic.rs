@@ -442,7 +442,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 impl<T: Real<Mask = bool> + Into<f64>> Point<T> {
     /// The answer with the new state, given the old one.
     #[inline(always)]
-    pub(super) fn new(r: &Response<T>, state: &[T; HYPERELASTIC_STATE]) -> Self {
+    fn new(r: &Response<T>, state: &[T; HYPERELASTIC_STATE]) -> Self {
         let zero = T::splat(0.0);
         let mut status = Into::<f64>::into(r.status) as i32;
         let mut new = [zero; HYPERELASTIC_STATE];

@@ -28,7 +28,7 @@ macro_rules! register {
         select ($m:ident, $yes:ident, $no:ident) $select:expr;
         mul_add ($fa:ident, $fb:ident, $fc:ident) $mul_add:expr;
         difference ($da:ident, $db:ident, $dc:ident, $dd:ident) $difference:expr;
-        series $ln:ident $exp:ident alone $alone:literal
+        series $ln:ident $exp:ident
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -90,7 +90,6 @@ macro_rules! register {
             const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
-            const ALONE: bool = $alone;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
@@ -299,7 +298,7 @@ register! {
     select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
     mul_add (a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
     difference (a, b, c, d) split_difference(a, b, c, d);
-    series LN_F64 EXP_F64 alone false
+    series LN_F64 EXP_F64
 }
 
 register! {
@@ -314,7 +313,7 @@ register! {
     select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
     mul_add (a, b, c) _mm_add_ps(_mm_mul_ps(a, b), c);
     difference (a, b, c, d) widened_difference(a, b, c, d);
-    series LN_F32 EXP_F32 alone false
+    series LN_F32 EXP_F32
 }
 
 register! {
@@ -329,7 +328,7 @@ register! {
     select (mask, a, b) _mm256_blendv_pd(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64 alone false
+    series LN_F64 EXP_F64
 }
 
 register! {
@@ -344,7 +343,7 @@ register! {
     select (mask, a, b) _mm256_blendv_ps(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32 alone false
+    series LN_F32 EXP_F32
 }
 
 register! {
@@ -359,7 +358,7 @@ register! {
     select (mask, a, b) _mm512_mask_blend_pd(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64 alone false
+    series LN_F64 EXP_F64
 }
 
 register! {
@@ -374,35 +373,5 @@ register! {
     select (mask, a, b) _mm512_mask_blend_ps(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32 alone false
-}
-
-register! {
-    /// 2 numbers of double precision with FMA: for a point alone, which fills one of them.
-    F64x2Fused: f64 as u64 x 2 in __m128d / __m128i;
-    mask Mask64x2;
-    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd;
-    bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
-    memory _mm_loadu_pd _mm_storeu_pd;
-    integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
-    compare (a, b) Mask64x2(_mm_cmplt_pd(a, b)), Mask64x2(_mm_cmple_pd(a, b));
-    select (mask, a, b) _mm_blendv_pd(b, a, mask.0);
-    mul_add (a, b, c) _mm_fmadd_pd(a, b, c);
-    difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F64 EXP_F64 alone true
-}
-
-register! {
-    /// 4 numbers of single precision with FMA.
-    F32x4Fused: f32 as u32 x 4 in __m128 / __m128i;
-    mask Mask32x4;
-    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps;
-    bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
-    memory _mm_loadu_ps _mm_storeu_ps;
-    integers (x, to) _mm_storeu_si128(to.cast(), _mm_cvttps_epi32(x));
-    compare (a, b) Mask32x4(_mm_cmplt_ps(a, b)), Mask32x4(_mm_cmple_ps(a, b));
-    select (mask, a, b) _mm_blendv_ps(b, a, mask.0);
-    mul_add (a, b, c) _mm_fmadd_ps(a, b, c);
-    difference (a, b, c, d) fused_difference(a, b, c, d);
-    series LN_F32 EXP_F32 alone true
+    series LN_F32 EXP_F32
 }
