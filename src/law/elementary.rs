@@ -59,22 +59,6 @@ fn ln_2<R: Real>() -> (R, R) {
 
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
-    if R::ALONE {
-        // Two by two, four by four (Estrin): more to do, less to wait for.
-        let pair = |at: usize| match coefficients.get(at..) {
-            Some([c, d, ..]) => R::splat(*d).mul_add(x, R::splat(*c)),
-            Some([c]) => R::splat(*c),
-            _ => R::splat(0.0),
-        };
-        let square = x * x;
-        let four = |at: usize| pair(at + 2).mul_add(square, pair(at));
-        let fourth = square * square;
-        return match coefficients.len() {
-            ..5 => four(0),
-            5..9 => four(4).mul_add(fourth, four(0)),
-            _ => four(8).mul_add(fourth, four(4)).mul_add(fourth, four(0)),
-        };
-    }
     let mut rest = coefficients.iter().rev();
     let mut sum = R::splat(rest.next().copied().unwrap_or(0.0));
     for &c in rest {
@@ -87,14 +71,8 @@ fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
 #[inline(always)]
 pub fn reciprocals<R: Real, const N: usize>(x: [R; N]) -> [R; N] {
     let one = R::splat(1.0);
-    let mut inverses = [one; N];
-    if R::ALONE {
-        for (inverse, &divisor) in inverses.iter_mut().zip(&x) {
-            *inverse = one / divisor;
-        }
-        return inverses;
-    }
     // Products of all that stand before; then, from behind, of all that stand after, times the inverse of everything.
+    let mut inverses = [one; N];
     let mut product = one;
     for (inverse, &factor) in inverses.iter_mut().zip(&x) {
         *inverse = product;

@@ -21,9 +21,6 @@ pub trait Real:
     /// Coefficients of the logarithm and of the exponential, see [`elementary`](super::elementary).
     const LN: &'static [f64];
     const EXP: &'static [f64];
-    /// Whether a point stands alone, so that what counts is how long it waits, not how much there is to do: a division of its
-    /// own is then better than a share in one, and a polynomial term by term worse than pair by pair.
-    const ALONE: bool = false;
 
     /// The same value in every lane, rounded to this precision.
     fn splat(x: f64) -> Self;
@@ -108,7 +105,6 @@ macro_rules! scalar {
             const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 - 1.0, $t::MAX_EXP as f64 - 1.0);
             const LN: &'static [f64] = $ln;
             const EXP: &'static [f64] = $exp;
-            const ALONE: bool = true;
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
