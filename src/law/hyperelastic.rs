@@ -407,7 +407,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
-        self.point_with(f, fibre, state, request, |_, _, _, _| [T::splat(0.0); 0]).0
+        self.point_with::<[T; 0]>(f, fibre, state, request, |_, _, _, _| []).0
     }
 
     /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
