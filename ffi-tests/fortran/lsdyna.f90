@@ -96,7 +96,7 @@ contains
     c = c(order, order)
     do q = 1, 6
       do p = 1, 6
-        ddsdde(p, q) = c(p, q) + 0.5d0 * (part(one(p), one(q), s(two(p), two(q))) + part(two(p), two(q), &
+        ddsdde(p, q) = c(p, q) + 0.5_c_double * (part(one(p), one(q), s(two(p), two(q))) + part(two(p), two(q), &
           s(one(p), one(q))) + part(one(p), two(q), s(two(p), one(q))) + part(two(p), one(q), s(one(p), two(q))))
       end do
     end do

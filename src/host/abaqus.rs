@@ -15,7 +15,6 @@
 //! Solids: three-dimensional ones (NDI = 3, NSHR = 3) and, for a UMAT, plane strain and axisymmetric ones (3, 1). The symbols
 //! `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`.
 
-use crate::law::block::single::Input;
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
@@ -101,9 +100,10 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     };
     let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
     let components = if nshr == 3 { &ORDER[..] } else { &ORDER[..4] };
-    let measure = if ddsdde.is_null() { None } else { Some(Measure::Jaumann) };
-    let (point, moduli) = law.evaluate(&Input { f: &f, fibre: None, state: &old, request, measure });
-    if !ddsdde.is_null() {
+    let point = if ddsdde.is_null() {
+        law.point_along(&f, None, &old, request)
+    } else {
+        let (point, moduli) = law.point_with_moduli(&f, None, &old, request, Measure::Jaumann);
         let rows = moduli.matrix();
         let rows = ORDER.map(|i| ORDER.map(|j| rows[i][j]));
         // SAFETY: ntens² entries, for ntens = 6 or 4.
@@ -116,7 +116,8 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
                 }
             }
         }
-    }
+        point
+    };
     // SAFETY: as above.
     unsafe {
         for (k, &i) in components.iter().enumerate() {

@@ -15,7 +15,6 @@ use core::slice;
 use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
-use crate::law::block::single::{Input, Single};
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
@@ -556,7 +555,7 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn point<T: Single>(
+unsafe fn point<T: Precision>(
     values: *const T,
     count: size_t,
     deformation_gradient: *const T,
@@ -590,7 +589,7 @@ unsafe fn point<T: Single>(
         let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
         let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE];
         let old = if state_old.is_null() { fresh } else { *state_old.cast() };
-        let (point, _) = law.evaluate(&Input { f: &f, fibre, state: &old, request, measure: None });
+        let point = law.point_along(&f, fibre, &old, request);
         store(&point.state, state_new);
         store(&point.stress, stress);
         store(point.modes.as_flattened(), modes);
@@ -674,7 +673,7 @@ fn measure(measure: i32) -> Result<Measure, Error> {
 /// # Safety
 /// As for `toron_hyperelastic_point_tangent_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn point_tangent<T: Single>(
+unsafe fn point_tangent<T: Precision>(
     values: *const T,
     count: size_t,
     deformation_gradient: *const T,
@@ -705,8 +704,7 @@ unsafe fn point_tangent<T: Single>(
             store(&moduli, tangent);
             point
         } else {
-            let input = Input { f: &f, fibre, state: &old, request, measure: Some(measure) };
-            let (point, moduli) = law.evaluate(&input);
+            let (point, moduli) = law.point_with_moduli(&f, fibre, &old, request, measure);
             store(moduli.matrix().as_flattened(), tangent);
             point
         };

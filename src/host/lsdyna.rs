@@ -14,7 +14,6 @@
 
 use core::ffi::c_int;
 
-use crate::law::block::single::{Input, Single};
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
@@ -100,7 +99,7 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Single>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32, failel: *mut c_int) -> i32 {
+unsafe fn scalar<T: Precision>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32, failel: *mut c_int) -> i32 {
     if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
         return status::NULL_ARGUMENT;
     }
@@ -112,8 +111,7 @@ unsafe fn scalar<T: Single>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32, fa
         };
         let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
         let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
-        let input = Input { f: &f, fibre: None, state: &*hsv.cast(), request, measure: None };
-        let mut point = law.evaluate(&input).0;
+        let mut point = law.point_along(&f, None, &*hsv.cast(), request);
         if point.status != status::OK {
             point.state[FAILED] = T::splat(1.0);
             point.state[ALIVE] = T::splat(0.0);
@@ -257,7 +255,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
 
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Single>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> i32 {
+unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> i32 {
     if cm.is_null() || hsv.is_null() || es.is_null() {
         return status::NULL_ARGUMENT;
     }
@@ -268,9 +266,7 @@ unsafe fn scalar_tangent<T: Single>(cm: *const T, hsv: *const T, nhv: i32, es: *
             Err(error) => return error.code(),
         };
         let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
-        let (request, measure) = (Request::default(), Some(Measure::Truesdell));
-        let input = Input { f: &f, fibre: None, state: &*hsv.cast(), request, measure };
-        let (point, moduli) = law.evaluate(&input);
+        let (point, moduli) = law.point_with_moduli(&f, None, &*hsv.cast(), Request::default(), Measure::Truesdell);
         store(moduli.matrix().as_flattened(), es);
         point.status
     }

@@ -188,6 +188,22 @@ impl<R: Real> Hyperelastic<R> {
         Power::new(-strain.i_tc, &self.exponent)
     }
 
+    /// All stages at once: the kinematics, the factors of the modes, and 0 where they may be relied on, else NaN.
+    #[inline(always)]
+    pub fn evaluate<A: Axes<R>>(
+        &self,
+        f: &[[R; 3]; 3],
+        axes: &A,
+    ) -> (Stretch<R>, Section<R>, Strain<R>, Kirchhoff<R>, R) {
+        let stretch = Stretch::new(f, axes);
+        let section = Section::new(&stretch, axes);
+        let logarithms = Logarithms::new(&stretch, &section);
+        let strain = Strain::new(&stretch, &section, &logarithms);
+        let power = self.compaction(&strain);
+        let k = self.kirchhoff(&stretch, &strain, power.finish(power.reduce(&self.exponent)));
+        (stretch, section, strain, k, logarithms.doubt)
+    }
+
     /// The factors of the four modes in the Kirchhoff stress, given ⟨−I_tc⟩^(p−1).
     #[inline(always)]
     pub fn kirchhoff(&self, d: &Stretch<R>, strain: &Strain<R>, power: R) -> Kirchhoff<R> {
@@ -351,11 +367,7 @@ impl<R: Real> Hyperelastic<R> {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
             invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
             failure_index: index,
-            failed: R::select(
-                Failure::intact(latch),
-                R::select(new & Failure::reached(index), one, zero),
-                one,
-            ),
+            failed: R::select(Failure::intact(latch), R::select(new & Failure::reached(index), one, zero), one),
         }
     }
 
@@ -470,16 +482,11 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         request: Request,
         tangent: impl FnOnce(&Stretch<T>, &Section<T>, &Strain<T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
     ) -> (Point<T>, X) {
-        let stretch = Stretch::new(f, axes);
-        let section = Section::new(&stretch, axes);
-        let logarithms = Logarithms::new(&stretch, &section);
-        let strain = Strain::new(&stretch, &section, &logarithms);
-        let power = self.compaction(&strain);
-        let k = self.kirchhoff(&stretch, &strain, power.finish(power.reduce(&self.exponent)));
+        let (stretch, section, strain, k, doubt) = self.evaluate(f, axes);
         let mut tangent = tangent(&stretch, &section, &strain, &k, frame);
         let (latch, shear) = (state[FAILED], self.shears());
         let zero = T::splat(0.0);
-        let doubt = T::select(usable, logarithms.doubt, T::splat(f64::NAN)) + unrepresentable(tangent.as_mut());
+        let doubt = T::select(usable, doubt, T::splat(f64::NAN)) + unrepresentable(tangent.as_mut());
         let r = self.respond(&stretch, &section, &strain, &k, frame, doubt, latch, request, shear);
         let history = self.history(&stretch, &strain, &k, r.new, latch, request, shear);
         let (mut stress, mut status) = (r.stress, status::OK);

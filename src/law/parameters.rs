@@ -187,7 +187,8 @@ pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> R
         }
         if value < property.minimum
             || value > property.maximum
-            || (property.minimum_excluded && value == property.minimum) {
+            || (property.minimum_excluded && value == property.minimum)
+        {
             return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value });
         }
     }

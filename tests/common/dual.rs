@@ -57,6 +57,8 @@ impl Real for Dual {
     type Mask = bool;
     const MIN_POSITIVE: f64 = f64::MIN_POSITIVE;
     const EXPONENTS: (f64, f64) = <f64 as Real>::EXPONENTS;
+    const SQUARES: (f64, f64) = <f64 as Real>::SQUARES;
+    const ARTANH: &'static [f64] = <f64 as Real>::ARTANH;
     const LN: &'static [f64] = <f64 as Real>::LN;
     const EXP: &'static [f64] = <f64 as Real>::EXP;
 
@@ -92,12 +94,13 @@ impl Real for Dual {
     }
     fn split_exponent(self) -> (Self, Self) {
         let (z, k) = self.value.split_exponent();
-        (Dual::new(z, self.slope / Real::power_of_two(k)), Dual::splat(k))
+        (Dual::new(z, self.slope * Real::times_power_of_two(1.0, -k)), Dual::splat(k))
     }
     fn round(self) -> Self {
         Dual::splat(Real::round(self.value))
     }
-    fn power_of_two(self) -> Self {
-        Dual::splat(Real::power_of_two(self.value))
+    fn times_power_of_two(self, k: Self) -> Self {
+        let scaling = Real::times_power_of_two(1.0, k.value);
+        Dual::new(self.value.times_power_of_two(k.value), self.slope * scaling)
     }
 }

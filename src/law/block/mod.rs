@@ -782,11 +782,8 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let shear = WANT & SHEAR != 0;
-        let doubt = if tangent {
-            doubt + store_tangent(law, block, i, d, section, strain, &k, &frame, shear)
-        } else {
-            doubt
-        };
+        let doubt =
+            if tangent { doubt + store_tangent(law, block, i, d, section, strain, &k, &frame, shear) } else { doubt };
         let r = law.respond(d, section, strain, &k, &frame, doubt, latch, request, shear);
 
         if request.stress {
@@ -854,7 +851,7 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
 ///
 /// # Safety
 /// As for [`store_tangent`], after it.
-#[cold]
+#[inline(always)]
 unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
     let zero = R::splat(0.0);
     for c in 0..block.measure.components() {
