@@ -493,7 +493,8 @@ macro_rules! wanting {
 /// Calls the kernel that asks at every turn.
 macro_rules! as_asked {
     ($kernel:ident, $law:ident, $block:ident) => {
-        match ($law.shears(), $law.aligned && $block.fibre[0].is_null()) {
+        // Beside the tangent the products with the frame that an aligned fibre saves weigh little.
+        match ($law.shears(), $law.aligned && $block.fibre[0].is_null() && $block.tangent.is_null()) {
             (false, true) => $kernel::<{ AS_ASKED + ALIGNED }>($law, $block),
             (true, true) => $kernel::<{ AS_ASKED + SHEAR + ALIGNED }>($law, $block),
             (false, false) => $kernel::<AS_ASKED>($law, $block),
@@ -674,7 +675,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         if !R::any(!all_new) {
             return;
         }
-        if WANT & AS_ASKED != 0 && !block.tangent.is_null() {
+        if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
                 drop_tangent(block, at(k), outcomes.get(k));
             }
@@ -778,7 +779,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
         let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
         // The modes and the tangent alone want the frame again.
-        let tangent = asked && !block.tangent.is_null();
+        let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let shear = WANT & SHEAR != 0;
@@ -808,6 +809,12 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
         Outcome { new: r.new, flawed: r.flawed, latch }
     }
+}
+
+/// Whether a kernel is asked for the tangent: only those that ask, and are not built for an aligned fibre, ever are.
+#[inline(always)]
+fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
+    WANT & AS_ASKED != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
 }
 
 /// Stores the tangent of the intact material. Returns 0 where all of it are finite numbers, else NaN.
