@@ -1,13 +1,17 @@
 #!/bin/sh
-# Runs every test on a fresh machine: installs the compilers and tools that the tests call, where they are missing, then
-# `cargo test`. Arguments go to `cargo test`.
+# Runs every test on a fresh machine: installs the compilers, tools and solvers that the tests call, where they are missing,
+# then `cargo test`. Arguments go to `cargo test`.
 set -eu
 cd "$(dirname "$0")"
 
 missing=""
-for tool in gcc:gcc gfortran:gfortran objdump:binutils valgrind:valgrind; do
+for tool in gcc:gcc gfortran:gfortran objdump:binutils valgrind:valgrind make:make dpkg-source:dpkg-dev; do
     command -v "${tool%%:*}" >/dev/null 2>&1 || missing="$missing ${tool#*:}"
 done
+for package in libarpack2-dev libspooles-dev liblapack-dev; do
+    dpkg -s "$package" >/dev/null 2>&1 || missing="$missing $package"
+done
+python3 -c 'import ensurepip' >/dev/null 2>&1 || missing="$missing python3-venv"
 if [ -n "$missing" ]; then
     sudo=""
     [ "$(id -u)" -eq 0 ] || sudo=sudo
@@ -27,4 +31,7 @@ if ! command -v cargo >/dev/null 2>&1; then
     curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y --profile minimal
     . "$HOME/.cargo/env"
 fi
+# CalculiX and felupe, into the cache folder; the first time takes some minutes.
+ffi-tests/calculix/build.sh >/dev/null
+ffi-tests/felupe/environment.sh >/dev/null
 cargo test --locked "$@"

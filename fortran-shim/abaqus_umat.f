@@ -1,7 +1,7 @@
 ! UMAT of Abaqus/Standard for the hyperelastic yarn law of libtoron.
 !
-! Solids (NDI = 3, NSHR = 3) with NLGEOM=YES and no *ORIENTATION; 11 or more state variables, 11 properties: see docs.
-! Not for Standard yet: DDSDDE is not written. Single integration points and explicit drivers need none.
+! Solids (NDI = 3; NSHR = 3, or 1 for plane strain and axisymmetric ones) with NLGEOM=YES and no *ORIENTATION; 11 or more
+! state variables, 11 properties: see docs. DDSDDE is symmetric.
 !
 ! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
       subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl,       &
@@ -25,12 +25,12 @@
       integer(c_int32_t) :: status
 
       interface
-        function toron_abaqus_umat_f64(stress, statev, sse, pnewdt,     &
-     &    dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)             &
-     &    bind(c) result(status)
+        function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,  &
+     &    sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr,        &
+     &    nlgeom) bind(c) result(status)
           import :: c_double, c_int32_t
-          real(c_double), intent(inout) :: stress(*), statev(*), sse
-          real(c_double), intent(inout) :: pnewdt
+          real(c_double), intent(inout) :: stress(*), statev(*)
+          real(c_double), intent(inout) :: ddsdde(*), sse, pnewdt
           real(c_double), intent(in) :: dfgrd1(*), props(*)
           integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
           integer(c_int32_t), value :: nlgeom
@@ -58,8 +58,8 @@
 !     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP
 !     in its place have no such flag: pass 1 there, and see to
 !     NLGEOM=YES yourself.
-      status = toron_abaqus_umat_f64(stress, statev, sse, pnewdt,       &
-     &  dfgrd1, props, int(nprops, c_int32_t),                          &
+      status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,    &
+     &  sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),             &
      &  int(nstatv, c_int32_t), int(ndi, c_int32_t),                    &
      &  int(nshr, c_int32_t), int(jstep(3), c_int32_t))
 !     Below -300 the point is at fault, and the library has lowered PNEWDT; above, the deck is.

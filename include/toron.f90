@@ -38,6 +38,10 @@ module toron
   integer(c_int32_t), parameter :: toron_rotation_spin = 2
   integer(c_int32_t), parameter :: toron_criterion_principal = 0
   integer(c_int32_t), parameter :: toron_criterion_fibre = 1
+  integer(c_int32_t), parameter :: toron_tangent_material = 0
+  integer(c_int32_t), parameter :: toron_tangent_truesdell = 1
+  integer(c_int32_t), parameter :: toron_tangent_jaumann = 2
+  integer(c_int32_t), parameter :: toron_tangent_nominal = 3
 
   type, bind(c) :: toron_table_row
     character(kind=c_char) :: name(24)
@@ -269,6 +273,47 @@ module toron
       integer(c_int32_t) :: toron_hyperelastic_point_f32
     end function
 
+    function toron_hyperelastic_point_tangent_f64(values, count, deformation_gradient, fibre, state_old, state_new, &
+        stress, measure, tangent) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in), optional :: deformation_gradient(*)
+      real(c_double), intent(in), optional :: fibre(*)
+      real(c_double), intent(in), optional :: state_old(*)
+      real(c_double), intent(inout), optional :: state_new(*)
+      real(c_double), intent(inout), optional :: stress(*)
+      integer(c_int32_t), value :: measure
+      real(c_double), intent(inout), optional :: tangent(*)
+      integer(c_int32_t) :: toron_hyperelastic_point_tangent_f64
+    end function
+
+    function toron_hyperelastic_point_tangent_f32(values, count, deformation_gradient, fibre, state_old, state_new, &
+        stress, measure, tangent) bind(c)
+      import
+      real(c_float), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      real(c_float), intent(in), optional :: deformation_gradient(*)
+      real(c_float), intent(in), optional :: fibre(*)
+      real(c_float), intent(in), optional :: state_old(*)
+      real(c_float), intent(inout), optional :: state_new(*)
+      real(c_float), intent(inout), optional :: stress(*)
+      integer(c_int32_t), value :: measure
+      real(c_float), intent(inout), optional :: tangent(*)
+      integer(c_int32_t) :: toron_hyperelastic_point_tangent_f32
+    end function
+
+    function toron_hyperelastic_least_acoustic_eigenvalue_f64(values, count, deformation_gradient, fibre, least, direction) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in), optional :: deformation_gradient(*)
+      real(c_double), intent(in), optional :: fibre(*)
+      real(c_double), intent(inout), optional :: least
+      real(c_double), intent(inout), optional :: direction(*)
+      integer(c_int32_t) :: toron_hyperelastic_least_acoustic_eigenvalue_f64
+    end function
+
     function toron_hyperelastic_block_f64(values, count, block) bind(c)
       import
       real(c_double), intent(in), optional :: values(*)
@@ -283,6 +328,26 @@ module toron
       integer(c_size_t), value :: count
       type(toron_block_f32), intent(in), optional :: block
       integer(c_int32_t) :: toron_hyperelastic_block_f32
+    end function
+
+    function toron_hyperelastic_block_tangent_f64(values, count, block, measure, tangent) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_block_f64), intent(in), optional :: block
+      integer(c_int32_t), value :: measure
+      real(c_double), intent(inout), optional :: tangent(*)
+      integer(c_int32_t) :: toron_hyperelastic_block_tangent_f64
+    end function
+
+    function toron_hyperelastic_block_tangent_f32(values, count, block, measure, tangent) bind(c)
+      import
+      real(c_float), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_block_f32), intent(in), optional :: block
+      integer(c_int32_t), value :: measure
+      real(c_float), intent(inout), optional :: tangent(*)
+      integer(c_int32_t) :: toron_hyperelastic_block_tangent_f32
     end function
 
     function toron_linear_elastic_validate_f64(values, count, message, capacity, status) bind(c)
@@ -319,6 +384,24 @@ module toron
       integer(c_int32_t) :: toron_linear_elastic_step_f64
     end function
 
+    function toron_linear_elastic_step_tangent_f64(values, count, f_old, f_new, state_old, state_new, &
+        stress, rotation, criterion, axes, measure, tangent) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      real(c_double), intent(in), optional :: f_old(*)
+      real(c_double), intent(in), optional :: f_new(*)
+      real(c_double), intent(in), optional :: state_old(*)
+      real(c_double), intent(inout), optional :: state_new(*)
+      real(c_double), intent(inout), optional :: stress(*)
+      integer(c_int32_t), value :: rotation
+      integer(c_int32_t), value :: criterion
+      real(c_double), intent(inout), optional :: axes(*)
+      integer(c_int32_t), value :: measure
+      real(c_double), intent(inout), optional :: tangent(*)
+      integer(c_int32_t) :: toron_linear_elastic_step_tangent_f64
+    end function
+
     function toron_linear_elastic_increment_f64(values, count, strain, jacobian, state_old, state_new, &
         stress, criterion) bind(c)
       import
@@ -331,6 +414,24 @@ module toron
       real(c_double), intent(inout), optional :: stress(*)
       integer(c_int32_t), value :: criterion
       integer(c_int32_t) :: toron_linear_elastic_increment_f64
+    end function
+
+    function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde, sse, pnewdt, dfgrd1, &
+        props, nprops, nstatv, ndi, nshr, nlgeom) bind(c)
+      import
+      real(c_double), intent(inout), optional :: stress(*)
+      real(c_double), intent(inout), optional :: statev(*)
+      real(c_double), intent(inout), optional :: ddsdde(*)
+      real(c_double), intent(inout), optional :: sse
+      real(c_double), intent(inout), optional :: pnewdt
+      real(c_double), intent(in), optional :: dfgrd1(*)
+      real(c_double), intent(in), optional :: props(*)
+      integer(c_int32_t), value :: nprops
+      integer(c_int32_t), value :: nstatv
+      integer(c_int32_t), value :: ndi
+      integer(c_int32_t), value :: nshr
+      integer(c_int32_t), value :: nlgeom
+      integer(c_int32_t) :: toron_abaqus_umat_tangent_f64
     end function
 
     function toron_abaqus_umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, &
@@ -420,6 +521,50 @@ module toron
       integer(c_int32_t), value :: nlq
       integer(c_int), intent(inout), optional :: failels(*)
       integer(c_int32_t) :: toron_lsdyna_umat_vector_f32
+    end function
+
+    function toron_lsdyna_utan_f64(cm, hsv, nhv, es) bind(c)
+      import
+      real(c_double), intent(in), optional :: cm(*)
+      real(c_double), intent(in), optional :: hsv(*)
+      integer(c_int32_t), value :: nhv
+      real(c_double), intent(inout), optional :: es(*)
+      integer(c_int32_t) :: toron_lsdyna_utan_f64
+    end function
+
+    function toron_lsdyna_utan_f32(cm, hsv, nhv, es) bind(c)
+      import
+      real(c_float), intent(in), optional :: cm(*)
+      real(c_float), intent(in), optional :: hsv(*)
+      integer(c_int32_t), value :: nhv
+      real(c_float), intent(inout), optional :: es(*)
+      integer(c_int32_t) :: toron_lsdyna_utan_f32
+    end function
+
+    function toron_lsdyna_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, &
+        dsave) bind(c)
+      import
+      real(c_double), intent(in), optional :: cm(*)
+      real(c_double), intent(in), optional :: hsvs(*)
+      integer(c_int32_t), value :: nhv
+      integer(c_int32_t), value :: lft
+      integer(c_int32_t), value :: llt
+      integer(c_int32_t), value :: nlq
+      real(c_double), intent(inout), optional :: dsave(*)
+      integer(c_int32_t) :: toron_lsdyna_utan_vector_f64
+    end function
+
+    function toron_lsdyna_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, &
+        dsave) bind(c)
+      import
+      real(c_float), intent(in), optional :: cm(*)
+      real(c_float), intent(in), optional :: hsvs(*)
+      integer(c_int32_t), value :: nhv
+      integer(c_int32_t), value :: lft
+      integer(c_int32_t), value :: llt
+      integer(c_int32_t), value :: nlq
+      real(c_float), intent(inout), optional :: dsave(*)
+      integer(c_int32_t) :: toron_lsdyna_utan_vector_f32
     end function
 
     function toron_lsdyna_bulk_and_shear_f64(values, count, bulk, shear) bind(c)

@@ -156,6 +156,26 @@
 #define TORON_CRITERION_FIBRE 1
 
 /*
+ Tangent: dS/dE, second Piola-Kirchhoff stress by Green-Lagrange strain, reference axes; 6 x 6.
+ */
+#define TORON_TANGENT_MATERIAL 0
+
+/*
+ The Truesdell modulus of the Cauchy stress: dS/dE pushed forward, over J; 6 x 6.
+ */
+#define TORON_TANGENT_TRUESDELL 1
+
+/*
+ The modulus of the Jaumann rate of the Kirchhoff stress, over J; 6 x 6.
+ */
+#define TORON_TANGENT_JAUMANN 2
+
+/*
+ dP/dF, first Piola-Kirchhoff stress by deformation gradient, both 11 21 31 12 22 32 13 23 33; 9 x 9.
+ */
+#define TORON_TANGENT_NOMINAL 3
+
+/*
  A row of the tables of properties and state variables. Texts are terminated UTF-8.
  */
 typedef struct {
@@ -573,6 +593,69 @@ int32_t toron_hyperelastic_point_f32(const float *values,
                                      float *wave_speed);
 
 /*
+ The hyperelastic law at one point, with a tangent.
+
+ - `values`, `count`, `deformation_gradient`, `fibre`, `state_old`, `state_new`, `stress`: as for
+   `toron_hyperelastic_point_f64`.
+ - `measure`: which tangent, `TORON_TANGENT_MATERIAL`, `_TRUESDELL`, `_JAUMANN` or `_NOMINAL`.
+ - `tangent`: room for 36 values (81 for `_NOMINAL`), a symmetric matrix; must not be null. The order of rows and columns
+   is 11 22 33 12 23 31, columns of engineering shears; for `_NOMINAL` 11 21 31 12 22 32 13 23 33.
+
+ The call that detects failure gives the intact tangent, later ones zeros. At a kink (I_el = 0, I_tc = 0) it is the one of
+ loading.
+
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_hyperelastic_point_tangent_f64(const double *values,
+                                             size_t count,
+                                             const double *deformation_gradient,
+                                             const double *fibre,
+                                             const double *state_old,
+                                             double *state_new,
+                                             double *stress,
+                                             int32_t measure,
+                                             double *tangent);
+
+/*
+ As `toron_hyperelastic_point_tangent_f64`, in single precision.
+
+ # Safety
+ As for `toron_hyperelastic_point_tangent_f64`.
+ */
+int32_t toron_hyperelastic_point_tangent_f32(const float *values,
+                                             size_t count,
+                                             const float *deformation_gradient,
+                                             const float *fibre,
+                                             const float *state_old,
+                                             float *state_new,
+                                             float *stress,
+                                             int32_t measure,
+                                             float *tangent);
+
+/*
+ The least stable wave: the smallest eigenvalue of the acoustic tensor times the reference density, over all directions.
+
+ Below 0 the material is not elliptic: waves of imaginary speed, results that depend on the mesh.
+
+ - `values`, `count`, `deformation_gradient`, `fibre`: as for `toron_hyperelastic_point_f64`.
+ - `least`: one value, out, a stress; `direction`: 3 values, out, the wave's normal in space, or null.
+
+ Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const double *values,
+                                                         size_t count,
+                                                         const double *deformation_gradient,
+                                                         const double *fibre,
+                                                         double *least,
+                                                         double *direction);
+
+/*
  The hyperelastic law at a block of points.
 
  - `values`, `count`: the properties in the table's order, the same for all points.
@@ -596,6 +679,37 @@ int32_t toron_hyperelastic_block_f64(const double *values,
  As for `toron_hyperelastic_block_f64`.
  */
 int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const toron_block_f32 *block);
+
+/*
+ The hyperelastic law at a block of points, with a tangent.
+
+ - `values`, `count`, `block`: as for `toron_hyperelastic_block_f64`.
+ - `measure`: which tangent, as for `toron_hyperelastic_point_tangent_f64`.
+ - `tangent`: 36 components (81 for `TORON_TANGENT_NOMINAL`), component-major with the block's leading dimension: entry
+   (row, column), counted from 0, is component 6 row + column (9 row + column). The whole symmetric matrix. Null: none.
+
+ Returns as `toron_hyperelastic_block_f64` does; a point at fault, or failed before, has a tangent of zeros.
+
+ # Safety
+ As for `toron_hyperelastic_block_f64`.
+ */
+int32_t toron_hyperelastic_block_tangent_f64(const double *values,
+                                             size_t count,
+                                             const toron_block_f64 *block,
+                                             int32_t measure,
+                                             double *tangent);
+
+/*
+ As `toron_hyperelastic_block_tangent_f64`, in single precision.
+
+ # Safety
+ As for `toron_hyperelastic_block_f64`.
+ */
+int32_t toron_hyperelastic_block_tangent_f32(const float *values,
+                                             size_t count,
+                                             const toron_block_f32 *block,
+                                             int32_t measure,
+                                             float *tangent);
 
 /*
  Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
@@ -649,6 +763,28 @@ int32_t toron_linear_elastic_step_f64(const double *values,
                                       double *axes);
 
 /*
+ As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
+
+ - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
+   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` is DDSDDE, row by row.
+
+ # Safety
+ Every pointer is null or has as many values as said.
+ */
+int32_t toron_linear_elastic_step_tangent_f64(const double *values,
+                                              size_t count,
+                                              const double *f_old,
+                                              const double *f_new,
+                                              const double *state_old,
+                                              double *state_new,
+                                              double *stress,
+                                              int32_t rotation,
+                                              int32_t criterion,
+                                              double *axes,
+                                              int32_t measure,
+                                              double *tangent);
+
+/*
  The linear elastic law for an increment of strain in a frame that the host keeps.
 
  - `strain`: 6 tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be
@@ -672,19 +808,42 @@ int32_t toron_linear_elastic_increment_f64(const double *values,
                                            int32_t criterion);
 
 /*
- The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
+ The hyperelastic law as a UMAT of Abaqus/Standard.
 
- Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
- `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, and `nlgeom`, Abaqus's
- JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All pointers are the caller's and
- not null.
+ Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
+ `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
+ and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
+ solids, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
+ pointers but `ddsdde` are the caller's and not null.
+
+ DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
+ one, later calls zeros.
 
  Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
- and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
- lowered to at most a quarter.
+ and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
+ quarter.
 
  # Safety
  Every pointer has as many values as said.
+ */
+int32_t toron_abaqus_umat_tangent_f64(double *stress,
+                                      double *statev,
+                                      double *ddsdde,
+                                      double *sse,
+                                      double *pnewdt,
+                                      const double *dfgrd1,
+                                      const double *props,
+                                      int32_t nprops,
+                                      int32_t nstatv,
+                                      int32_t ndi,
+                                      int32_t nshr,
+                                      int32_t nlgeom);
+
+/*
+ As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
+
+ # Safety
+ As for `toron_abaqus_umat_tangent_f64`.
  */
 int32_t toron_abaqus_umat_f64(double *stress,
                               double *statev,
@@ -791,6 +950,65 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
                                      int32_t llt,
                                      int32_t nlq,
                                      int *failels);
+
+/*
+ The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
+
+ `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as the material routine has left
+ them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
+ may be null.
+
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code, and `es` is 0,
+ as it is for an element that has failed.
+
+ # Safety
+ Every pointer has as many values as said.
+ */
+int32_t toron_lsdyna_utan_f64(const double *cm,
+                              const double *hsv,
+                              int32_t nhv,
+                              double *es);
+
+/*
+ As `toron_lsdyna_utan_f64`, in single precision.
+
+ # Safety
+ As for `toron_lsdyna_utan_f64`.
+ */
+int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, float *es);
+
+/*
+ The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
+
+ `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
+ as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
+
+ Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
+
+ # Safety
+ Every pointer has as many values as said.
+ */
+int32_t toron_lsdyna_utan_vector_f64(const double *cm,
+                                     const double *hsvs,
+                                     int32_t nhv,
+                                     int32_t lft,
+                                     int32_t llt,
+                                     int32_t nlq,
+                                     double *dsave);
+
+/*
+ As `toron_lsdyna_utan_vector_f64`, in single precision.
+
+ # Safety
+ As for `toron_lsdyna_utan_vector_f64`.
+ */
+int32_t toron_lsdyna_utan_vector_f32(const float *cm,
+                                     const float *hsvs,
+                                     int32_t nhv,
+                                     int32_t lft,
+                                     int32_t llt,
+                                     int32_t nlq,
+                                     float *dsave);
 
 /*
  Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).

@@ -18,6 +18,7 @@ use toron::law::parameters::PRESETS;
 use toron::law::real::Real;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status::{self, Error};
+use toron::law::tangent::Measure;
 
 /// Where the groups of an output stand, see `common/block.rs`.
 const STRESS: Range<usize> = 0..6;
@@ -569,7 +570,7 @@ impl<T: Number> Owned<T> {
             modes: Some(&mut self.modes),
             wave_speed: Some(&mut self.wave_speed),
             status: Some(&mut self.status),
-            level: None,
+            ..Arrays::default()
         }
     }
 }
@@ -671,6 +672,8 @@ fn a_null_gradient_is_refused_and_no_points_are_none() {
             failure: std::ptr::null_mut(),
             modes: std::ptr::null_mut(),
             wave_speed: std::ptr::null_mut(),
+            tangent: std::ptr::null_mut(),
+            measure: Measure::Jaumann,
             status: std::ptr::null_mut(),
             level: None,
         };

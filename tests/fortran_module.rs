@@ -6,8 +6,8 @@ use std::path::Path;
 use toron::law::status;
 
 /// Pointers to one value; all others are to arrays.
-const SCALARS: [&str; 10] =
-    ["row", "block", "density", "wave_speed", "status", "sse", "pnewdt", "failel", "bulk", "shear"];
+const SCALARS: [&str; 11] =
+    ["row", "block", "density", "wave_speed", "status", "sse", "pnewdt", "failel", "bulk", "shear", "least"];
 
 const PREFACE: &str = "\
 ! toron: the interface of toron.h for Fortran 2018. Generated from that header: do not edit.

@@ -18,8 +18,9 @@ const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 /// How many points the program evaluates.
 const POINTS: f64 = 1024.0;
 /// The program's names of what it runs, and the function whose instructions count.
-const ENTRIES: [(&str, &str); 6] = [
+const ENTRIES: [(&str, &str); 7] = [
     ("umat-f64", "toron_abaqus_umat_f64"),
+    ("umat-tangent-f64", "toron_abaqus_umat_tangent_f64"),
     ("point-f64", "toron_hyperelastic_point_f64"),
     ("block-stress-f64", "toron_hyperelastic_block_f64"),
     ("block-state-f64", "toron_hyperelastic_block_f64"),

@@ -8,12 +8,13 @@ use approx::assert_relative_eq;
 use common::deformations::{rotation, samples};
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
-use toron::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
+use toron::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, LinearTangent, Rotation};
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
 };
 use toron::law::status;
-use toron::law::stress::{components, matrix};
+use toron::law::stress::{components, matrix, pulled_back};
+use toron::law::tangent::Measure;
 
 /// Tab. 4.4, in GPa.
 const E1: f64 = 79.414;
@@ -351,5 +352,100 @@ fn largest_principal_stress() {
         let (largest, unit) = (point.state[LINEAR_LARGEST], f64::EPSILON * stress.norm());
         assert!((largest - made_of).abs() <= 8.0 * unit, "{largest:e} for {values:?}");
         assert!((largest - solver).abs() <= 16.0 * unit, "{largest:e} for {stress}");
+    }
+}
+
+/// A step of some size from a stressed state, with the stress in the axes of the start.
+fn strained(rotation: Rotation, law: &LinearElastic, f0: &Matrix3<f64>) -> ([f64; LINEAR_ELASTIC_STATE], Matrix3<f64>) {
+    let mut axes = law.reference_axes();
+    let rest = Matrix3::identity();
+    let point = law.step(&rest, f0, &START, rotation, Criterion::LargestPrincipal, &mut axes);
+    assert_eq!(point.status, status::OK);
+    (point.state, axes)
+}
+
+/// The tangent against central differences of what the step does: every motion of the end of the step, and dP/dF.
+#[test]
+fn consistent_tangent() {
+    let law = LinearElastic::new(&[E1, E2, G, 0.0, 1.0, 0.2, -0.3, 0.0, 1.0, 0.5]).expect("valid properties");
+    let parts = prop::array::uniform9(-0.15..0.15);
+    let mut worst = [[0.0_f64; 2]; 3];
+    for (which, frame) in FRAMES.into_iter().enumerate() {
+        for (a, b) in samples((parts.clone(), parts.clone()), 40) {
+            let f0 = Matrix3::identity() + Matrix3::from_row_slice(&a);
+            let f1 = (Matrix3::identity() + Matrix3::from_row_slice(&b)) * f0;
+            let (state, axes) = strained(frame, &law, &f0);
+            let stressed = |f: &Matrix3<f64>| {
+                let point = law.step(&f0, f, &state, frame, Criterion::LargestPrincipal, &mut axes.clone());
+                assert_eq!(point.status, status::OK);
+                matrix(&point.stress)
+            };
+            let (point, tangent) =
+                law.step_with_tangent(&f0, &f1, &state, frame, Criterion::LargestPrincipal, &mut axes.clone());
+            assert_relative_eq!(matrix(&point.stress), stressed(&f1));
+            let tau = |f: &Matrix3<f64>| stressed(f) * f.determinant();
+            const STEP: f64 = 1e-5;
+            let central = |tau: &dyn Fn(f64) -> Matrix3<f64>| (tau(STEP) - tau(-STEP)) / (2.0 * STEP);
+
+            let nominal = tangent.nominal(&f1, &point.stress);
+            for column in 0..9 {
+                let mut l = Matrix3::zeros();
+                l[column] = 1.0;
+                let moved = central(&|h| tau(&((Matrix3::identity() + l * h) * f1))) / f1.determinant();
+                let error = (matrix(&tangent.0[column]) - moved).norm() / E1;
+                worst[which][0] = worst[which][0].max(error);
+                let pulled = |f: Matrix3<f64>| tau(&f) * f.try_inverse().expect("an inverse").transpose();
+                let moved = central(&|h| pulled(f1 + l * h));
+                let error = (Matrix3::from_column_slice(&nominal[9 * column..9 * column + 9]) - moved).norm() / E1;
+                worst[which][1] = worst[which][1].max(error);
+            }
+            // DDSDDE: a symmetric motion.
+            let ddsdde = tangent.matrix(Measure::Jaumann, &f1, &point.stress).expect("six rows");
+            let mut d = Matrix3::zeros();
+            (d[(0, 1)], d[(1, 0)]) = (0.5, 0.5);
+            let moved = components(&(central(&|h| tau(&((Matrix3::identity() + d * h) * f1))) / f1.determinant()));
+            for (row, moved) in ddsdde.iter().zip(moved) {
+                assert!((row[3] - moved).abs() <= 1e-7 * E1, "{frame:?}: {} instead of {moved}", row[3]);
+            }
+            let truesdell = tangent.matrix(Measure::Truesdell, &f1, &point.stress).expect("six rows");
+            let material = tangent.matrix(Measure::Material, &f1, &point.stress).expect("six rows");
+            let pushed = pulled_back(&material, &f1.try_inverse().expect("an inverse")).expect("an inverse");
+            for (one, other) in truesdell.iter().flatten().zip(pushed.iter().flatten()) {
+                assert!((one - other).abs() <= 1e-11 * E1);
+            }
+        }
+    }
+    println!("worst error of the tangent over E1 by motion and by F; frames {FRAMES:?}: {worst:?}");
+    assert!(worst.iter().flatten().all(|&error| error <= 1e-7), "{worst:?}");
+}
+
+/// From rest, in an infinitesimal step, the tangent is C itself; a failed point has none, the call that detects failure all.
+#[test]
+fn tangent_at_rest_and_at_failure() {
+    let (law, rest) = (yarn(LIMIT), Matrix3::identity());
+    for frame in FRAMES {
+        let mut axes = law.reference_axes();
+        let (point, tangent) =
+            law.step_with_tangent(&rest, &rest, &START, frame, Criterion::LargestPrincipal, &mut axes);
+        for measure in [Measure::Material, Measure::Truesdell, Measure::Jaumann] {
+            let rows = tangent.matrix(measure, &rest, &point.stress).expect("six rows");
+            for (i, row) in rows.iter().enumerate() {
+                for (j, &entry) in row.iter().enumerate() {
+                    let wanted = if i == j { [E1, E2, E2, G, G, G][i] } else { 0.0 };
+                    assert_relative_eq!(entry, wanted, epsilon = 1e-15 * E1);
+                }
+            }
+        }
+        let pulled = Matrix3::from_diagonal(&Vector3::new(1.06, 1.0, 1.0));
+        let (point, tangent) =
+            law.step_with_tangent(&rest, &pulled, &START, frame, Criterion::LargestPrincipal, &mut axes);
+        assert_eq!(point.state[LINEAR_FAILED], 1.0);
+        assert!(tangent.0[0][0] > 0.5 * E1);
+        let (again, tangent) =
+            law.step_with_tangent(&pulled, &pulled, &point.state, frame, Criterion::LargestPrincipal, &mut axes);
+        assert_eq!((again.status, tangent), (status::OK, LinearTangent::default()));
+        let (bad, tangent) =
+            law.step_with_tangent(&rest, &-rest, &START, frame, Criterion::LargestPrincipal, &mut axes);
+        assert_eq!((bad.status, tangent), (status::INVERTED, LinearTangent::default()));
     }
 }

@@ -7,6 +7,7 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::*;
 use toron::host::c_api::*;
+use toron::host::calculix::HYPERELASTIC;
 use toron::host::lsdyna::*;
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
@@ -55,6 +56,7 @@ fn entries() -> Vec<&'static str> {
     let sources = [
         include_str!("../src/host/c_api.rs"),
         include_str!("../src/host/abaqus.rs"),
+        include_str!("../src/host/calculix.rs"),
         include_str!("../src/host/lsdyna.rs"),
     ];
     let definitions = sources.iter().flat_map(|source| source.split("extern \"C\" fn ").skip(1));
@@ -107,8 +109,8 @@ fn the_library_about_itself() {
 
 /// The entries that there are in both precisions.
 macro_rules! both_precisions {
-    ($test:ident, $t:ty, $preset:ident, $validate:ident, $point:ident, $block:ident, $vumat:ident, $umat:ident,
-     $vector:ident) => {
+    ($test:ident, $t:ty, $preset:ident, $validate:ident, $point:ident, $point_tangent:ident, $block:ident,
+     $block_tangent:ident, $vumat:ident, $umat:ident, $utan:ident, $vector:ident, $vector_tangent:ident) => {
         #[test]
         fn $test() {
             let (mut values, mut density) = ([0.0 as $t; P], 0.0 as $t);
@@ -131,6 +133,12 @@ macro_rules! both_precisions {
                     let (old, n, direction) = (old.as_ptr(), new.as_mut_ptr(), fibre.as_ptr());
                     quiet!($point, yarn, P, f.as_ptr(), direction, old, n, s, m, 1.0, &mut speed);
                     quiet!($point, yarn, P, null(), null(), null(), null_mut(), s, m, -1.0, &mut speed);
+                    let mut tangent = [0.0 as $t; 81];
+                    let c = tangent.as_mut_ptr();
+                    for measure in -1..4 {
+                        quiet!($point_tangent, yarn, P, f.as_ptr(), direction, old, n, s, measure, c);
+                        quiet!($point_tangent, yarn, P, null(), null(), old, n, s, measure, null_mut());
+                    }
                     let block = Block {
                         n: 1,
                         leading_dimension: 1,
@@ -151,6 +159,10 @@ macro_rules! both_precisions {
                     quiet!($block, yarn, P, &block);
                     quiet!($block, yarn, P, &Block { leading_dimension: 0, ..block });
                     quiet!($block, yarn, P, null());
+                    for measure in -1..4 {
+                        quiet!($block_tangent, yarn, P, &block, measure, c);
+                    }
+                    quiet!($block_tangent, yarn, P, null(), 0, null_mut());
 
                     let stretch = [f[0], f[4], f[8], 0.0, 0.0, 0.0];
                     let (zero, unit) = ([0.0 as $t; S], [1.0 as $t]);
@@ -190,6 +202,10 @@ macro_rules! both_precisions {
                     let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
                     quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, S as i32, 1, 1, 1, &mut failed);
                     quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, S as i32, 0, 1, 1, &mut failed);
+                    quiet!($utan, yarn, h, S as i32, c);
+                    quiet!($utan, yarn, null(), 3, c);
+                    quiet!($vector_tangent, yarn, h, S as i32, 1, 1, 1, c);
+                    quiet!($vector_tangent, yarn, h, S as i32, 0, 1, 1, null_mut());
                 }
             }
         }
@@ -202,10 +218,14 @@ both_precisions!(
     toron_preset_f64,
     toron_hyperelastic_validate_f64,
     toron_hyperelastic_point_f64,
+    toron_hyperelastic_point_tangent_f64,
     toron_hyperelastic_block_f64,
+    toron_hyperelastic_block_tangent_f64,
     toron_abaqus_vumat_f64,
     toron_lsdyna_umat_f64,
-    toron_lsdyna_umat_vector_f64
+    toron_lsdyna_utan_f64,
+    toron_lsdyna_umat_vector_f64,
+    toron_lsdyna_utan_vector_f64
 );
 both_precisions!(
     single_precision,
@@ -213,10 +233,14 @@ both_precisions!(
     toron_preset_f32,
     toron_hyperelastic_validate_f32,
     toron_hyperelastic_point_f32,
+    toron_hyperelastic_point_tangent_f32,
     toron_hyperelastic_block_f32,
+    toron_hyperelastic_block_tangent_f32,
     toron_abaqus_vumat_f32,
     toron_lsdyna_umat_f32,
-    toron_lsdyna_umat_vector_f32
+    toron_lsdyna_utan_f32,
+    toron_lsdyna_umat_vector_f32,
+    toron_lsdyna_utan_vector_f32
 );
 
 #[test]
@@ -232,11 +256,68 @@ fn double_precision_only() {
             for count in [P as i32, -1] {
                 let (f, n) = (f.as_ptr(), S as i32);
                 quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, f, yarn, count, n, 3, 3, 1);
+                let mut c = [0.0; 36];
+                let (c, e) = (c.as_mut_ptr(), &mut energy);
+                quiet!(toron_abaqus_umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 3, 1);
+                quiet!(toron_abaqus_umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 1, 1);
             }
+            let (mut least, mut direction) = (0.0, [0.0; 3]);
+            let (w, n) = (&mut least, direction.as_mut_ptr());
+            quiet!(toron_hyperelastic_least_acoustic_eigenvalue_f64, yarn, P, f.as_ptr(), null(), w, n);
+            quiet!(toron_hyperelastic_least_acoustic_eigenvalue_f64, yarn, P, null(), null(), w, n);
             let (f, n) = (REST.as_ptr(), S as i32);
             quiet!(toron_abaqus_umat_f64, s, h, &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 0);
             quiet!(toron_abaqus_umat_f64, s, null_mut(), &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 1);
         }
+    }
+}
+
+/// Right decks only: a wrong one ends the process.
+#[test]
+fn calculix() {
+    let yarn = YARNS[0].as_ptr();
+    // A strain that is not the linear one of any F below.
+    let (strain, zeros) = ([1e3; 6], [0.0; S]);
+    let (e, z, one, no, constants, n) = (strain.as_ptr(), zeros.as_ptr(), &1, &0, &(-100 - P as i32), &(S as i32));
+    for f in deformations() {
+        let (mut stress, mut stiff, mut state, mut step) = ([0.0; 6], [0.0; 21], [0.0; S], -1.0);
+        let (s, c, h, f) = (stress.as_mut_ptr(), stiff.as_mut_ptr(), state.as_mut_ptr(), f.as_ptr());
+        let name = [b' ' as c_char; 80];
+        quiet!(
+            HYPERELASTIC,
+            name.as_ptr(),
+            one,
+            one,
+            constants,
+            yarn,
+            e,
+            z,
+            z,
+            f,
+            z,
+            f,
+            z,
+            no,
+            z,
+            z,
+            z,
+            z,
+            no,
+            no,
+            one,
+            n,
+            z,
+            h,
+            s,
+            c,
+            no,
+            z,
+            z,
+            &mut step,
+            no,
+            80,
+        );
+        assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
     }
 }
 
@@ -255,6 +336,25 @@ fn linear_elastic() {
             for rotation in -1..4 {
                 quiet!(toron_linear_elastic_step_f64, yarn, L, REST.as_ptr(), f.as_ptr(), null(), h, s, rotation, 0, a);
                 quiet!(toron_linear_elastic_step_f64, yarn, L, null(), f.as_ptr(), null(), h, s, rotation, 1, a);
+                let mut tangent = [0.0; 81];
+                let (c, r, f) = (tangent.as_mut_ptr(), REST.as_ptr(), f.as_ptr());
+                for measure in -1..4 {
+                    quiet!(
+                        toron_linear_elastic_step_tangent_f64,
+                        yarn,
+                        L,
+                        r,
+                        f,
+                        null(),
+                        h,
+                        s,
+                        rotation,
+                        0,
+                        a,
+                        measure,
+                        c
+                    );
+                }
             }
             for criterion in -1..3 {
                 quiet!(toron_linear_elastic_increment_f64, yarn, L, f.as_ptr(), 1.0, null(), h, s, criterion);

@@ -10,10 +10,11 @@ use approx::assert_relative_eq;
 use common::deformations::{Ranges, Sample, deformation, direction, samples};
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
+use toron::law::acoustic::Acoustic;
 use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::status;
-use toron::law::stress::matrix;
+use toron::law::stress::{matrix, principal_axes};
 
 const EXPONENTS: [f64; 6] = [1.2, 1.5, 2.0, 2.2, 3.0, 5.0];
 
@@ -292,6 +293,123 @@ fn fibre_wave() {
             let along = acoustic(&state.modulus(&k), &state.kirchhoff(&k), &Vector3::x())[(0, 0)];
             let expected = if stretch < 1.0 { 0.0 } else { k.k_el * (1.0 - f64::ln(stretch)) };
             assert_relative_eq!(along, expected, max_relative = 1e-12, epsilon = 1e-3);
+        }
+    }
+}
+
+/// The tangent's acoustic tensor is the one above.
+#[test]
+fn acoustic_tensor() {
+    for (Sample { f, m, .. }, k, n) in samples((states(), stiffness(), direction()), 500) {
+        let acoustic = k.law(&m).acoustic(&f.data.0, None).expect("a state");
+        let state = State::new(&f, &m);
+        let wanted = self::acoustic(&state.modulus(&k), &state.kirchhoff(&k), &n);
+        let found = matrix(&acoustic.tensor(n.into()));
+        assert_relative_eq!(found, wanted, epsilon = 1e-11 * wanted.norm());
+    }
+}
+
+/// The largest ρ0 v², climbing from some directions in turns of direction and polarisation.
+fn climbed(acoustic: &Acoustic, starts: &[Vector3<f64>], turns: usize) -> f64 {
+    let top = |s: [f64; 6]| {
+        let (values, axes) = principal_axes(&s);
+        let k = (0..3).max_by(|&a, &b| values[a].total_cmp(&values[b])).expect("three");
+        (values[k], axes[k])
+    };
+    let mut fastest = f64::NEG_INFINITY;
+    for start in starts {
+        let mut n: [f64; 3] = (*start).into();
+        for _ in 0..turns {
+            let (speed, u) = top(acoustic.tensor(n));
+            fastest = fastest.max(speed);
+            n = top(acoustic.tensor_of_directions(u)).1;
+        }
+    }
+    fastest
+}
+
+/// The bound over all cases of the truth and many random states; `TORON_STATES` says how many.
+#[test]
+fn the_bound_is_never_below_the_acoustic_tensor() {
+    for case in common::truth::cases() {
+        let law = Hyperelastic::<f64>::new(&case.properties()).expect("valid properties");
+        let f = case.deformation_gradient();
+        let bound = law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL).wave_modulus;
+        let fastest = law.acoustic(&f.data.0, None).expect("a state").greatest().modulus;
+        assert!(bound >= fastest * (1.0 - 1e-12), "case {}: {bound} < {fastest}", case.id);
+    }
+    let count = std::env::var("TORON_STATES").map_or(20_000, |count| count.parse().expect("a number"));
+    let starts = samples(direction(), 6).collect::<Vec<_>>();
+    let mut closest = f64::INFINITY;
+    for (Sample { f, m, .. }, k) in samples((states(), stiffness()), count) {
+        let law = k.law(&m);
+        let bound = law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL).wave_modulus;
+        let fastest = climbed(&law.acoustic(&f.data.0, None).expect("a state"), &starts, 4);
+        assert!(bound >= fastest * (1.0 - 1e-12), "{bound} < {fastest} for {k:?}, F = {f}, m = {m}");
+        closest = closest.min(bound / fastest.max(k.k_el));
+    }
+    println!("{count} random states: the bound is at least {closest:.4} times the fastest ρ0 v² found");
+}
+
+/// The search over directions finds what brute force finds.
+#[test]
+fn least_and_greatest_waves() {
+    let directions = samples(direction(), 4000).collect::<Vec<_>>();
+    for (Sample { f, m, .. }, k) in samples((states(), stiffness()), 60) {
+        let acoustic = k.law(&m).acoustic(&f.data.0, None).expect("a state");
+        let (least, greatest) = (acoustic.least(), acoustic.greatest());
+        let scale = k.k_el.max(greatest.modulus);
+        for n in &directions {
+            let (values, _) = principal_axes(&acoustic.tensor((*n).into()));
+            for value in values {
+                assert!(value >= least.modulus - 1e-9 * scale, "{value} < {least:?}, {k:?}, F = {f}, m = {m}");
+                assert!(value <= greatest.modulus + 1e-9 * scale, "{value} > {greatest:?}, {k:?}, F = {f}, m = {m}");
+            }
+        }
+        for wave in [least, greatest] {
+            let moved = matrix(&acoustic.tensor(wave.direction)) * Vector3::from(wave.polarisation);
+            assert!((moved - Vector3::from(wave.polarisation) * wave.modulus).norm() <= 1e-10 * scale);
+        }
+    }
+}
+
+/// Where the law loses ellipticity: the fibre beyond I_el = 1; within the section beyond I_td = 1/2, which compaction delays;
+/// along the fibre, towards the section's long axis, where its tension and the compaction do not hold what is distorted.
+#[test]
+fn loss_of_ellipticity() {
+    let wave = |k: &Stiffness, i_el: f64, i_tc: f64, i_td: f64| {
+        let stretch = [i_el, i_tc + i_td, i_tc - i_td].map(f64::exp);
+        let f = Matrix3::from_diagonal(&stretch.into());
+        k.law(&Vector3::x()).acoustic(&f.data.0, None).expect("a state").least()
+    };
+    let fibre = Stiffness { k_el: 80.0, k_tc: 0.0, p: 2.2, k_td: 0.0, k_ld: 0.0 };
+    // A fibre alone has no stiffness across: waves of speed 0, but none below.
+    for (i_el, stable) in [(0.0, true), (0.5, true), (0.999, true), (1.001, false), (1.2, false)] {
+        let least = wave(&fibre, i_el, 0.0, 0.0).modulus;
+        assert_eq!(least >= -1e-12 * 80.0, stable, "I_el = {i_el}: {least}");
+        assert!(stable || (least - 80.0 * (1.0 - i_el)).abs() < 1e-9, "I_el = {i_el}: {least}");
+    }
+    // Held by a tension of 0.8, more than ½ k_td I_td, of a fibre so stiff that slip along it takes no part.
+    let section = Stiffness { k_el: 8e6, k_tc: 0.0, p: 2.2, k_td: 1.0, k_ld: 0.0 };
+    for (i_td, stable) in [(0.0, true), (0.25, true), (0.499, true), (0.501, false), (0.7, false)] {
+        let wave = wave(&section, 1e-7, 0.0, i_td);
+        assert_eq!(wave.modulus >= -1e-6, stable, "I_td = {i_td}: {wave:?}");
+        assert!(stable || wave.direction[0].abs() + wave.polarisation[0].abs() < 1e-2, "{wave:?}");
+    }
+    let yarn = Stiffness { k_el: 82.3, k_tc: 1.055, p: 2.2, k_td: 0.65, k_ld: 0.0 };
+    assert!(wave(&yarn, 0.01, 0.0, 0.6).modulus < wave(&yarn, 0.01, -0.3, 0.6).modulus);
+
+    // ρ0 v² = k_el⟨I_el⟩ + (p/2) k_tc⟨−I_tc⟩^(p−1) − ½ k_td I_td + k_ld/λ² J_t e^(2 I_td), n = e, u = the long axis.
+    for k_ld in [0.0, 0.1] {
+        let yarn = Stiffness { k_ld, ..yarn };
+        for (i_el, i_tc, i_td) in [(-0.01, 0.0, 0.2_f64), (0.0, -0.05, 0.3), (0.0005, 0.0, 0.3)] {
+            let found = wave(&yarn, i_el, i_tc, i_td);
+            let tension = 82.3 * f64::max(i_el, 0.0) + 1.1 * 1.055 * f64::powf(-i_tc, 1.2);
+            let shear = k_ld * (2.0 * (i_tc + i_td - i_el)).exp();
+            let wanted = tension - 0.5 * 0.65 * i_td + shear;
+            assert!(k_ld > 0.0 || wanted < 0.0 && found.direction[0].abs() > 0.999_999, "{found:?}");
+            assert!((found.modulus - wanted).abs() < 1e-9 || found.modulus < wanted, "{found:?}, {wanted}");
+            assert!(k_ld > 0.0 || (found.modulus - wanted).abs() < 1e-9, "{found:?}, {wanted}");
         }
     }
 }

@@ -122,6 +122,7 @@ typedef struct {
     int modes_bounded; /* not where the pull-back magnifies errors */
     int failed;
     int clear; /* far enough from the limit for single precision to tell */
+    double ddsdde[36], ddsdde_allowed; /* 11 22 33 12 13 23; what |error| may be, 1e300 where the input allows nothing */
 } truth;
 
 static truth cases[MOST_CASES];
@@ -147,7 +148,8 @@ static inline void read_cases(int argc, char **argv)
         int complete = numbers(file, t->properties, PROPERTIES) && numbers(file, t->f, 9) && numbers(file, t->stress, 6)
             && numbers(file, &t->stress_scale, 1) && numbers(file, t->energies, 4) && numbers(file, t->energy_scales[0], 8)
             && numbers(file, t->invariants, 4) && numbers(file, t->invariant_scales, 4) && numbers(file, t->modes, 24)
-            && fscanf(file, "%d %d %d", &t->modes_bounded, &t->failed, &t->clear) == 3;
+            && fscanf(file, "%d %d %d", &t->modes_bounded, &t->failed, &t->clear) == 3 && numbers(file, t->ddsdde, 36)
+            && numbers(file, &t->ddsdde_allowed, 1);
         CHECK(complete, "case %d of the file", case_count);
         case_count++;
         t++;
@@ -194,6 +196,31 @@ static inline void check_state(const truth *t, const real *state, size_t stride)
     double failed = state[FAILED * stride], alive = state[ALIVE * stride];
     CHECK(failed == t->failed || (!t->clear && failed == !t->failed), "case %d: failed is %g", t->id, failed);
     CHECK(alive == 1 - failed, "case %d: alive is %g", t->id, alive);
+}
+
+/* A tangent against the truth, entry k at c[k * stride], where c is DDSDDE if `stress` is null and otherwise the Truesdell
+ * modulus that goes with this stress; in the library's order, 11 22 33 12 23 31, or, if `standard`, in Abaqus's. */
+static inline void check_tangent(const truth *t, const real *c, size_t stride, const real *stress, int standard)
+{
+    const int in_truth[6] = {0, 1, 2, 3, standard ? 4 : 5, standard ? 5 : 4};
+    const int first[6] = {0, 1, 2, 0, 1, 2}, second[6] = {0, 1, 2, 1, 2, 0}, component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    double square = 0, size = 0, allowed = t->ddsdde_allowed;
+    for (size_t i = 0; i < 6; i++)
+        for (size_t j = 0; j < 6; j++) {
+            CHECK(c[(6 * i + j) * stride] == c[(6 * j + i) * stride], "case %d: %d %d", t->id, (int)i, (int)j);
+            double found = c[(6 * i + j) * stride], wanted = t->ddsdde[6 * in_truth[i] + in_truth[j]];
+            if (stress != NULL) {
+                int a = first[i], b = second[i], k = first[j], l = second[j];
+                found += 0.5 * ((a == k) * (double)stress[component[b][l]] + (b == l) * (double)stress[component[a][k]]
+                                + (a == l) * (double)stress[component[b][k]] + (b == k) * (double)stress[component[a][l]]);
+            }
+            square += (found - wanted) * (found - wanted);
+            size += wanted * wanted;
+        }
+    /* In single precision the rounding of F decides on which side of a kink a small strain is. */
+    if (sizeof(real) == sizeof(float))
+        allowed = fabs(t->invariants[0]) > 1e-3 && fabs(t->invariants[1]) > 1e-3 && allowed < 1e300 ? 3e-4 * sqrt(size) : 1e300;
+    CHECK(sqrt(square) <= allowed, "case %d: error %g of %g", t->id, sqrt(square), sqrt(size));
 }
 
 /* How many cases from `first` on share their first `count` properties: they can go in one block. */

@@ -1,4 +1,4 @@
-/* The entries behind UMAT, VUMAT, umat41 and umat41v, called as the solvers' routines are. */
+/* The entries behind UMAT, VUMAT, umat41, umat41v and their tangents, called as the solvers' routines are. */
 #include "check.h"
 
 /* ---- LS-DYNA */
@@ -19,6 +19,16 @@ static void lsdyna_scalar(void)
         CHECK(*failel == (hsv[FAILED] == 1), "case %d", t->id);
         for (int i = 0; i < 9; i++)
             CHECK(hsv[STATE + i] == (real)t->f[i], "case %d: F is read only", t->id);
+
+        real *es = reals(36);
+        hsv[FAILED] = 0;
+        status = ENTRY(toron_lsdyna_utan)(cm, hsv, STATE, es);
+        CHECK(status == TORON_OK, "case %d: %d", t->id, status);
+        check_tangent(t, es, 1, sig, 0);
+        hsv[FAILED] = 1;
+        status = ENTRY(toron_lsdyna_utan)(cm, hsv, STATE, es);
+        for (int k = 0; k < 36; k++)
+            CHECK(status == TORON_OK && es[k] == 0, "case %d: a failed element has no stiffness", t->id);
         release();
     }
 }
@@ -89,6 +99,37 @@ static void lsdyna_vector(void)
             CHECK(v.failels[i] == (v.hsvs[FAILED * v.nlq + i] == 1), "case %d", t->id);
         }
         check_outside(&v);
+        release();
+        first += n;
+    }
+}
+
+/* dsave of elements lft to llt; the others are not touched. */
+static void lsdyna_vector_tangents(void)
+{
+    for (int first = 0; first < case_count;) {
+        int n = run_of_cases(first, PROPERTIES);
+        vector_block v = allocate(&cases[first], n);
+        umat_vector(&v);
+        size_t nlq = (size_t)v.nlq;
+        real *dsave = reals(36 * nlq);
+        for (int i = v.lft - 1; i < v.llt; i++)
+            v.hsvs[FAILED * v.nlq + i] = 0;
+        int32_t status = ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, dsave);
+        CHECK(status == TORON_OK, "%d", status);
+        for (int i = v.lft - 1; i < v.llt; i++) {
+            check_tangent(&cases[first + i - v.lft + 1], dsave + i, nlq, stress_of(&v, i), 0);
+        }
+        for (size_t c = 0; c < 36; c++) {
+            CHECK(untouched(dsave + c * nlq, (size_t)(v.lft - 1) * sizeof(real)), "before lft");
+            CHECK(untouched(dsave + c * nlq + v.llt, (nlq - (size_t)v.llt) * sizeof(real)), "beyond llt");
+        }
+        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, 0, v.llt, v.nlq, dsave) == TORON_BAD_COUNT, "lft");
+        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, 1, v.llt, 1, dsave) == TORON_BAD_LEADING_DIMENSION
+                  || v.llt == 1, "nlq");
+        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, 3, v.lft, v.llt, v.nlq, dsave) == TORON_STATE_COUNT, "NHV");
+        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, NULL) == TORON_NULL_ARGUMENT, "dsave");
+        CHECK(ENTRY(toron_lsdyna_utan)(v.cm, NULL, STATE, dsave) == TORON_NULL_ARGUMENT, "hsv");
         release();
         first += n;
     }
@@ -350,13 +391,13 @@ static void vumat_wrong_calls(void)
 static const int order_standard[6] = {0, 1, 2, 3, 5, 4}; /* 11 22 33 12 13 23 */
 
 typedef struct {
-    double *stress, *statev, *sse, *pnewdt, *dfgrd1, *props;
+    double *stress, *statev, *ddsdde, *sse, *pnewdt, *dfgrd1, *props;
     int32_t nprops, nstatv, ndi, nshr, nlgeom;
 } umat_arguments;
 
 static umat_arguments umat_point(const truth *t)
 {
-    umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .sse = reals(1), .pnewdt = filled(1, 1),
+    umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .ddsdde = reals(36), .sse = reals(1), .pnewdt = filled(1, 1),
                         .dfgrd1 = copied(t->f, 9),
                         .props = copied(t->properties, PROPERTIES), .nprops = PROPERTIES, .nstatv = STATE, .ndi = 3,
                         .nshr = 3, .nlgeom = 1};
@@ -365,8 +406,8 @@ static umat_arguments umat_point(const truth *t)
 
 static int32_t call_umat(const umat_arguments *a)
 {
-    return toron_abaqus_umat_f64(a->stress, a->statev, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops, a->nstatv,
-                                 a->ndi, a->nshr, a->nlgeom);
+    return toron_abaqus_umat_tangent_f64(a->stress, a->statev, a->ddsdde, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops,
+                                         a->nstatv, a->ndi, a->nshr, a->nlgeom);
 }
 
 static void umat(void)
@@ -384,6 +425,22 @@ static void umat(void)
             energy += a.statev[ENERGIES + k];
         CHECK(fabs(*a.sse * jacobian - energy) <= 1e-12 * energy, "case %d: SSE %g", t->id, *a.sse);
         CHECK(*a.pnewdt == 1, "case %d: PNEWDT %g", t->id, *a.pnewdt);
+        check_tangent(t, a.ddsdde, 1, NULL, 1);
+
+        /* Without DDSDDE: the same bits, by either entry. */
+        umat_arguments b = umat_point(t);
+        toron_abaqus_umat_f64(b.stress, b.statev, b.sse, b.pnewdt, b.dfgrd1, b.props, b.nprops, b.nstatv, 3, 3, 1);
+        CHECK(memcmp(a.stress, b.stress, 6 * sizeof(double)) == 0, "case %d: stress", t->id);
+        CHECK(memcmp(a.statev, b.statev, STATE * sizeof(double)) == 0, "case %d: state", t->id);
+
+        /* Plane strain: four components of the six. */
+        umat_arguments plane = umat_point(t);
+        plane.nshr = 1;
+        CHECK(call_umat(&plane) == TORON_OK, "case %d", t->id);
+        CHECK(memcmp(a.stress, plane.stress, 4 * sizeof(double)) == 0, "case %d: stress", t->id);
+        for (int i = 0; i < 4; i++)
+            CHECK(memcmp(a.ddsdde + 6 * i, plane.ddsdde + 4 * i, 4 * sizeof(double)) == 0, "case %d: row %d", t->id, i);
+        CHECK(untouched(plane.stress + 4, 2 * sizeof(double)) && untouched(plane.ddsdde + 16, 20 * sizeof(double)), "beyond");
         release();
     }
 }
@@ -393,6 +450,7 @@ static void umat_refused(umat_arguments a, int32_t wanted)
     CHECK(call_umat(&a) == wanted, "wanted %d", wanted);
     if (a.stress != NULL)
         CHECK(untouched(a.stress, 6 * sizeof(double)), "status %d", wanted);
+    CHECK(untouched(a.ddsdde, 36 * sizeof(double)), "status %d", wanted);
     CHECK(untouched(a.sse, sizeof(double)) && *a.pnewdt == 1, "status %d", wanted);
 }
 
@@ -405,7 +463,9 @@ static void umat_wrong_calls(void)
     umat_refused(a, TORON_NO_DEFORMATION_GRADIENT);
     a = good, a.ndi = 2;
     umat_refused(a, TORON_BAD_COUNT);
-    a = good, a.nshr = 1;
+    a = good, a.nshr = 2;
+    umat_refused(a, TORON_BAD_COUNT);
+    a = good, a.ndi = 2, a.nshr = 1; /* plane stress */
     umat_refused(a, TORON_BAD_COUNT);
     a = good, a.nstatv = STATE - 1;
     umat_refused(a, TORON_STATE_COUNT);
@@ -428,6 +488,8 @@ static void umat_wrong_calls(void)
     CHECK(call_umat(&a) == TORON_INVERTED && *a.pnewdt == 0.25, "PNEWDT %g", *a.pnewdt);
     *a.pnewdt = 0.125;
     CHECK(call_umat(&a) == TORON_INVERTED && *a.pnewdt == 0.125, "PNEWDT %g", *a.pnewdt);
+    for (int k = 0; k < 36; k++)
+        CHECK(a.ddsdde[k] == 0, "no stiffness");
     CHECK(a.statev[ENERGIES] == 3 && a.stress[0] == 0 && untouched(a.sse, sizeof(double)), "the state stays");
     release();
 }
@@ -438,6 +500,7 @@ int main(int argc, char **argv)
     read_cases(argc, argv);
     lsdyna_scalar();
     lsdyna_vector();
+    lsdyna_vector_tangents();
     lsdyna_bad_elements();
     lsdyna_wrong_calls();
     lsdyna_moduli();

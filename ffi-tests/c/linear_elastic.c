@@ -34,6 +34,32 @@ static void axes(void)
     release();
 }
 
+/* The tangent of an infinitesimal step from rest is C, in every frame. */
+static void tangent(void)
+{
+    double *properties = yarn(), *turning = guarded(9 * sizeof *turning), *f = array(at_rest, 9);
+    double *stress = guarded(6 * sizeof *stress), *c = guarded(36 * sizeof *c), *nominal = guarded(81 * sizeof *nominal);
+    toron_linear_elastic_axes_f64(properties, N, turning);
+    const double wanted[6] = {79.414, 0.794, 0.794, 0.126, 0.126, 0.126};
+    for (int32_t rotation = 0; rotation < 3; rotation++) {
+        for (int32_t measure = TORON_TANGENT_MATERIAL; measure <= TORON_TANGENT_JAUMANN; measure++) {
+            int32_t status = toron_linear_elastic_step_tangent_f64(properties, N, f, f, NULL, NULL, stress, rotation, 0,
+                                                                   turning, measure, c);
+            CHECK(status == TORON_OK, "%d", status);
+            for (int i = 0; i < 36; i++)
+                CHECK(fabs(c[i] - (i % 7 == 0 ? wanted[i / 7] : 0)) <= 1e-13, "measure %d: c[%d] = %g", measure, i, c[i]);
+        }
+        int32_t status = toron_linear_elastic_step_tangent_f64(properties, N, f, f, NULL, NULL, NULL, rotation, 0, turning,
+                                                               TORON_TANGENT_NOMINAL, nominal);
+        CHECK(status == TORON_OK && fabs(nominal[0] - wanted[0]) <= 1e-13 && fabs(nominal[40] - wanted[1]) <= 1e-13, "%d", status);
+    }
+    CHECK(toron_linear_elastic_step_tangent_f64(properties, N, f, f, NULL, NULL, NULL, 0, 0, turning, 4, c)
+              == TORON_BAD_ARGUMENT, "measure");
+    CHECK(toron_linear_elastic_step_tangent_f64(properties, N, f, f, NULL, NULL, NULL, 0, 0, turning, 0, NULL)
+              == TORON_NULL_ARGUMENT, "no room");
+    release();
+}
+
 /* F = diag(λ, 1, 1) in equal steps: σ11 = E1 ln λ in any frame, and failure at ln λ = σ_lim/E1. */
 static void pull(int32_t rotation)
 {
@@ -126,6 +152,7 @@ static void refused(void)
 int main(void)
 {
     axes();
+    tangent();
     pull(TORON_ROTATION_FIBRE);
     pull(TORON_ROTATION_POLAR);
     pull(TORON_ROTATION_SPIN);

@@ -81,6 +81,83 @@ static void ways_to_ask(void)
     release();
 }
 
+/* Every measure of the tangent; stress and state are those of the call without. */
+static void tangents(void)
+{
+    for (const truth *t = cases; t < cases + case_count; t++) {
+        real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *new = reals(STATE), *plain = reals(STATE);
+        real *stress = reals(6), *alone = reals(6), *jaumann = reals(36), *truesdell = reals(36), *material = reals(36);
+        real *nominal = reals(81);
+        ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, NULL, plain, alone, NULL, 0, NULL);
+        int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, new, stress,
+                                                                 TORON_TANGENT_JAUMANN, jaumann);
+        CHECK(status == TORON_OK, "case %d: %d", t->id, status);
+        CHECK(memcmp(stress, alone, 6 * sizeof(real)) == 0, "case %d: stress", t->id);
+        CHECK(memcmp(new, plain, STATE * sizeof(real)) == 0, "case %d: state", t->id);
+        check_tangent(t, jaumann, 1, NULL, 0);
+        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
+                                                TORON_TANGENT_TRUESDELL, truesdell);
+        check_tangent(t, truesdell, 1, stress, 0);
+        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
+                                                TORON_TANGENT_MATERIAL, material);
+        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
+                                                TORON_TANGENT_NOMINAL, nominal);
+        for (int k = 0; k < 36; k++)
+            CHECK(material[k] == material[k % 6 * 6 + k / 6], "case %d: material, entry %d", t->id, k);
+        for (int k = 0; k < 81; k++)
+            CHECK(nominal[k] == nominal[k % 9 * 9 + k / 9], "case %d: nominal, entry %d", t->id, k);
+
+        /* The latch set before: nothing. */
+        new[FAILED] = 1;
+        status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, new, NULL, stress,
+                                                         TORON_TANGENT_JAUMANN, jaumann);
+        for (int k = 0; k < 36; k++)
+            CHECK(status == TORON_OK && jaumann[k] == 0 && stress[0] == 0, "case %d: failed", t->id);
+
+        if (sizeof(real) == sizeof(double)) {
+            double *values = guarded(PROPERTIES * sizeof(double)), *columns = guarded(9 * sizeof(double));
+            double *least = guarded(sizeof(double)), *direction = guarded(3 * sizeof(double));
+            memcpy(values, t->properties, PROPERTIES * sizeof(double));
+            memcpy(columns, t->f, 9 * sizeof(double));
+            status = toron_hyperelastic_least_acoustic_eigenvalue_f64(values, PROPERTIES, columns, NULL, least, direction);
+            double square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+            CHECK(status == TORON_OK && isfinite(*least) && fabs(square - 1) < 1e-12, "case %d: %d", t->id, status);
+            CHECK(toron_hyperelastic_least_acoustic_eigenvalue_f64(values, PROPERTIES, NULL, NULL, least, NULL)
+                      == TORON_NULL_ARGUMENT, "no F");
+        }
+        release();
+    }
+}
+
+static void wrong_tangents(void)
+{
+    const truth *t = &cases[0];
+    real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *stress = reals(6), *tangent = reals(81);
+    const int32_t measures[2] = {-1, 4};
+    for (int i = 0; i < 2; i++) {
+        int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress,
+                                                                 measures[i], tangent);
+        CHECK(status == TORON_BAD_ARGUMENT, "%d", status);
+    }
+    CHECK(ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress, 0, NULL)
+              == TORON_NULL_ARGUMENT, "no room");
+    CHECK(ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, NULL, NULL, NULL, NULL, stress, 0, tangent)
+              == TORON_NULL_ARGUMENT, "no F");
+    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, NULL, 0, tangent) == TORON_NULL_ARGUMENT, "no block");
+    toron_block block = {.n = 1, .leading_dimension = 1, .deformation_gradient = f, .stress = stress};
+    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, 4, tangent) == TORON_BAD_ARGUMENT, "measure");
+    CHECK(untouched(stress, 6 * sizeof(real)) && untouched(tangent, 81 * sizeof(real)), "nothing is written");
+
+    /* A point at fault has no stiffness; without room for a tangent a block is a block. */
+    f[0] = -f[0], f[1] = -f[1], f[2] = -f[2];
+    int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress,
+                                                             TORON_TANGENT_NOMINAL, tangent);
+    for (int k = 0; k < 81; k++)
+        CHECK(status == TORON_INVERTED && tangent[k] == 0, "%d", status);
+    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, 0, NULL) == TORON_INVERTED, "no tangent");
+    release();
+}
+
 /* Guarded arrays of a block: `ld` is more than n, so that there are gaps nobody may write to. */
 typedef struct {
     size_t n, ld;
@@ -145,10 +222,14 @@ static void blocks(void)
         for (int i = 0; i < n; i++)
             set_point(&a, (size_t)i, &cases[first + i]);
         real *properties = copied(cases[first].properties, PROPERTIES);
+        real *tangent = reals(36 * a.ld);
         toron_block block = arguments(&a);
-        int32_t status = ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, &block);
+        int32_t status = ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, TORON_TANGENT_JAUMANN, tangent);
         CHECK(status == TORON_OK, "%d", status);
+        for (size_t c = 0; c < 36; c++)
+            CHECK(untouched(tangent + c * a.ld + a.n, (a.ld - a.n) * sizeof(real)), "tangent %d", (int)c);
         for (int i = 0; i < n; i++) {
+            check_tangent(&cases[first + i], tangent + i, a.ld, NULL, 0);
             CHECK(a.status[i] == TORON_OK, "case %d: %d", cases[first + i].id, a.status[i]);
             check_stress(&cases[first + i], a.stress + i, a.ld);
             check_state(&cases[first + i], a.state + i, a.ld);
@@ -250,6 +331,8 @@ int main(int argc, char **argv)
     read_cases(argc, argv);
     every_case();
     ways_to_ask();
+    tangents();
+    wrong_tangents();
     blocks();
     bad_points();
     wrong_calls();

@@ -9,6 +9,8 @@ module cases
     real(c_double) :: properties(11), f(9), stress(6), stress_scale
     real(c_double) :: energies(4), energy_scales(4, 2), invariants(4), invariant_scales(4), modes(24)
     integer :: modes_bounded, failed, clear
+    ! DDSDDE 11 22 33 12 13 23, and what |error| may be; 1e300 where there is none or the input allows none.
+    real(c_double) :: ddsdde(6, 6), ddsdde_allowed
   end type
 
   integer, parameter :: number_of_cases = 256
@@ -54,6 +56,20 @@ contains
     call check(all(abs(state(5:8) - t%invariants) <= allowed * t%invariant_scales), 'invariants', t%id)
     call check(abs(state(10) - t%failed) < 0.5 .or. (single .and. t%clear == 0), 'failed', t%id)
     call check(abs(state(11) - (1 - state(10))) <= 0, 'alive', t%id)
+  end subroutine
+
+  ! A tangent 11 22 33 12 13 23, symmetric to the bit, against the truth.
+  subroutine check_tangent(t, ddsdde, single)
+    type(truth), intent(in) :: t
+    real(c_double), intent(in) :: ddsdde(6, 6)
+    logical, intent(in) :: single
+    real(c_double) :: allowed
+    allowed = t%ddsdde_allowed
+    ! In single precision the rounding of F decides on which side of a kink a small strain is.
+    if (single) allowed = merge(3e-4_c_double * sqrt(sum(t%ddsdde**2)), 1e300_c_double, &
+      all(abs(t%invariants(1:2)) > 1e-3) .and. allowed < 1e300_c_double)
+    call check(all(abs(ddsdde - transpose(ddsdde)) <= 0), 'symmetric tangent', t%id)
+    call check(sqrt(sum((ddsdde - t%ddsdde)**2)) <= allowed, 'tangent', t%id)
   end subroutine
 
   ! Cases first .. last share their properties: they can go in one block.

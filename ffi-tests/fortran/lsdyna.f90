@@ -1,9 +1,9 @@
-! The shims lsdyna_umat41.f and lsdyna_umat41v.f, called as LS-DYNA does, with the default kinds of the build.
+! The shims lsdyna_umat41.f, lsdyna_umat41v.f, lsdyna_utan41.f and lsdyna_utan41v.f, called as LS-DYNA does, with the default kinds of the build.
 program lsdyna_test
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int64_t
   use cases
   implicit none
-  external :: umat41, umat41v
+  external :: umat41, umat41v, utan41, utan41v
 
   real, parameter :: mark = -7.25
   logical, parameter :: single = kind(mark) == c_float
@@ -57,7 +57,56 @@ contains
     call check(all(stress(:0) == mark) .and. all(stress(7:) == mark), 'around sig', t%id)
     call check(all(hsv(:0) == mark) .and. all(hsv(history + 1:) == mark), 'around hsv', t%id)
     call check(failel(1) .and. .not. failel(3), 'around failel', t%id)
+    call tangent(t, real(stress(1:6), c_double), hsv(1))
   end subroutine
+
+  ! The tangent of an element that has not failed before.
+  subroutine tangent(t, stress, hsv)
+    type(truth), intent(in) :: t
+    real(c_double), intent(in) :: stress(6)
+    real, intent(inout) :: hsv(*)
+    real :: es(1 - before:36 + behind), zero(9)
+    logical :: unsym, failel
+    integer :: nnpcrv(1)
+    es = mark
+    zero = 0
+    nnpcrv = 0
+    unsym = .false.
+    failel = .false.
+    hsv(10) = 0
+    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es(1), zero, nnpcrv, failel, zero, &
+      zero)
+    call check_tangent(t, jaumann(real(es(1:36), c_double), stress), single)
+    call check(all(es(:0) == mark) .and. all(es(37:) == mark), 'around es', t%id)
+    call check(.not. unsym .and. .not. failel, 'unsym, failel', t%id)
+    hsv(10) = 1
+    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es(1), zero, nnpcrv, failel, zero, &
+      zero)
+    call check(all(es(1:36) == 0), 'a failed element has no stiffness', t%id)
+  end subroutine
+
+  ! DDSDDE of a Truesdell modulus: c_ijkl + (d_ik s_jl + d_jl s_ik + d_il s_jk + d_jk s_il)/2, with 13 and 23 in its order.
+  function jaumann(es, stress) result(ddsdde)
+    real(c_double), intent(in) :: es(36), stress(6)
+    real(c_double) :: ddsdde(6, 6), c(6, 6), s(3, 3)
+    integer, parameter :: order(6) = [1, 2, 3, 4, 6, 5], one(6) = [1, 2, 3, 1, 1, 2], two(6) = [1, 2, 3, 2, 3, 3]
+    integer :: p, q
+    s = reshape(stress([1, 4, 6, 4, 2, 5, 6, 5, 3]), [3, 3])
+    c = reshape(es, [6, 6])
+    c = c(order, order)
+    do q = 1, 6
+      do p = 1, 6
+        ddsdde(p, q) = c(p, q) + 0.5_c_double * (part(one(p), one(q), s(two(p), two(q))) + part(two(p), two(q), &
+          s(one(p), one(q))) + part(one(p), two(q), s(two(p), one(q))) + part(two(p), one(q), s(one(p), two(q))))
+      end do
+    end do
+  end function
+
+  real(c_double) function part(i, k, s)
+    integer, intent(in) :: i, k
+    real(c_double), intent(in) :: s
+    part = merge(s, 0.0_c_double, i == k)
+  end function
 
   subroutine call_scalar(stress, hsv, failel)
     real, intent(inout) :: stress(*), hsv(*)
@@ -117,6 +166,28 @@ contains
       call check_answer(table(first + k - 1), real(sig(element, :), c_double), real(hsvs(element, :nhv), c_double), single)
       call check(failels(element) .eqv. hsvs(element, 10) > 0.5, 'failels', table(first + k - 1)%id)
     end do
+    call tangents(n)
+  end subroutine
+
+  subroutine tangents(n)
+    integer, intent(in) :: n
+    real, allocatable :: dsave(:, :), zero(:)
+    logical :: unsym
+    integer :: nnpcrv(1), nlq, k
+    nlq = size(failels)
+    allocate (dsave(nlq, 36), source=mark)
+    allocate (zero(9 * nlq), source=0.0)
+    nnpcrv = 0
+    unsym = .false.
+    hsvs(before + 1:before + n, 10) = 0
+    call utan41v(cm, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, hsvs, unsym, &
+      before + 1, before + n, zero, zero, 'solid', zero, zero, dsave, nlq, zero, nnpcrv, failels, zero, zero)
+    do k = 1, n
+      call check_tangent(table(first + k - 1), jaumann(real(dsave(before + k, :), c_double), &
+        real(sig(before + k, :), c_double)), single)
+    end do
+    call check(all(dsave(:before, :) == mark) .and. all(dsave(before + n + 1:, :) == mark), 'dsave outside', first)
+    call check(.not. unsym, 'unsym', first)
   end subroutine
 
   ! An inverted element fails; its neighbours do not notice, and the job goes on.

@@ -22,18 +22,27 @@ program umat_test
     ! Abaqus/Standard has 11 22 33 12 13 23.
     call check_answer(table(i), stress([1, 2, 3, 4, 6, 5]), statev(1:11), .false.)
     call check_guards
-    call check(all(ddsdde == mark), 'DDSDDE untouched', i)
+    call check_tangent(table(i), reshape(ddsdde(1:36), [6, 6]), .false.)
+    call check(all(ddsdde(:0) == mark) .and. all(ddsdde(37:) == mark), 'around DDSDDE', i)
     call check(statev(12) == mark, 'a state variable that is not the law''s', i)
     call check(pnewdt(1) == 1, 'PNEWDT', i)
   end do
   call check(stops == 0, 'no stop', 0)
+
+  ! Plane strain and axisymmetric solids: 11 22 33 12.
+  do i = 1, number_of_cases
+    call prepare(table(i))
+    call call_umat(11, 12, 3, 1)
+    call check(all(stress(5:) == mark) .and. all(ddsdde(17:) == mark), 'four components', i)
+    call plane(table(i))
+  end do
 
   ! An inverted point asks for a smaller increment and says nothing.
   call prepare(table(1))
   f(1:3) = -f(1:3)
   call call_umat(11, 12, 3, 3)
   call check(stops == 0 .and. pnewdt(1) == 0.25, 'inverted', 0)
-  call check(all(stress(1:6) == 0), 'no stress', 0)
+  call check(all(stress(1:6) == 0) .and. all(ddsdde(1:36) == 0), 'no stress, no stiffness', 0)
 
   call refused('NLGEOM', 11, 12, 3)
   call prepare(table(1))
@@ -42,11 +51,23 @@ program umat_test
   call refused('number of properties: 10 given, 11 needed', 10, 12, 3)
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)
-  call refused('a count is not what this entry can serve', 11, 12, 1)
+  call refused('a count is not what this entry can serve', 11, 12, 2)
   call check_written(7, 'material FIBRE:')
   call finish
 
 contains
+
+  ! Four components are four of the six.
+  subroutine plane(t)
+    type(truth), intent(in) :: t
+    real(c_double) :: four(4), matrix(4, 4), six(6, 6)
+    four = stress(1:4)
+    matrix = reshape(ddsdde(1:16), [4, 4])
+    call prepare(t)
+    call call_umat(11, 12, 3, 3)
+    six = reshape(ddsdde(1:36), [6, 6])
+    call check(all(four == stress(1:4)) .and. all(matrix == six(1:4, 1:4)), 'of the six', t%id)
+  end subroutine
 
   subroutine prepare(t)
     type(truth), intent(in) :: t

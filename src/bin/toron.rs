@@ -40,6 +40,9 @@ enum Command {
         /// The C entry to go through, as its host would call it.
         #[arg(long, value_enum, default_value = "law")]
         via: Entry,
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it (every entry but the VUMATs).
+        #[arg(long)]
+        tangent: bool,
     },
     /// Measure what a point costs on this machine; takes a few seconds.
     Bench {
@@ -53,7 +56,7 @@ fn main() -> ExitCode {
     let answer: Result<(), Error> = match Arguments::parse().command {
         Command::Run { path, output } => command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
-        Command::Eval { via } => eval::lines(via),
+        Command::Eval { via, tangent } => eval::lines(via, tangent),
         Command::Bench { output } => bench::run(output.as_deref()),
     };
     match answer {

@@ -75,6 +75,8 @@ struct Output {
     status: i32,
     #[serde(skip_serializing_if = "Option::is_none")]
     message: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ddsdde: Option<[[f64; 6]; 6]>,
     #[serde(rename = "Sel", skip_serializing_if = "Option::is_none")]
     s_el: Option<[f64; 6]>,
     #[serde(rename = "Stc", skip_serializing_if = "Option::is_none")]
@@ -89,19 +91,19 @@ struct Output {
 ///
 /// # Errors
 /// Reading or writing fails.
-pub fn lines(entry: Entry) -> Result<(), Error> {
-    match evaluate(entry, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
+pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
+    match evaluate(entry, tangent, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
         // A reader that has gone is no error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Evaluation(error.to_string())),
         _ => Ok(()),
     }
 }
 
-/// Evaluates every line of `input`, from a fresh state each.
+/// Evaluates every line of `input`, from a fresh state each; with `tangent` DDSDDE too, where the entry has a tangent.
 ///
 /// # Errors
 /// Reading or writing fails. A line that cannot be read or evaluated is answered by a line with its status.
-pub fn evaluate(entry: Entry, input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: impl Write) -> io::Result<()> {
     let mut number = 0;
     for line in input.split(b'\n') {
         let line = line?;
@@ -110,7 +112,7 @@ pub fn evaluate(entry: Entry, input: impl BufRead, mut output: impl Write) -> io
             continue;
         }
         let answer = match serde_json::from_slice::<Input>(&line) {
-            Ok(point) => evaluate_point(entry, &point, number),
+            Ok(point) => evaluate_point(entry, tangent, &point, number),
             Err(error) => Output {
                 status: status::BAD_ARGUMENT,
                 message: Some(format!(
@@ -126,31 +128,35 @@ pub fn evaluate(entry: Entry, input: impl BufRead, mut output: impl Write) -> io
     output.flush()
 }
 
-fn evaluate_point(entry: Entry, point: &Input, line: usize) -> Output {
+fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Output {
     let p = &point.params;
     let [m1, m2, m3] = point.m;
     let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
     let f = point.f;
     let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
     let answer = match entry {
-        Entry::Law => calls::point(&properties, &columns),
-        Entry::Block => calls::block(&properties, &columns, line, c_api::toron_hyperelastic_block_f64),
+        Entry::Law => calls::point(&properties, &columns, tangent),
+        Entry::Block => calls::block(&properties, &columns, line, tangent, c_api::toron_hyperelastic_block_tangent_f64),
         Entry::BlockF32 => {
             let single = |x: f64| x as f32;
-            calls::block(&properties.map(single), &columns.map(single), line, c_api::toron_hyperelastic_block_f32)
+            calls::block(
+                &properties.map(single),
+                &columns.map(single),
+                line,
+                tangent,
+                c_api::toron_hyperelastic_block_tangent_f32,
+            )
         }
-        Entry::Umat => calls::umat(&properties, &columns),
+        Entry::Umat => calls::umat(&properties, &columns, tangent),
         Entry::Vumat => {
             via_vumat(&f, |stretch| calls::vumat(&properties, stretch, |x| x, abaqus::toron_abaqus_vumat_f64))
         }
         Entry::VumatSp => {
             via_vumat(&f, |stretch| calls::vumat(&properties, stretch, |x| x as f32, abaqus::toron_abaqus_vumat_f32))
         }
-        Entry::LsDyna => calls::lsdyna(&properties, &columns),
-        Entry::LsDynaVector => calls::lsdyna_vector(&properties, &columns, line),
+        Entry::LsDyna => calls::lsdyna(&properties, &columns, tangent),
+        Entry::LsDynaVector => calls::lsdyna_vector(&properties, &columns, line, tangent),
     };
-    // 11 22 33 12 23 31 to 11 22 33 12 13 23.
-    let order = |s: [f64; 6]| [s[0], s[1], s[2], s[3], s[5], s[4]];
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;
     Output {
@@ -167,11 +173,17 @@ fn evaluate_point(entry: Entry, point: &Input, line: usize) -> Output {
         sigma: order(answer.stress),
         status: answer.status,
         message: (answer.status != status::OK).then(|| calls::message(answer.status, &properties)),
+        ddsdde: answer.ddsdde.map(|rows| order(rows.map(order))),
         s_el: mode(0),
         s_tc: mode(1),
         s_td: mode(2),
         s_ld: mode(3),
     }
+}
+
+/// 11 22 33 12 23 31 to 11 22 33 12 13 23.
+fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
+    [s[0], s[1], s[2], s[3], s[5], s[4]]
 }
 
 /// Plays Abaqus/Explicit: U goes in, the corotational stress comes out and is turned by R.

@@ -1,6 +1,6 @@
 //! Either law behind one face: properties, memory, evaluation from the deformation gradient.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation};
@@ -40,6 +40,9 @@ pub struct Memory {
     /// The linear elastic law's axes, which follow the spin where that is its frame.
     axes: Matrix3<f64>,
 }
+
+/// dP/dF, both by columns 11 21 31 12 22 32 13 23 33.
+pub type NominalTangent = SMatrix<f64, 9, 9>;
 
 /// What the material answers to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,6 +151,28 @@ impl Material {
                 accept(point.status, Answer { cauchy, memory: new, modes: [[0.0; 6]; 4], wave_modulus })
             }
         }
+    }
+
+    /// The Cauchy stress at the deformation gradient `f`, and dP/dF.
+    ///
+    /// # Errors
+    /// The law's status code where it cannot be evaluated.
+    pub fn tangent(&self, f: &Matrix3<f64>, memory: &Memory) -> Result<([f64; 6], NominalTangent), i32> {
+        let (cauchy, nominal, status) = match &self.law {
+            Law::Hyperelastic(law) => {
+                let request = Request { stress: true, ..Request::default() };
+                let (point, nominal) = law.point_with_nominal(&f.data.0, None, &memory.state, request);
+                (point.stress, nominal, point.status)
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut old = [0.0; LINEAR_ELASTIC_STATE];
+                old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
+                let mut axes = memory.axes;
+                let (point, tangent) = law.step_with_tangent(&memory.f, f, &old, *frame, *criterion, &mut axes);
+                (point.stress, tangent.nominal(f, &point.stress), point.status)
+            }
+        };
+        if status == status::OK { Ok((cauchy, NominalTangent::from_column_slice(&nominal))) } else { Err(status) }
     }
 
     /// Whether the point has failed.

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector};
 
+use super::material::NominalTangent;
 use crate::law::status;
 
 /// What is known of a component: of the deformation gradient, or of the first Piola–Kirchhoff stress.
@@ -21,11 +22,11 @@ pub const COMPONENT_NAMES: [&str; 9] = ["11", "12", "13", "21", "22", "23", "31"
 const TOLERANCE: f64 = 1e-11;
 /// A direction of stiffness below this fraction of the scale has none: two orders above what rounding leaves of it.
 const NO_STIFFNESS: f64 = 1e-9;
-/// Half-width of the central difference: the rounding of the stress over it meets the square of it.
-const DIFFERENCE: f64 = 1e-6;
 /// Largest change of a component in one iteration.
 const LARGEST_STEP: f64 = 0.1;
-/// How far a component without stiffness is moved in search of some: a slack yarn is drawn taut, a loose one compacted.
+/// How far a component without stiffness is moved in search of some, at first and at most: a slack yarn is drawn taut, a
+/// loose one compacted.
+const LEAST_SLACK: f64 = 1e-6;
 const LARGEST_SLACK: f64 = 0.5;
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 30;
@@ -33,8 +34,16 @@ const HALVINGS: usize = 30;
 type Vector = SVector<f64, 9>;
 type Jacobian = SMatrix<f64, 9, 9>;
 
-/// The first Piola–Kirchhoff stress of a deformation gradient, or the law's status code.
-pub type Stress<'a> = dyn Fn(&Matrix3<f64>) -> Result<Matrix3<f64>, i32> + 'a;
+/// The first Piola–Kirchhoff stress P of a deformation gradient and dP/dF, both by columns; or the law's status code.
+pub type Stress<'a> = dyn Fn(&Matrix3<f64>) -> Result<(Matrix3<f64>, NominalTangent), i32> + 'a;
+
+/// Where Newton's method has come to, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    pub f: Matrix3<f64>,
+    /// The largest deviation from a prescribed stress before each iteration, and at the end.
+    pub residuals: Vec<f64>,
+}
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,20 +91,25 @@ pub fn solve(
     start: &Matrix3<f64>,
     prescribed: &[Prescribed; 9],
     scale: f64,
-) -> Result<Matrix3<f64>, Failure> {
+) -> Result<Solution, Failure> {
     let mut f = *start;
     for (&component, &known) in COMPONENTS.iter().zip(prescribed) {
         if let Prescribed::Gradient(value) = known {
             f[component] = value;
         }
     }
-    let residual = |f: &Matrix3<f64>| Ok(off(&stress(f).map_err(Failure::Law)?, prescribed));
-    let mut r = residual(&f)?;
+    let residual = |f: &Matrix3<f64>| {
+        let (p, tangent) = stress(f).map_err(Failure::Law)?;
+        Ok(Residual { off: off(&p, prescribed), jacobian: jacobian(&tangent, prescribed) })
+    };
+    let mut here = residual(&f)?;
+    let mut residuals = Vec::new();
     for _ in 0..ITERATIONS {
+        let Residual { off: r, jacobian } = here;
+        residuals.push(r.amax());
         if r.amax() <= TOLERANCE * scale {
-            return Ok(f);
+            return Ok(Solution { f, residuals });
         }
-        let jacobian = jacobian(&residual, &f, prescribed)?;
         let step = -jacobian.svd(true, true).solve(&r, NO_STIFFNESS * scale).unwrap_or_default();
         let left = r + jacobian * step;
         let next = if left.amax() > 0.5 * r.amax() {
@@ -106,8 +120,9 @@ pub fn solve(
             line_search(&residual, &f, &r, &step)
         };
         let Some(next) = next else { break };
-        (f, r) = next;
+        (f, here) = next;
     }
+    let r = here.off;
     Err(Failure::NotConverged { component: r.iamax(), residual: r[r.iamax()] })
 }
 
@@ -119,32 +134,31 @@ fn off(p: &Matrix3<f64>, prescribed: &[Prescribed; 9]) -> Vector {
     })
 }
 
-/// ∂P/∂F of the free components by central differences; rows and columns of prescribed ones are 0.
-fn jacobian(
-    residual: &dyn Fn(&Matrix3<f64>) -> Result<Vector, Failure>,
-    f: &Matrix3<f64>,
-    prescribed: &[Prescribed; 9],
-) -> Result<Jacobian, Failure> {
-    let mut jacobian = Jacobian::zeros();
-    for (k, &component) in COMPONENTS.iter().enumerate() {
-        if let Prescribed::Stress(_) = prescribed[k] {
-            let (mut below, mut above) = (*f, *f);
-            below[component] -= DIFFERENCE;
-            above[component] += DIFFERENCE;
-            let width = above[component] - below[component];
-            jacobian.set_column(k, &((residual(&above)? - residual(&below)?) / width));
-        }
-    }
-    Ok(jacobian)
+/// What Newton's method needs to know at a deformation gradient.
+#[derive(Clone, Copy)]
+struct Residual {
+    off: Vector,
+    jacobian: Jacobian,
+}
+
+/// ∂P/∂F of the free components; rows and columns of prescribed ones are 0.
+fn jacobian(tangent: &NominalTangent, prescribed: &[Prescribed; 9]) -> Jacobian {
+    let free = |k: usize| matches!(prescribed[k], Prescribed::Stress(_));
+    let by_columns = |k: usize| COMPONENTS[k].0 + 3 * COMPONENTS[k].1;
+    Jacobian::from_fn(
+        |row, column| {
+            if free(row) && free(column) { tangent[(by_columns(row), by_columns(column))] } else { 0.0 }
+        },
+    )
 }
 
 /// The first of ever shorter steps that brings the residual down.
 fn line_search(
-    residual: &dyn Fn(&Matrix3<f64>) -> Result<Vector, Failure>,
+    residual: &dyn Fn(&Matrix3<f64>) -> Result<Residual, Failure>,
     f: &Matrix3<f64>,
     r: &Vector,
     step: &Vector,
-) -> Option<(Matrix3<f64>, Vector)> {
+) -> Option<(Matrix3<f64>, Residual)> {
     let mut length = (LARGEST_STEP / step.amax()).min(1.0);
     for _ in 0..HALVINGS {
         let mut trial = *f;
@@ -152,7 +166,7 @@ fn line_search(
             trial[component] += length * step[k];
         }
         if let Ok(new) = residual(&trial)
-            && new.norm() < r.norm()
+            && new.off.norm() < r.norm()
         {
             return Some((trial, new));
         }
@@ -163,19 +177,19 @@ fn line_search(
 
 /// Moves a component without stiffness towards the stress that it lacks, ever farther, until the stress answers.
 fn take_up_slack(
-    residual: &dyn Fn(&Matrix3<f64>) -> Result<Vector, Failure>,
+    residual: &dyn Fn(&Matrix3<f64>) -> Result<Residual, Failure>,
     f: &Matrix3<f64>,
     r: &Vector,
     component: usize,
     least: f64,
-) -> Option<(Matrix3<f64>, Vector)> {
+) -> Option<(Matrix3<f64>, Residual)> {
     let towards = -r[component].signum();
-    let mut reach = DIFFERENCE;
+    let mut reach = LEAST_SLACK;
     while reach <= LARGEST_SLACK {
         let mut trial = *f;
         trial[COMPONENTS[component]] += towards * reach;
         let new = residual(&trial).ok()?;
-        if (new[component] - r[component]) * towards > least {
+        if (new.off[component] - r[component]) * towards > least {
             return Some((trial, new));
         }
         reach *= 2.0;

@@ -40,6 +40,11 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         let unit = unit(&path.units, ENERGY);
         line("work on the element", format!("{} {unit}; {kept} {} {unit}", number(last.work), number(stored)));
     }
+    let iterations = history.increments.iter().map(|increment| increment.iterations);
+    if let Some(most) = iterations.clone().max().filter(|&most| most > 0) {
+        let all: usize = iterations.sum();
+        line("Newton iterations", format!("{all} in all, at most {most} an increment"));
+    }
     match &history.end {
         End::Completed => {}
         End::Stopped(place) => line(

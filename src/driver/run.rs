@@ -1,6 +1,6 @@
 //! The loop: a load path's points, step by step and increment by increment.
 
-use nalgebra::{Matrix3, Rotation3};
+use nalgebra::{Matrix3, Rotation3, SMatrix};
 use rayon::prelude::*;
 
 use super::element::Hexahedron;
@@ -33,6 +33,8 @@ pub struct Increment {
     pub answer: Answer,
     /// Work done on the element since the start.
     pub work: f64,
+    /// Newton iterations that it took.
+    pub iterations: usize,
 }
 
 impl Increment {
@@ -104,6 +106,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
                 history.failure = Some(history.increments.len());
             }
             history.increments.push(walk.increment(index, number, start_of_step + to * step.duration));
+            walk.iterations = 0;
             progress();
         }
         start_of_step += step.duration;
@@ -179,6 +182,8 @@ struct Walk<'a> {
     /// The prescribed stresses, which the stress itself meets within the tolerance of Newton's method only.
     held: [f64; 9],
     work: f64,
+    /// Newton iterations since the last increment.
+    iterations: usize,
 }
 
 impl<'a> Walk<'a> {
@@ -187,7 +192,7 @@ impl<'a> Walk<'a> {
         let answer = material.evaluate(&f, &material.at_rest(), Request::ALL).map_err(newton::Failure::Law)?;
         let p = first_piola_kirchhoff(&answer.cauchy, &f);
         let scale = material.stress_scale();
-        Ok(Walk { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0 })
+        Ok(Walk { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0, iterations: 0 })
     }
 
     fn failed(&self) -> bool {
@@ -204,7 +209,10 @@ impl<'a> Walk<'a> {
     fn advance(&mut self, ramp: &Ramp, from: f64, to: f64, halvings: usize) -> Result<(), newton::Failure> {
         let (prescribed, q) = ramp.at(to);
         let failure = match self.solve(&prescribed, &q) {
-            Ok(f) => return self.accept(&f, &q, &prescribed),
+            Ok(solution) => {
+                self.iterations += solution.residuals.len() - 1;
+                return self.accept(&solution.f, &q, &prescribed);
+            }
             Err(failure) => failure,
         };
         let hopeless =
@@ -219,12 +227,14 @@ impl<'a> Walk<'a> {
     }
 
     /// The deformation gradient, before the rotation, that meets what is prescribed.
-    fn solve(&self, prescribed: &[Prescribed; 9], q: &Matrix3<f64>) -> Result<Matrix3<f64>, newton::Failure> {
-        let trial = Request { stress: true, ..Request::default() };
+    fn solve(&self, prescribed: &[Prescribed; 9], q: &Matrix3<f64>) -> Result<newton::Solution, newton::Failure> {
+        // The rotation turns the first legs of P and F.
+        let turn = SMatrix::<f64, 3, 3>::identity().kronecker(q);
         let stress = |f: &Matrix3<f64>| {
             let rotated = q * f;
-            let answer = self.material.evaluate(&rotated, &self.answer.memory, trial)?;
-            Ok(q.transpose() * first_piola_kirchhoff(&answer.cauchy, &rotated))
+            let (cauchy, tangent) = self.material.tangent(&rotated, &self.answer.memory)?;
+            let p = q.transpose() * first_piola_kirchhoff(&cauchy, &rotated);
+            Ok((p, turn.transpose() * tangent * turn))
         };
         newton::solve(&stress, &self.f, prescribed, self.scale)
     }
@@ -256,7 +266,7 @@ impl<'a> Walk<'a> {
     fn increment(&self, step: usize, number: usize, time: f64) -> Increment {
         let e = (self.q * self.f * self.material.fibre()).normalize();
         let fibre_stress = e.dot(&(crate::law::stress::matrix(&self.answer.cauchy) * e));
-        let Walk { f, p, q, answer, work, .. } = *self;
-        Increment { step, number, time, f, p, q, fibre_stress, answer, work }
+        let Walk { f, p, q, answer, work, iterations, .. } = *self;
+        Increment { step, number, time, f, p, q, fibre_stress, answer, work, iterations }
     }
 }

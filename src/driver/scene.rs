@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::law::block::{Arrays, Level, Precision};
 use crate::law::real::Real;
+use crate::law::tangent::Measure;
 
 /// Numbers in a cache line, of single precision: arrays and columns start on one.
 const LINE: usize = 16;
@@ -135,6 +136,8 @@ fn stress_arrays<'a, T: Real>(
         failure: None,
         modes: None,
         wave_speed: None,
+        tangent: None,
+        measure: Measure::Jaumann,
         status: Some(status),
         level: Some(level),
     }

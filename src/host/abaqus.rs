@@ -10,26 +10,27 @@
 //! | energy | SSE = W/J per current volume | enerInternNew = W/ρ0 per mass |
 //! | failure | stress 0, STATEV "alive" 0 | state variable 11, "alive", 0: `*DEPVAR, DELETE=11` |
 //! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
+//! | tangent | DDSDDE(ntens, ntens): the Jaumann rate of τ, over J | none |
 //!
-//! Three-dimensional solids only (NDI = 3, NSHR = 3). The symbols `umat_` and `vumat_` that Abaqus looks for are in
-//! `fortran-shim/`. UMAT leaves DDSDDE untouched: not for Standard yet.
+//! Solids: three-dimensional ones (NDI = 3, NSHR = 3) and, for a UMAT, plane strain and axisymmetric ones (3, 1). The symbols
+//! `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`.
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
-use crate::law::real::Real;
+use crate::law::real::{Real, cross, dot};
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status;
-use nalgebra::Matrix3;
+use crate::law::tangent::Measure;
 
 use super::c_api::properties;
 
 /// What PNEWDT is lowered to where a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// The counts that both entries demand.
-fn counts(direct: i32, shear: i32, state: i32) -> i32 {
-    if direct != 3 || shear != 3 {
+/// The counts that an entry demands, with the number of shear components.
+fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
+    if direct != 3 || !allowed.contains(&shear) {
         status::BAD_COUNT
     } else if state < HYPERELASTIC_STATE as i32 {
         status::STATE_COUNT
@@ -38,24 +39,32 @@ fn counts(direct: i32, shear: i32, state: i32) -> i32 {
     }
 }
 
-/// The hyperelastic law as a UMAT of Abaqus/Standard. Not for Standard yet: there is no DDSDDE.
+/// Where Abaqus's components 11 22 33 12 13 23 stand among the library's.
+const ORDER: [usize; 6] = [0, 1, 2, 3, 5, 4];
+
+/// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
-/// Arguments as in the UMAT of the same name: `stress` (6, out), `statev` (`nstatv` ≥ 11, in and out), `sse` (out),
-/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, and `nlgeom`, Abaqus's
-/// JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All pointers are the caller's and
-/// not null.
+/// Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
+/// `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
+/// and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
+/// solids, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
+/// pointers but `ddsdde` are the caller's and not null.
+///
+/// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
+/// one, later calls zeros.
 ///
 /// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
-/// and nothing is written; or a −3xx code: no stress, the state as it was, `pnewdt`
-/// lowered to at most a quarter.
+/// and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
+/// quarter.
 ///
 /// # Safety
 /// Every pointer has as many values as said.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_abaqus_umat_f64(
+pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     stress: *mut f64,
     statev: *mut f64,
+    ddsdde: *mut f64,
     sse: *mut f64,
     pnewdt: *mut f64,
     dfgrd1: *const f64,
@@ -73,7 +82,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     if nlgeom == 0 {
         return status::NO_DEFORMATION_GRADIENT;
     }
-    let code = counts(ndi, nshr, nstatv);
+    let code = counts(ndi, nshr, &[1, 3], nstatv);
     if code != status::OK {
         return code;
     }
@@ -81,7 +90,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     let (props, f, old) = unsafe {
         (
             properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
-            Matrix3::from_column_slice(&*dfgrd1.cast::<[f64; 9]>()),
+            *dfgrd1.cast::<[[f64; 3]; 3]>(),
             *statev.cast::<[f64; HYPERELASTIC_STATE]>(),
         )
     };
@@ -89,15 +98,35 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
         Ok(law) => law,
         Err(error) => return error.code(),
     };
-    let point = law.point(&f, &old, Request { modes: false, wave_modulus: false, ..Request::ALL });
-    let [s11, s22, s33, s12, s23, s31] = point.stress;
-    let energy: f64 = point.state[ENERGIES..INVARIANTS].iter().sum();
+    let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
+    let components = if nshr == 3 { &ORDER[..] } else { &ORDER[..4] };
+    let point = if ddsdde.is_null() {
+        law.point_along(&f, None, &old, request)
+    } else {
+        let (point, moduli) = law.point_with_moduli(&f, None, &old, request, Measure::Jaumann);
+        let rows = moduli.matrix();
+        let rows = ORDER.map(|i| ORDER.map(|j| rows[i][j]));
+        // SAFETY: ntens² entries, for ntens = 6 or 4.
+        unsafe {
+            if nshr == 3 {
+                *ddsdde.cast() = rows;
+            } else {
+                for (k, [c1, c2, c3, c4, ..]) in rows.iter().take(4).enumerate() {
+                    *ddsdde.cast::<[f64; 4]>().add(k) = [*c1, *c2, *c3, *c4];
+                }
+            }
+        }
+        point
+    };
     // SAFETY: as above.
     unsafe {
-        *stress.cast::<[f64; 6]>() = [s11, s22, s33, s12, s31, s23];
+        for (k, &i) in components.iter().enumerate() {
+            *stress.add(k) = point.stress[i];
+        }
         if point.status == status::OK {
             *statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
-            let jacobian = f.determinant();
+            let energy: f64 = point.state[ENERGIES..INVARIANTS].iter().sum();
+            let jacobian = dot(f[0], cross(f[1], f[2]));
             // A failed point may arrive with any F.
             let current = energy / jacobian;
             *sse = if jacobian > 0.0 && current.is_finite() { current } else { energy };
@@ -106,6 +135,34 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
         }
     }
     point.status
+}
+
+/// As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
+///
+/// # Safety
+/// As for `toron_abaqus_umat_tangent_f64`.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> i32 {
+    let none = core::ptr::null_mut();
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron_abaqus_umat_tangent_f64(
+            stress, statev, none, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+        )
+    }
 }
 
 /// The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
@@ -175,7 +232,7 @@ unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
     if pointers.iter().any(|pointer| pointer.is_null()) {
         return status::NULL_ARGUMENT;
     }
-    let code = counts(block.ndir, block.nshr, block.nstatev);
+    let code = counts(block.ndir, block.nshr, &[3], block.nstatev);
     if code != status::OK {
         return code;
     }
@@ -261,6 +318,8 @@ unsafe fn stretched<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: us
             failure: block.state_new.wrapping_add(row(FAILURE_INDEX)),
             modes: core::ptr::null_mut(),
             wave_speed: core::ptr::null_mut(),
+            tangent: core::ptr::null_mut(),
+            measure: Measure::Jaumann,
             status: codes.as_mut_ptr(),
             level: None,
         };

@@ -22,6 +22,7 @@ use crate::law::parameters::{self, Dimension, Property};
 use crate::law::real::Real;
 use crate::law::state::{self, StateVariable};
 use crate::law::status::{self, Error};
+use crate::law::tangent::Measure;
 use crate::law::wave_speed;
 
 use super::units::UnitSystem;
@@ -52,6 +53,15 @@ pub const TORON_ROTATION_SPIN: i32 = 2;
 pub const TORON_CRITERION_PRINCIPAL: i32 = 0;
 /// It fails by the stress along the fibre.
 pub const TORON_CRITERION_FIBRE: i32 = 1;
+
+/// Tangent: dS/dE, second Piola-Kirchhoff stress by Green-Lagrange strain, reference axes; 6 x 6.
+pub const TORON_TANGENT_MATERIAL: i32 = 0;
+/// The Truesdell modulus of the Cauchy stress: dS/dE pushed forward, over J; 6 x 6.
+pub const TORON_TANGENT_TRUESDELL: i32 = 1;
+/// The modulus of the Jaumann rate of the Kirchhoff stress, over J; 6 x 6.
+pub const TORON_TANGENT_JAUMANN: i32 = 2;
+/// dP/dF, first Piola-Kirchhoff stress by deformation gradient, both 11 21 31 12 22 32 13 23 33; 9 x 9.
+pub const TORON_TANGENT_NOMINAL: i32 = 3;
 
 const _: () = {
     assert!(TORON_HYPERELASTIC_PROPERTIES == parameters::HYPERELASTIC_PROPERTIES);
@@ -470,6 +480,8 @@ impl<T> Block<T> {
             failure: self.failure,
             modes: self.modes,
             wave_speed: self.wave_speed,
+            tangent: core::ptr::null_mut(),
+            measure: Measure::Material,
             status: self.status,
             level: None,
         }
@@ -644,6 +656,165 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     })
 }
 
+fn measure(measure: i32) -> Result<Measure, Error> {
+    match measure {
+        TORON_TANGENT_MATERIAL => Ok(Measure::Material),
+        TORON_TANGENT_TRUESDELL => Ok(Measure::Truesdell),
+        TORON_TANGENT_JAUMANN => Ok(Measure::Jaumann),
+        TORON_TANGENT_NOMINAL => Ok(Measure::Nominal),
+        _ => Err(Error::Argument {
+            name: "measure",
+            value: f64::from(measure),
+            wanted: "0 (material), 1 (Truesdell), 2 (Jaumann) or 3 (nominal)",
+        }),
+    }
+}
+
+/// # Safety
+/// As for `toron_hyperelastic_point_tangent_f64`.
+#[allow(clippy::too_many_arguments)]
+unsafe fn point_tangent<T: Precision>(
+    values: *const T,
+    count: size_t,
+    deformation_gradient: *const T,
+    fibre: *const T,
+    state_old: *const T,
+    state_new: *mut T,
+    stress: *mut T,
+    measure: i32,
+    tangent: *mut T,
+) -> Result<i32, Error> {
+    // SAFETY: the caller's promise.
+    let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
+    let measure = self::measure(measure)?;
+    if deformation_gradient.is_null() || tangent.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    let kept = !state_new.is_null();
+    let request =
+        Request { stress: true, energies: kept, invariants: kept, failure: kept, modes: false, wave_modulus: false };
+    // SAFETY: the caller's promise.
+    unsafe {
+        let f = *deformation_gradient.cast::<[[T; 3]; 3]>();
+        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
+        let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE];
+        let old = if state_old.is_null() { fresh } else { *state_old.cast() };
+        let point = if measure == Measure::Nominal {
+            let (point, moduli) = law.point_with_nominal(&f, fibre, &old, request);
+            store(&moduli, tangent);
+            point
+        } else {
+            let (point, moduli) = law.point_with_moduli(&f, fibre, &old, request, measure);
+            store(moduli.matrix().as_flattened(), tangent);
+            point
+        };
+        store(&point.state, state_new);
+        store(&point.stress, stress);
+        Ok(point.status)
+    }
+}
+
+/// The hyperelastic law at one point, with a tangent.
+///
+/// - `values`, `count`, `deformation_gradient`, `fibre`, `state_old`, `state_new`, `stress`: as for
+///   `toron_hyperelastic_point_f64`.
+/// - `measure`: which tangent, `TORON_TANGENT_MATERIAL`, `_TRUESDELL`, `_JAUMANN` or `_NOMINAL`.
+/// - `tangent`: room for 36 values (81 for `_NOMINAL`), a symmetric matrix; must not be null. The order of rows and columns
+///   is 11 22 33 12 23 31, columns of engineering shears; for `_NOMINAL` 11 21 31 12 22 32 13 23 33.
+///
+/// The call that detects failure gives the intact tangent, later ones zeros. At a kink (I_el = 0, I_tc = 0) it is the one of
+/// loading.
+///
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
+///
+/// # Safety
+/// Every pointer is null or has as many values as said.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f64(
+    values: *const f64,
+    count: size_t,
+    deformation_gradient: *const f64,
+    fibre: *const f64,
+    state_old: *const f64,
+    state_new: *mut f64,
+    stress: *mut f64,
+    measure: i32,
+    tangent: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe {
+        point_tangent(values, count, deformation_gradient, fibre, state_old, state_new, stress, measure, tangent)
+    })
+}
+
+/// As `toron_hyperelastic_point_tangent_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_hyperelastic_point_tangent_f64`.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f32(
+    values: *const f32,
+    count: size_t,
+    deformation_gradient: *const f32,
+    fibre: *const f32,
+    state_old: *const f32,
+    state_new: *mut f32,
+    stress: *mut f32,
+    measure: i32,
+    tangent: *mut f32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe {
+        point_tangent(values, count, deformation_gradient, fibre, state_old, state_new, stress, measure, tangent)
+    })
+}
+
+/// The least stable wave: the smallest eigenvalue of the acoustic tensor times the reference density, over all directions.
+///
+/// Below 0 the material is not elliptic: waves of imaginary speed, results that depend on the mesh.
+///
+/// - `values`, `count`, `deformation_gradient`, `fibre`: as for `toron_hyperelastic_point_f64`.
+/// - `least`: one value, out, a stress; `direction`: 3 values, out, the wave's normal in space, or null.
+///
+/// Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
+///
+/// # Safety
+/// Every pointer is null or has as many values as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
+    values: *const f64,
+    count: size_t,
+    deformation_gradient: *const f64,
+    fibre: *const f64,
+    least: *mut f64,
+    direction: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    let law = unsafe { properties(values, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new);
+    let law = match law {
+        Ok(law) => law,
+        Err(error) => return error.code(),
+    };
+    if deformation_gradient.is_null() || least.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[f64; 3]>()) };
+        match law.acoustic(&*deformation_gradient.cast(), fibre) {
+            Ok(acoustic) => {
+                let wave = acoustic.least();
+                store(&[wave.modulus], least);
+                store(&wave.direction, direction);
+                status::OK
+            }
+            Err(code) => code,
+        }
+    }
+}
+
 /// # Safety
 /// As for `toron_hyperelastic_block_f64`.
 unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Block<T>) -> Result<i32, Error> {
@@ -690,6 +861,65 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
 ) -> i32 {
     // SAFETY: the caller's promise.
     code(unsafe { self::block(values, count, block) })
+}
+
+/// # Safety
+/// As for `toron_hyperelastic_block_tangent_f64`.
+unsafe fn block_tangent<T: Precision>(
+    values: *const T,
+    count: size_t,
+    block: *const Block<T>,
+    measure: i32,
+    tangent: *mut T,
+) -> Result<i32, Error> {
+    if block.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        let law = Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?;
+        let measure = self::measure(measure)?;
+        law.raw_block(&Pointers { tangent, measure, ..(*block).pointers() })
+    }
+}
+
+/// The hyperelastic law at a block of points, with a tangent.
+///
+/// - `values`, `count`, `block`: as for `toron_hyperelastic_block_f64`.
+/// - `measure`: which tangent, as for `toron_hyperelastic_point_tangent_f64`.
+/// - `tangent`: 36 components (81 for `TORON_TANGENT_NOMINAL`), component-major with the block's leading dimension: entry
+///   (row, column), counted from 0, is component 6 row + column (9 row + column). The whole symmetric matrix. Null: none.
+///
+/// Returns as `toron_hyperelastic_block_f64` does; a point at fault, or failed before, has a tangent of zeros.
+///
+/// # Safety
+/// As for `toron_hyperelastic_block_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f64(
+    values: *const f64,
+    count: size_t,
+    block: *const Block<f64>,
+    measure: i32,
+    tangent: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe { block_tangent(values, count, block, measure, tangent) })
+}
+
+/// As `toron_hyperelastic_block_tangent_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_hyperelastic_block_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f32(
+    values: *const f32,
+    count: size_t,
+    block: *const Block<f32>,
+    measure: i32,
+    tangent: *mut f32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe { block_tangent(values, count, block, measure, tangent) })
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -783,6 +1013,7 @@ unsafe fn linear_step(
     rotation: i32,
     criterion: i32,
     axes: *mut f64,
+    tangent: Option<(i32, *mut f64)>,
 ) -> Result<i32, Error> {
     // SAFETY: the caller's promise.
     let law = unsafe { linear_elastic(values, count) }?;
@@ -799,21 +1030,31 @@ unsafe fn linear_step(
             });
         }
     };
+    let wanted = tangent.map(|(measure, to)| self::measure(measure).map(|measure| (measure, to))).transpose()?;
     let spin = rotation == Rotation::Spin;
+    if wanted.is_some_and(|(_, to)| to.is_null()) {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
     if f_old.is_null() || f_new.is_null() || (spin && axes.is_null()) {
         return Err(Error::Plain(status::NULL_ARGUMENT));
     }
     // SAFETY: the caller's promise; axes are read for the spin frame only.
     unsafe {
         let mut turning = if spin { Matrix3::from_column_slice(&load::<9>(axes)) } else { law.reference_axes() };
-        let point = law.step(
-            &Matrix3::from_column_slice(&load::<9>(f_old)),
-            &Matrix3::from_column_slice(&load::<9>(f_new)),
-            &load(state_old),
-            rotation,
-            criterion,
-            &mut turning,
-        );
+        let [f0, f1] = [f_old, f_new].map(|f| Matrix3::from_column_slice(&load::<9>(f)));
+        let old = load(state_old);
+        let point = match wanted {
+            None => law.step(&f0, &f1, &old, rotation, criterion, &mut turning),
+            Some((measure, to)) => {
+                let (point, tangent) = law.step_with_tangent(&f0, &f1, &old, rotation, criterion, &mut turning);
+                match tangent.matrix(measure, &f1, &point.stress) {
+                    Some(rows) => store(rows.as_flattened(), to),
+                    None if measure == Measure::Nominal => store(&tangent.nominal(&f1, &point.stress), to),
+                    None => store(&[0.0; 36], to),
+                }
+                point
+            }
+        };
         if spin {
             store(turning.as_slice(), axes);
         }
@@ -851,7 +1092,39 @@ pub unsafe extern "C" fn toron_linear_elastic_step_f64(
     axes: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes) })
+    code(unsafe {
+        linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, None)
+    })
+}
+
+/// As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
+///
+/// - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
+///   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` is DDSDDE, row by row.
+///
+/// # Safety
+/// Every pointer is null or has as many values as said.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_linear_elastic_step_tangent_f64(
+    values: *const f64,
+    count: size_t,
+    f_old: *const f64,
+    f_new: *const f64,
+    state_old: *const f64,
+    state_new: *mut f64,
+    stress: *mut f64,
+    rotation: i32,
+    criterion: i32,
+    axes: *mut f64,
+    measure: i32,
+    tangent: *mut f64,
+) -> i32 {
+    let tangent = Some((measure, tangent));
+    // SAFETY: the caller's promise.
+    code(unsafe {
+        linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, tangent)
+    })
 }
 
 /// The linear elastic law for an increment of strain in a frame that the host keeps.

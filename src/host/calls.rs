@@ -7,6 +7,7 @@ use super::{abaqus, lsdyna};
 use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status;
+use crate::law::stress::truesdell_of_jaumann;
 
 /// What an entry gives back: stress in the library's order, state, modes where it has them.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,6 +16,8 @@ pub struct Answer {
     pub stress: [f64; 6],
     pub state: [f64; HYPERELASTIC_STATE],
     pub modes: Option<[[f64; 6]; 4]>,
+    /// The Jaumann modulus of the Kirchhoff stress over J, in the library's order, where it is wanted and the entry has it.
+    pub ddsdde: Option<[[f64; 6]; 6]>,
 }
 
 /// What a status means; for properties, which one is wrong.
@@ -31,7 +34,7 @@ pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String
     String::from_utf8_lossy(&text[..length.min(511)]).into_owned()
 }
 
-pub fn point(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answer {
+pub fn point(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
     let mut answer = Answer::default();
     let mut modes = [[0.0; 6]; 4];
     // SAFETY: the arrays have the sizes that the entry asks for.
@@ -50,6 +53,24 @@ pub fn point(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answe
         )
     };
     answer.modes = Some(modes);
+    if tangent {
+        let mut rows = [[0.0; 6]; 6];
+        // SAFETY: as above. The status is that of the call before, or the tangent's own.
+        answer.status = unsafe {
+            c_api::toron_hyperelastic_point_tangent_f64(
+                properties.as_ptr(),
+                properties.len(),
+                f.as_ptr(),
+                null(),
+                null(),
+                null_mut(),
+                null_mut(),
+                c_api::TORON_TANGENT_JAUMANN,
+                rows.as_mut_ptr().cast(),
+            )
+        };
+        answer.ddsdde = Some(rows);
+    }
     answer
 }
 
@@ -69,12 +90,13 @@ fn place(line: usize) -> (usize, usize, usize) {
     (n, line * 5 % n, n + line % 4)
 }
 
-pub type BlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const Block<T>) -> i32;
+pub type BlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const Block<T>, i32, *mut T) -> i32;
 
 pub fn block<T: Copy + Default + Into<f64> + FromF64>(
     properties: &[T; HYPERELASTIC_PROPERTIES],
     f: &[T; 9],
     line: usize,
+    tangent: bool,
     entry: BlockEntry<T>,
 ) -> Answer {
     let (n, at, stride) = place(line);
@@ -109,8 +131,10 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
         wave_speed: null_mut(),
         status: codes.as_mut_ptr(),
     };
+    let mut rows = array(36);
+    let wanted = if tangent { rows.as_mut_ptr() } else { null_mut() };
     // SAFETY: the arrays have the sizes that the structure tells.
-    let worst = unsafe { entry(properties.as_ptr(), properties.len(), &block) };
+    let worst = unsafe { entry(properties.as_ptr(), properties.len(), &block, c_api::TORON_TANGENT_JAUMANN, wanted) };
     let value = |array: &[T], c: usize| array[c * stride + at].into();
     let mut answer = Answer { status: codes[at], ..Answer::default() };
     if worst > status::INVERTED && worst != status::OK {
@@ -119,18 +143,21 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
     answer.stress = std::array::from_fn(|c| value(&stress, c));
     answer.state = std::array::from_fn(|c| value(&state, c));
     answer.modes = Some(std::array::from_fn(|mode| std::array::from_fn(|c| value(&modes, 6 * mode + c))));
+    answer.ddsdde = tangent.then(|| std::array::from_fn(|i| std::array::from_fn(|j| value(&rows, 6 * i + j))));
     answer
 }
 
-pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answer {
+pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
     let mut answer = Answer::default();
     let (mut sse, mut pnewdt) = (0.0, 1.0);
     let mut stress = [0.0; 6];
+    let mut ddsdde = [[0.0; 6]; 6];
     // SAFETY: the arrays have the sizes that the entry asks for.
     answer.status = unsafe {
-        abaqus::toron_abaqus_umat_f64(
+        abaqus::toron_abaqus_umat_tangent_f64(
             stress.as_mut_ptr(),
             answer.state.as_mut_ptr(),
+            if tangent { ddsdde.as_mut_ptr().cast() } else { null_mut() },
             &mut sse,
             &mut pnewdt,
             f.as_ptr(),
@@ -144,6 +171,8 @@ pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answer
     };
     let [s11, s22, s33, s12, s13, s23] = stress;
     answer.stress = [s11, s22, s33, s12, s23, s13];
+    let order = [0, 1, 2, 3, 5, 4];
+    answer.ddsdde = tangent.then(|| order.map(|i| order.map(|j| ddsdde[i][j])));
     answer
 }
 
@@ -183,7 +212,7 @@ pub fn vumat<T: Copy + Default + Into<f64>>(
     };
     // SAFETY: the arrays have the sizes that the structure tells, for one point.
     let status = unsafe { entry(&block) };
-    Answer { status, stress: stress.map(Into::into), state: state.map(Into::into), modes: None }
+    Answer { status, stress: stress.map(Into::into), state: state.map(Into::into), ..Answer::default() }
 }
 
 /// LS-DYNA's material constants: 48 of them, the moduli for its time step at 12 and 13.
@@ -196,7 +225,12 @@ fn lsdyna_constants(properties: &[f64; HYPERELASTIC_PROPERTIES]) -> [f64; 48] {
     cm
 }
 
-pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answer {
+/// DDSDDE of LS-DYNA's tangent.
+fn jaumann(truesdell: &[[f64; 6]; 6], stress: &[f64; 6]) -> [[f64; 6]; 6] {
+    truesdell_of_jaumann(truesdell, &stress.map(|s| -s))
+}
+
+pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
     let mut answer = Answer::default();
     let cm = lsdyna_constants(properties);
     let mut history = [0.0; HYPERELASTIC_STATE + 9];
@@ -214,10 +248,25 @@ pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> Answ
     };
     answer.state.copy_from_slice(&history[..HYPERELASTIC_STATE]);
     answer.state[FAILED] = f64::from(failed);
+    if tangent {
+        let mut es = [[0.0; 6]; 6];
+        // The element fails by its flag: the tangent of the intact one is wanted.
+        history[FAILED] = 0.0;
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe {
+            lsdyna::toron_lsdyna_utan_f64(
+                cm.as_ptr(),
+                history.as_ptr(),
+                HYPERELASTIC_STATE as i32,
+                es.as_mut_ptr().cast(),
+            )
+        };
+        answer.ddsdde = Some(jaumann(&es, &answer.stress));
+    }
     answer
 }
 
-pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], line: usize) -> Answer {
+pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], line: usize, tangent: bool) -> Answer {
     let (n, at, stride) = place(line);
     // Elements lft to llt of nlq; what stands before them is not the block's.
     let (first, nlq) = (line % 3, stride + line % 3);
@@ -262,9 +311,27 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
     let unexplained = failed[at] != 0 && answer.state[FAILURE_INDEX] < 1.0;
     answer.status = match (refused, unexplained) {
         (true, _) => worst,
-        (_, true) => point(properties, f).status,
+        (_, true) => point(properties, f, false).status,
         _ => status::OK,
     };
+    if tangent {
+        let mut dsave = vec![0.0; 36 * nlq];
+        history[FAILED * nlq..(FAILED + 1) * nlq].fill(0.0);
+        // SAFETY: as above.
+        unsafe {
+            lsdyna::toron_lsdyna_utan_vector_f64(
+                cm.as_ptr(),
+                history.as_ptr(),
+                HYPERELASTIC_STATE as i32,
+                first as i32 + 1,
+                (first + n) as i32,
+                nlq as i32,
+                dsave.as_mut_ptr(),
+            )
+        };
+        let truesdell = std::array::from_fn(|i| std::array::from_fn(|j| dsave[(6 * i + j) * nlq + at]));
+        answer.ddsdde = Some(jaumann(&truesdell, &answer.stress));
+    }
     answer
 }
 

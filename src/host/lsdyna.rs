@@ -1,4 +1,4 @@
-//! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`).
+//! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`), and their tangents (`utan41`, `utan41v`).
 //!
 //! | | |
 //! |---|---|
@@ -7,6 +7,7 @@
 //! | arrays, vectorised | leading dimension nlq: variable j of element i at hsvs((i − 1) + (j − 1) nlq) |
 //! | stress | Cauchy 11 22 33 12 23 31, global |
 //! | card | IHYPER = −1, IORTHO = 1: fibre (1, 0, 0); or IHYPER = 1, IORTHO = 0: fibre in global axes; IFAIL = 1 |
+//! | tangent | es(6, 6), dsave(nlq, 6, 6): Truesdell modulus of the Cauchy stress, the stress's order, engineering shears, global |
 //! | failure | failel; F inverted or not finite fails the element too |
 //!
 //! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
@@ -18,6 +19,7 @@ use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status::{self, Error};
+use crate::law::tangent::Measure;
 
 use super::c_api::{properties, store};
 
@@ -72,6 +74,8 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
             failure: row(FAILURE_INDEX),
             modes: core::ptr::null_mut(),
             wave_speed: core::ptr::null_mut(),
+            tangent: core::ptr::null_mut(),
+            measure: Measure::Truesdell,
             status: codes.as_mut_ptr(),
             level: None,
         };
@@ -247,6 +251,140 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) }
+}
+
+/// # Safety
+/// As for `toron_lsdyna_utan_f64`.
+unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> i32 {
+    if cm.is_null() || hsv.is_null() || es.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        let law = match law(cm, nhv) {
+            Ok(law) => law,
+            Err(error) => return error.code(),
+        };
+        let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
+        let (point, moduli) = law.point_with_moduli(&f, None, &*hsv.cast(), Request::default(), Measure::Truesdell);
+        store(moduli.matrix().as_flattened(), es);
+        point.status
+    }
+}
+
+/// The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
+///
+/// `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as the material routine has left
+/// them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
+/// may be null.
+///
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code, and `es` is 0,
+/// as it is for an element that has failed.
+///
+/// # Safety
+/// Every pointer has as many values as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { scalar_tangent(cm, hsv, nhv, es) }
+}
+
+/// As `toron_lsdyna_utan_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_lsdyna_utan_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { scalar_tangent(cm, hsv, nhv, es) }
+}
+
+/// # Safety
+/// As for `toron_lsdyna_utan_vector_f64`.
+unsafe fn vector_tangent<T: Precision>(
+    cm: *const T,
+    hsvs: *const T,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut T,
+) -> i32 {
+    if cm.is_null() || hsvs.is_null() || dsave.is_null() {
+        return status::NULL_ARGUMENT;
+    }
+    if lft < 1 || llt < lft - 1 {
+        return status::BAD_COUNT;
+    }
+    if nlq < llt {
+        return status::BAD_LEADING_DIMENSION;
+    }
+    let (start, stride) = ((lft - 1) as usize, nlq as usize);
+    let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
+    let none = core::ptr::null_mut;
+    let pointers = Pointers {
+        n: (llt - lft + 1) as usize,
+        leading_dimension: stride,
+        deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
+        fibre: [core::ptr::null(); 3],
+        energies_old: core::ptr::null(),
+        invariants_old: core::ptr::null(),
+        failure_old: row(FAILURE_INDEX),
+        density: T::splat(1.0),
+        stress: [none(); 6],
+        energies: none(),
+        invariants: none(),
+        failure: none(),
+        modes: none(),
+        wave_speed: none(),
+        tangent: dsave.wrapping_add(start),
+        measure: Measure::Truesdell,
+        status: core::ptr::null_mut(),
+        level: None,
+    };
+    // SAFETY: the caller's promise.
+    unsafe { law(cm, nhv).and_then(|law| law.raw_block(&pointers)) }.unwrap_or_else(|error| error.code())
+}
+
+/// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
+///
+/// `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
+/// as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
+///
+/// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
+///
+/// # Safety
+/// Every pointer has as many values as said.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
+    cm: *const f64,
+    hsvs: *const f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) }
+}
+
+/// As `toron_lsdyna_utan_vector_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_lsdyna_utan_vector_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
+    cm: *const f32,
+    hsvs: *const f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) }
 }
 
 /// Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).

@@ -2,6 +2,7 @@
 
 pub mod abaqus;
 pub mod c_api;
+pub mod calculix;
 #[cfg(feature = "driver")]
 pub mod calls;
 pub mod lsdyna;

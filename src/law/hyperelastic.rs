@@ -14,11 +14,13 @@ use nalgebra::Matrix3;
 
 use super::elementary::{Exponent, Power, power};
 use super::failure::Failure;
-use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
+use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::parameters::{self, FIBRE};
 use super::real::{Real, along, scale};
 use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use super::status::{self, Error};
+use super::stress::{square, symmetric_product as product};
+use super::tangent::unrepresentable;
 use super::wave_speed::COMPACTION_FLOOR;
 
 /// The law's properties, checked and prepared once.
@@ -31,7 +33,8 @@ pub struct Hyperelastic<R> {
     pub(super) k_ld: R,
     /// p − 1, the exponent of the compaction stress.
     pub(super) exponent: Exponent<R>,
-    /// W″ of an exponent p < 2 where the compaction vanishes and it is held.
+    /// W″ of a compaction of at most `held_below`, where an exponent p ≤ 2 would make it infinite or 0/0.
+    pub(super) held_below: R,
     pub(super) greatest_curvature: R,
     failure: Failure<R>,
     pub(super) frame: FibreFrame<R>,
@@ -106,7 +109,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         let one = T::splat(1.0);
         let aligned = m_2.into() == 0.0 && m_3.into() == 0.0 && m_1.into() > 0.0;
         let exponent = Exponent::new(p - one);
-        let floor = T::splat(COMPACTION_FLOOR);
+        let [held_below, greatest_curvature] = held_stiffness(k_tc, p, &exponent);
         Ok(Hyperelastic {
             k_el,
             k_tc,
@@ -114,12 +117,22 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             k_td,
             k_ld,
             exponent,
-            greatest_curvature: p * (p - one) * k_tc * power(floor, &exponent) / floor,
+            held_below,
+            greatest_curvature,
             failure: Failure::new(eps_lim, alpha, beta),
             frame: if aligned { FibreFrame::first_axis() } else { frame },
             aligned,
         })
     }
+}
+
+/// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
+fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
+    if p.into() > 2.0 {
+        return [T::splat(0.0); 2];
+    }
+    let floor = T::splat(COMPACTION_FLOOR);
+    [floor, p * (p - T::splat(1.0)) * k_tc * power(floor, exponent) / floor]
 }
 
 /// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
@@ -135,6 +148,11 @@ pub struct Kirchhoff<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// The fibre direction of the properties with two axes across it.
+    pub fn frame(&self) -> FibreFrame<R> {
+        self.frame
+    }
+
     /// Bulk and shear modulus of an isotropic solid whose longitudinal wave is the fibre's: K + 4G/3 = k_el. For hosts that
     /// take their time step and contact stiffness from two constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
@@ -156,6 +174,7 @@ impl<R: Real> Hyperelastic<R> {
             k_td: lane(self.k_td),
             k_ld: lane(self.k_ld),
             exponent: self.exponent.map(lane),
+            held_below: lane(self.held_below),
             greatest_curvature: lane(self.greatest_curvature),
             failure: self.failure.map(lane),
             frame: FibreFrame { m: vector(self.frame.m), t1: vector(self.frame.t1), t2: vector(self.frame.t2) },
@@ -201,17 +220,14 @@ impl<R: Real> Hyperelastic<R> {
     /// which holds its digits where the section is hardly distorted. So
     /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
     pub fn cauchy(
         &self,
-        d: &Stretch<R>,
-        section: &Section<R>,
-        [image_a, image_b]: &[[R; 3]; 2],
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         intact: R::Mask,
         shear: bool,
     ) -> [R; 6] {
+        let Kinematics { stretch: d, section, images: [image_a, image_b], strain } = kinematics;
         let zero = R::splat(0.0);
         let distortion = k.distortion * d.inverse_jacobian;
         let deviator = section.x23_square.mul_add(strain.inverse_a_square, section.delta);
@@ -246,20 +262,15 @@ impl<R: Real> Hyperelastic<R> {
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
     #[inline(always)]
     pub fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
-        let one = R::splat(1.0);
-        let (inverse_11, inverse_22) = (one / d.r11, one / d.r22);
-        // F⁻¹e, F⁻¹q1, F⁻¹q2.
-        let w1 = scale(d.inverse_lambda, n.m);
-        let w2 = scale(inverse_11, along(n.t1, -(d.f_a * d.inverse_lambda), n.m));
-        let w3 = scale(inverse_22, along(along(n.t2, -(d.f_b * d.inverse_lambda), n.m), -d.r12, w2));
+        let [w1, w2, w3] = d.pulled_back(n);
         let two = R::splat(2.0);
         let distortion = k.distortion * d.area_ratio;
         let (d1, d2) = (distortion * d.d1, distortion * d.d2);
         let [t12, t13] = shear_components(d, k.shear);
         [
-            product(k.tension, w1, w1),
-            sum(product(-k.pressure, w2, w2), product(-k.pressure, w3, w3)),
-            sum(sum(product(d1, w2, w2), product(-d1, w3, w3)), product(two * d2, w2, w3)),
+            square(k.tension, w1),
+            sum(square(-k.pressure, w2), square(-k.pressure, w3)),
+            sum(sum(square(d1, w2), square(-d1, w3)), product(two * d2, w2, w3)),
             sum(product(two * t12, w1, w2), product(two * t13, w1, w3)),
         ]
     }
@@ -275,10 +286,7 @@ impl<R: Real> Hyperelastic<R> {
     #[allow(clippy::too_many_arguments)]
     pub fn respond(
         &self,
-        d: &Stretch<R>,
-        section: &Section<R>,
-        images: &[[R; 3]; 2],
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         frame: &FibreFrame<R>,
         doubt: R,
@@ -286,9 +294,10 @@ impl<R: Real> Hyperelastic<R> {
         request: Request,
         shear: bool,
     ) -> Response<R> {
+        let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
         let intact = Failure::intact(latch);
-        let stress = if request.stress { self.cauchy(d, section, images, strain, k, intact, shear) } else { [zero; 6] };
+        let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
 
         // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
         // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
@@ -303,7 +312,7 @@ impl<R: Real> Hyperelastic<R> {
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
         if request.modes || request.wave_modulus {
-            let decomposition = Decomposition::new(d, section, images);
+            let decomposition = Decomposition::new(kinematics);
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {
@@ -345,11 +354,7 @@ impl<R: Real> Hyperelastic<R> {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
             invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
             failure_index: index,
-            failed: R::select(
-                Failure::intact(latch),
-                R::select(new & Failure::reached(index), one, zero),
-                one,
-            ),
+            failed: R::select(Failure::intact(latch), R::select(new & Failure::reached(index), one, zero), one),
         }
     }
 
@@ -373,20 +378,6 @@ impl<R: Real> Hyperelastic<R> {
         let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));
         R::select(Failure::intact(latch), flaw, failed)
     }
-}
-
-/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
-#[inline(always)]
-fn product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
-    let half = R::splat(0.5) * s;
-    [
-        s * a[0] * b[0],
-        s * a[1] * b[1],
-        s * a[2] * b[2],
-        half * a[0].mul_add(b[1], a[1] * b[0]),
-        half * a[1].mul_add(b[2], a[2] * b[1]),
-        half * a[2].mul_add(b[0], a[0] * b[2]),
-    ]
 }
 
 /// The sum of two tensors of six components.
@@ -443,19 +434,34 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
+        self.point_with::<[T; 0]>(f, fibre, state, request, |_, _, _| []).0
+    }
+
+    /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
+    /// and where the point cannot be evaluated, which it cannot where the tangent is not finite.
+    #[inline(always)]
+    pub(super) fn point_with<X: AsMut<[T]>>(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+        tangent: impl FnOnce(Kinematics<'_, T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
+    ) -> (Point<T>, X) {
         match fibre {
             Some(direction) => {
                 let (frame, usable) = FibreFrame::new(direction);
-                self.point_in(f, &frame, &frame, usable, state, request)
+                self.point_in(f, &frame, &frame, usable, state, request, tangent)
             }
-            None if self.aligned => self.point_in(f, &FirstAxis, &self.frame, true, state, request),
-            None => self.point_in(f, &self.frame, &self.frame, true, state, request),
+            None if self.aligned => self.point_in(f, &FirstAxis, &self.frame, true, state, request, tangent),
+            None => self.point_in(f, &self.frame, &self.frame, true, state, request, tangent),
         }
     }
 
     /// The law at one point, in these axes; `frame` the same ones as vectors.
     #[inline(always)]
-    fn point_in<A: Axes<T>>(
+    #[allow(clippy::too_many_arguments)]
+    fn point_in<A: Axes<T>, X: AsMut<[T]>>(
         &self,
         f: &[[T; 3]; 3],
         axes: &A,
@@ -463,17 +469,19 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         usable: bool,
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
-    ) -> Point<T> {
+        tangent: impl FnOnce(Kinematics<'_, T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
+    ) -> (Point<T>, X) {
         let (stretch, images) = Stretch::new(f, axes);
         let (section, images) = Section::new(&stretch, images, axes);
-        let logarithms = Logarithms::new(&stretch, &section);
-        let strain = Strain::new(&stretch, &section, &logarithms);
-        let power = self.compaction(&strain);
-        let k = self.kirchhoff(&stretch, &strain, power.reduce(&self.exponent).finish());
+        let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
+        let power = self.compaction(&strain).reduce(&self.exponent).finish();
+        let k = self.kirchhoff(&stretch, &strain, power);
+        let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+        let mut tangent = tangent(kinematics, &k, frame);
         let (latch, shear) = (state[FAILED], self.shears());
         let zero = T::splat(0.0);
-        let doubt = T::select(usable, strain.doubt, T::splat(f64::NAN));
-        let r = self.respond(&stretch, &section, &images, &strain, &k, frame, doubt, latch, request, shear);
+        let doubt = T::select(usable, strain.doubt, T::splat(f64::NAN)) + unrepresentable(tangent.as_mut());
+        let r = self.respond(kinematics, &k, frame, doubt, latch, request, shear);
         let history = self.history(&stretch, &strain, &k, r.new, latch, request, shear);
         let (mut stress, mut status) = (r.stress, status::OK);
         let mut new = [zero; HYPERELASTIC_STATE];
@@ -482,6 +490,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         new[FAILURE_INDEX] = history.failure_index;
         if !r.new {
             stress = [zero; 6];
+            tangent.as_mut().fill(zero);
             status = Into::<f64>::into(self.verdict(f, &stretch, usable, latch)) as i32;
             // The latch has been looked at, and alive is never read.
             for (x, &old) in new.iter_mut().zip(state).take(FAILED) {
@@ -494,6 +503,6 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         }
         new[FAILED] = history.failed;
         new[ALIVE] = T::splat(1.0) - history.failed;
-        Point { stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }
+        (Point { stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }, tangent)
     }
 }

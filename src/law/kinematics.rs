@@ -338,6 +338,16 @@ impl<R: Real> Strain<R> {
     }
 }
 
+/// What all stages together say of a point.
+#[derive(Clone, Copy)]
+pub struct Kinematics<'a, R: Real> {
+    pub stretch: &'a Stretch<R>,
+    pub section: &'a Section<R>,
+    /// a and b.
+    pub images: &'a [[R; 3]; 2],
+    pub strain: &'a Strain<R>,
+}
+
 /// F N = Q R (thesis, Eq. 4.7): Q = (e, q1, q2) holds the current fibre direction and two axes across it, and
 ///
 /// ```text
@@ -359,6 +369,9 @@ pub struct Decomposition<R> {
     pub r11: R,
     pub r12: R,
     pub r22: R,
+    /// det F and its reciprocal.
+    pub jacobian: R,
+    pub inverse_jacobian: R,
     pub area_ratio: R,
     pub d1: R,
     pub d2: R,
@@ -369,7 +382,8 @@ pub struct Decomposition<R> {
 
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
-    pub fn new(d: &Stretch<R>, section: &Section<R>, [a, _]: &[[R; 3]; 2]) -> Self {
+    pub fn new(kinematics: Kinematics<'_, R>) -> Self {
+        let Kinematics { stretch: d, section, images: [a, _], .. } = kinematics;
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();
@@ -387,6 +401,8 @@ impl<R: Real> Decomposition<R> {
             r11,
             r12,
             r22: area_ratio * inverse_r11,
+            jacobian: d.jacobian,
+            inverse_jacobian: d.inverse_jacobian,
             area_ratio,
             d1: r12.mul_add(r12, section.delta) * inverse_area,
             d2: r12 * inverse_r11,
@@ -399,5 +415,16 @@ impl<R: Real> Decomposition<R> {
     #[inline(always)]
     pub fn q2(&self) -> [R; 3] {
         cross(self.e, self.q1)
+    }
+
+    /// F⁻¹e, F⁻¹q1, F⁻¹q2, by the triangle R: no inverse of F.
+    #[inline(always)]
+    pub fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+        let one = R::splat(1.0);
+        let (inverse_11, inverse_22) = (one / self.r11, one / self.r22);
+        let w1 = scale(self.inverse_lambda, n.m);
+        let w2 = scale(inverse_11, along(n.t1, -(self.f_a * self.inverse_lambda), n.m));
+        let w3 = scale(inverse_22, along(along(n.t2, -(self.f_b * self.inverse_lambda), n.m), -self.r12, w2));
+        [w1, w2, w3]
     }
 }

@@ -1,5 +1,6 @@
 //! The constitutive laws: no host, no file, no allocation, no standard library.
 
+pub mod acoustic;
 pub mod block;
 pub mod elementary;
 pub mod failure;
@@ -11,4 +12,5 @@ pub mod real;
 pub mod state;
 pub mod status;
 pub mod stress;
+pub mod tangent;
 pub mod wave_speed;

@@ -2,6 +2,34 @@
 
 use nalgebra::Matrix3;
 
+use super::real::Real;
+use super::tangent::Moduli;
+
+/// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
+pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// s a⊗a, 11 22 33 12 23 31.
+#[inline(always)]
+pub fn square<R: Real>(s: R, a: [R; 3]) -> [R; 6] {
+    let [x, y, z] = [s * a[0], s * a[1], s * a[2]];
+    [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]]
+}
+
+/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
+#[inline(always)]
+pub fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
+    let half = R::splat(0.5) * s;
+    [
+        s * a[0] * b[0],
+        s * a[1] * b[1],
+        s * a[2] * b[2],
+        half * a[0].mul_add(b[1], a[1] * b[0]),
+        half * a[1].mul_add(b[2], a[2] * b[1]),
+        half * a[2].mul_add(b[0], a[0] * b[2]),
+    ]
+}
+
 /// The symmetric matrix of six components 11 22 33 12 23 31.
 pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
     Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2])
@@ -30,4 +58,133 @@ pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
 /// First Piola–Kirchhoff stress of a Cauchy stress: the conjugate of F, force per reference area.
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
     matrix(cauchy) * cofactors(f)
+}
+
+/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no order, and an orthonormal axis for each, by Jacobi rotations.
+pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
+    let [mut a, mut b, mut c, mut ab, mut bc, mut ca] = *s;
+    let [mut x, mut y, mut z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // One rotation: annihilates pq, couples p and q to the third axis, and turns theirs.
+    type Axis = [f64; 3];
+    let rotate = |p: &mut f64, q: &mut f64, pq: &mut f64, pr: &mut f64, qr: &mut f64, u: &mut Axis, v: &mut Axis| {
+        if *pq == 0.0 {
+            return;
+        }
+        let theta = (*q - *p) / (2.0 * *pq);
+        let root = libm::sqrt(theta * theta + 1.0);
+        let t = if theta < 0.0 { -1.0 / (root - theta) } else { 1.0 / (root + theta) };
+        let cosine = 1.0 / libm::sqrt(t * t + 1.0);
+        let sine = t * cosine;
+        *p -= t * *pq;
+        *q += t * *pq;
+        *pq = 0.0;
+        let turn = |x: &mut f64, y: &mut f64| (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+        turn(pr, qr);
+        for (x, y) in u.iter_mut().zip(v) {
+            turn(x, y);
+        }
+    };
+    // Quadratic convergence: six sweeps take any 3×3 matrix to rounding.
+    for _ in 0..6 {
+        rotate(&mut a, &mut b, &mut ab, &mut ca, &mut bc, &mut x, &mut y);
+        rotate(&mut b, &mut c, &mut bc, &mut ab, &mut ca, &mut y, &mut z);
+        rotate(&mut c, &mut a, &mut ca, &mut bc, &mut ab, &mut z, &mut x);
+    }
+    ([a, b, c], [x, y, z])
+}
+
+/// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.
+macro_rules! upper_triangle {
+    ($entry:ident($($argument:expr),*)) => {
+        [
+            $entry::<_, 0, 0>($($argument),*), $entry::<_, 0, 1>($($argument),*), $entry::<_, 0, 2>($($argument),*),
+            $entry::<_, 0, 3>($($argument),*), $entry::<_, 0, 4>($($argument),*), $entry::<_, 0, 5>($($argument),*),
+            $entry::<_, 1, 1>($($argument),*), $entry::<_, 1, 2>($($argument),*), $entry::<_, 1, 3>($($argument),*),
+            $entry::<_, 1, 4>($($argument),*), $entry::<_, 1, 5>($($argument),*), $entry::<_, 2, 2>($($argument),*),
+            $entry::<_, 2, 3>($($argument),*), $entry::<_, 2, 4>($($argument),*), $entry::<_, 2, 5>($($argument),*),
+            $entry::<_, 3, 3>($($argument),*), $entry::<_, 3, 4>($($argument),*), $entry::<_, 3, 5>($($argument),*),
+            $entry::<_, 4, 4>($($argument),*), $entry::<_, 4, 5>($($argument),*), $entry::<_, 5, 5>($($argument),*),
+        ]
+    };
+}
+
+pub(super) use upper_triangle;
+
+/// An entry of A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik.
+#[inline(always)]
+pub(super) fn paired<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
+    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
+    let (ik, jl, il, jk) = (VOIGT[i][k], VOIGT[j][l], VOIGT[i][l], VOIGT[j][k]);
+    if ROW < 3 && COLUMN < 3 {
+        R::splat(4.0) * a[ik] * b[ik]
+    } else if ROW < 3 {
+        R::splat(2.0) * a[ik].mul_add(b[il], a[il] * b[ik])
+    } else {
+        a[ik].mul_add(b[jl], a[jl].mul_add(b[ik], a[il].mul_add(b[jk], a[jk] * b[il])))
+    }
+}
+
+/// An entry of 1⊙B, where there is one.
+#[inline(always)]
+pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
+    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
+    if ROW == COLUMN {
+        return Some(if ROW < 3 { R::splat(4.0) * b[ROW] } else { b[VOIGT[i][i]] + b[VOIGT[j][j]] });
+    }
+    if ROW < 3 {
+        // i = j: an index of the column's is the row's, or none is.
+        return if COLUMN >= 3 && (k == i || l == i) { Some(b[COLUMN] + b[COLUMN]) } else { None };
+    }
+    // Two different pairs of different indices share one; the others remain.
+    Some(
+        b[if i == k {
+            VOIGT[j][l]
+        } else if i == l {
+            VOIGT[j][k]
+        } else if j == k {
+            VOIGT[i][l]
+        } else {
+            VOIGT[i][k]
+        }],
+    )
+}
+
+#[inline(always)]
+fn half_with_one<R: Real, const ROW: usize, const COLUMN: usize>(stress: &[R; 6]) -> R {
+    paired_with_one::<R, ROW, COLUMN>(stress).map_or(R::splat(0.0), |entry| R::splat(0.5) * entry)
+}
+
+/// The Truesdell modulus of a Jaumann modulus and the Cauchy stress σ, 11 22 33 12 23 31: c − ½ 1⊙σ.
+pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64; 6]; 6] {
+    let mut truesdell = *jaumann;
+    let stress = Moduli(upper_triangle!(half_with_one(cauchy))).matrix();
+    for (entry, stress) in truesdell.iter_mut().flatten().zip(stress.iter().flatten()) {
+        *entry -= stress;
+    }
+    truesdell
+}
+
+/// dS/dE of a Truesdell modulus of the Cauchy stress: J F⁻¹F⁻¹F⁻¹F⁻¹ c; `None` where F has no inverse.
+pub fn pulled_back(truesdell: &[[f64; 6]; 6], f: &Matrix3<f64>) -> Option<[[f64; 6]; 6]> {
+    let inverse = f.try_inverse()?;
+    // Of a symmetric tensor's components, those of its pull-back: T c Tᵀ, off the diagonal two at a time.
+    let mut t = [[0.0; 6]; 6];
+    for (row, (a, b)) in t.iter_mut().zip(PAIRS) {
+        for (entry, (i, j)) in row.iter_mut().zip(PAIRS) {
+            let one = inverse[(a, i)] * inverse[(b, j)];
+            *entry = if i == j { one } else { one + inverse[(a, j)] * inverse[(b, i)] };
+        }
+    }
+    let mut material = [[0.0; 6]; 6];
+    for (row, left) in material.iter_mut().zip(&t) {
+        for (entry, right) in row.iter_mut().zip(&t) {
+            for (moduli, x) in truesdell.iter().zip(left) {
+                for (modulus, y) in moduli.iter().zip(right) {
+                    *entry += x * modulus * y;
+                }
+            }
+            *entry *= f.determinant();
+        }
+    }
+    Some(material)
 }

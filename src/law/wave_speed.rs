@@ -20,7 +20,7 @@ use super::kinematics::{Decomposition, Strain};
 use super::real::Real;
 use super::status::Error;
 
-/// Below this compaction the stiffness W″ of an exponent p < 2 is held, since it is infinite at 0.
+/// Below this compaction the stiffness W″ of an exponent p ≤ 2 is held, since it is infinite at 0 for p < 2.
 pub(super) const COMPACTION_FLOOR: f64 = 1e-8;
 
 /// A reference density that a wave speed can be computed with.
@@ -45,18 +45,9 @@ impl<R: Real> Hyperelastic<R> {
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
     pub fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
-        let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
-
-        // |W′| = 2 · pressure; W″ = (p − 1)|W′|/i, or with i held at its floor.
-        let compaction = -strain.i_tc;
-        let above = R::splat(COMPACTION_FLOOR).lt(compaction);
-        let slope = R::splat(2.0) * k.pressure;
-        let curvature = R::select(
-            above,
-            (self.p - one) * slope / R::select(above, compaction, one),
-            self.greatest_curvature,
-        );
-        let active = zero.le(compaction);
+        let (zero, quarter) = (R::splat(0.0), R::splat(0.25));
+        let (slope, curvature) = self.compaction_slopes(strain, k);
+        let active = zero.le(-strain.i_tc);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
         let grown = d.s + d.cosh; // eᵃ

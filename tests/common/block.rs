@@ -7,6 +7,7 @@ use toron::law::block::{Level, Pointers, Precision, components, components_mut};
 use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::real::Real;
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use toron::law::tangent::Measure;
 
 /// A precision, with what the tests need of it beside.
 pub trait Number: Precision + Default + Debug + nalgebra::Scalar {
@@ -283,6 +284,8 @@ pub fn run<T: Number>(law: &Hyperelastic<T>, inputs: &[Input<T>], call: &Call<T>
         failure,
         modes: modes.pointer(0, asked.modes),
         wave_speed: wave.pointer(0, asked.wave_speed),
+        tangent: std::ptr::null_mut(),
+        measure: Measure::Jaumann,
         status: if asked.status { codes[call.offset..].as_mut_ptr() } else { std::ptr::null_mut() },
         level: Some(call.level),
     };

@@ -3,6 +3,7 @@
 
 pub mod block;
 pub mod deformations;
+pub mod dual;
 pub mod truth;
 
 use std::str::FromStr;

@@ -82,6 +82,8 @@ pub struct Case {
     s_td: [Truth; 6],
     #[serde(rename = "Sld")]
     s_ld: [Truth; 6],
+    /// Rows of DDSDDE; none at rest, where it is what the kinks make of it.
+    ddsdde: Option<[[Truth; 6]; 6]>,
     sensitivity: Truth,
     sensitivity_invariants: [Truth; 4],
 }
@@ -99,6 +101,20 @@ impl Case {
         let p = &self.params;
         let [m_1, m_2, m_3] = self.m;
         [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m_1, m_2, m_3]
+    }
+
+    /// |DDSDDE − truth|/|truth|, for a Jaumann modulus of the library's order; `None` where there is no truth.
+    pub fn tangent_error(&self, jaumann: &[[f64; 6]; 6]) -> Option<f64> {
+        let truth = self.ddsdde.as_ref()?;
+        let order = [0, 1, 2, 3, 5, 4];
+        let (mut error, mut size) = (0.0, 0.0);
+        for (i, row) in truth.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                error += entry.error(jaumann[order[i]][order[j]]).powi(2);
+                size += entry.value().powi(2);
+            }
+        }
+        Some((error / size).sqrt())
     }
 
     /// |σ − truth|/(|truth| + K), which is `back` times ε, and |σ − truth|/|truth|, 0 where the truth is.

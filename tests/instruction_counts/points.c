@@ -47,6 +47,15 @@ int main(int argc, char **argv)
                 return 1;
         return 0;
     }
+    if (strcmp(entry, "umat-tangent-f64") == 0) {
+        double s[6], c[36], energy = 0, cut = 1;
+        for (int i = 0; i < N; i++) {
+            double kept[STATE] = {0};
+            if (toron_abaqus_umat_tangent_f64(s, kept, c, &energy, &cut, point[i], values, PROPERTIES, STATE, 3, 3, 1) != 0)
+                return 1;
+        }
+        return 0;
+    }
     if (strcmp(entry, "umat-f64") == 0) {
         double s[6], energy = 0, cut = 1;
         for (int i = 0; i < N; i++) {

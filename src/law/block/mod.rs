@@ -13,6 +13,7 @@
 //! | `failure` | failure index, failed, alive |
 //! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff) |
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
+//! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric |
 
 #[cfg(test)]
 mod tests;
@@ -23,10 +24,13 @@ use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 
 use super::elementary::{Power, Reduced};
-use super::hyperelastic::{Hyperelastic, Request};
-use super::kinematics::{Axes, FibreFrame, FirstAxis, Logarithms, Section, Strain, Stretch};
+use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
+use super::kinematics::{
+    Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch,
+};
 use super::real::Real;
 use super::status::{self, Error};
+use super::tangent::{Measure, unrepresentable};
 use super::wave_speed;
 
 /// A block as a host passes it: null is left out.
@@ -50,6 +54,8 @@ pub struct Pointers<T> {
     pub failure: *mut T,
     pub modes: *mut T,
     pub wave_speed: *mut T,
+    pub tangent: *mut T,
+    pub measure: Measure,
     pub status: *mut i32,
     /// The instructions to use, no better than the processor has; `None`: the best.
     pub level: Option<Level>,
@@ -85,6 +91,8 @@ pub struct Arrays<'a, T> {
     pub failure: Option<&'a mut [T]>,
     pub modes: Option<&'a mut [T]>,
     pub wave_speed: Option<&'a mut [T]>,
+    pub tangent: Option<&'a mut [T]>,
+    pub measure: Measure,
     pub status: Option<&'a mut [i32]>,
     pub level: Option<Level>,
 }
@@ -146,6 +154,8 @@ impl<'a, T: Precision> Block<'a, T> {
             failure,
             modes: output("entries of modes", arrays.modes, 24)?,
             wave_speed: output("entries of wave_speed", arrays.wave_speed, 1)?,
+            tangent: output("entries of tangent", arrays.tangent, arrays.measure.components())?,
+            measure: arrays.measure,
             status: match arrays.status {
                 Some(array) => check("entries of status", array.len(), 1).map(|()| array.as_mut_ptr())?,
                 None => core::ptr::null_mut(),
@@ -191,6 +201,7 @@ impl<T> Pointers<T> {
             failure: output(self.failure),
             modes: output(self.modes),
             wave_speed: output(self.wave_speed),
+            tangent: output(self.tangent),
             status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
             ..self
         }
@@ -462,7 +473,7 @@ const AS_ASKED: u8 = 128;
 macro_rules! specialised {
     ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
-        let usual = stress && !modes && !wave_modulus && !$block.status.is_null();
+        let usual = stress && !modes && !wave_modulus && $block.tangent.is_null() && !$block.status.is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
             (true, false, false, false) => wanting!(0, $kernel, $law, $block),
@@ -491,7 +502,8 @@ macro_rules! wanting {
 /// Calls the kernel that asks at every turn.
 macro_rules! as_asked {
     ($kernel:ident, $law:ident, $block:ident) => {
-        match ($law.shears(), $law.aligned && $block.fibre[0].is_null()) {
+        // Beside the tangent the products with the frame that an aligned fibre saves weigh little.
+        match ($law.shears(), $law.aligned && $block.fibre[0].is_null() && $block.tangent.is_null()) {
             (false, true) => $kernel::<{ AS_ASKED + ALIGNED }>($law, $block),
             (true, true) => $kernel::<{ AS_ASKED + SHEAR + ALIGNED }>($law, $block),
             (false, false) => $kernel::<AS_ASKED>($law, $block),
@@ -674,8 +686,13 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
                 Some(usable) => R::select(usable, strains.get(k).doubt, R::splat(f64::NAN)),
                 None => strains.get(k).doubt,
             };
-            let (d, section, strain) = (stretches.get(k), sections.get(k), strains.get(k));
-            let outcome = finish::<T, R, WANT>(law, block, at(k), d, section, images.get(k), strain, steps.get(k).powered, doubt);
+            let kinematics = Kinematics {
+                stretch: stretches.get(k),
+                section: sections.get(k),
+                images: images.get(k),
+                strain: strains.get(k),
+            };
+            let outcome = finish::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, doubt);
             all_new = all_new & outcome.new;
             outcomes.put(k, outcome);
         }
@@ -687,6 +704,11 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         if !R::any(!all_new) {
             return;
+        }
+        if wants_tangent::<T, WANT>(block) {
+            for k in 0..count {
+                drop_tangent(block, at(k), outcomes.get(k));
+            }
         }
         // Points that failed before are nothing strange; what is, is rare.
         let mut any_strange = zero.lt(zero);
@@ -771,13 +793,11 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
     i: usize,
-    d: &Stretch<R>,
-    section: &Section<R>,
-    images: &[[R; 3]; 2],
-    strain: &Strain<R>,
+    kinematics: Kinematics<'_, R>,
     power: R,
     doubt: R,
 ) -> Outcome<R> {
+    let Kinematics { stretch: d, strain, .. } = kinematics;
     let zero = R::splat(0.0);
     let asked = WANT & AS_ASKED != 0;
     let request = request::<T, WANT>(block);
@@ -787,11 +807,13 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     unsafe {
         let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
         let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
-        // The modes alone want the frame again.
-        let frame = if request.modes { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
+        // The modes and the tangent alone want the frame again.
+        let tangent = wants_tangent::<T, WANT>(block);
+        let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let shear = WANT & SHEAR != 0;
-        let r = law.respond(d, section, images, strain, &k, &frame, doubt, latch, request, shear);
+        let doubt = if tangent { doubt + store_tangent(law, block, i, kinematics, &k, &frame, shear) } else { doubt };
+        let r = law.respond(kinematics, &k, &frame, doubt, latch, request, shear);
 
         if request.stress {
             for c in 0..6 {
@@ -814,6 +836,63 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
             zero.store_integers(block.status.add(i));
         }
         Outcome { new: r.new, flawed: r.flawed, latch }
+    }
+}
+
+/// Whether a kernel is asked for the tangent: only those that ask, and are not built for an aligned fibre, ever are.
+#[inline(always)]
+fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
+    WANT & AS_ASKED != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
+}
+
+/// Stores the tangent of the intact material. Returns 0 where all of it are finite numbers, else NaN.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on of a block that wants the tangent.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    kinematics: Kinematics<'_, R>,
+    k: &Kirchhoff<R>,
+    frame: &FibreFrame<R>,
+    shear: bool,
+) -> R {
+    let d = Decomposition::new(kinematics);
+    let store = |entries: &[R]| {
+        for (c, entry) in entries.iter().enumerate() {
+            // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
+            unsafe { entry.store(block.tangent.add(c * block.leading_dimension + i)) };
+        }
+    };
+    if block.measure == Measure::Nominal {
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
+        let nominal = law.nominal_tangent(&d, kinematics.strain, k, frame, &stress, shear);
+        store(&nominal);
+        unrepresentable(&nominal)
+    } else {
+        let moduli = law.moduli(&d, kinematics.strain, k, frame, block.measure, shear);
+        store(moduli.matrix().as_flattened());
+        unrepresentable(&moduli.0)
+    }
+}
+
+/// Takes the tangent of points away that have failed before or are flawed.
+///
+/// # Safety
+/// As for [`store_tangent`], after it.
+#[inline(always)]
+unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
+    let zero = R::splat(0.0);
+    for c in 0..block.measure.components() {
+        // SAFETY: the array has the component, and the lanes from i on.
+        unsafe {
+            let place = block.tangent.add(c * block.leading_dimension + i);
+            R::select(outcome.new, R::load(place), zero).store(place);
+        }
     }
 }
 
@@ -972,7 +1051,8 @@ const FAILURE_ROW: usize = 20;
 const STRESS_ROW: usize = 23;
 const MODE_ROW: usize = 29;
 const WAVE_ROW: usize = 53;
-const ROWS: usize = 54;
+const TANGENT_ROW: usize = 54;
+const ROWS: usize = 54 + 81;
 
 impl<T: Precision> LeftOver<T> {
     fn new() -> Self {
@@ -1022,6 +1102,7 @@ impl<T: Precision> LeftOver<T> {
             failure: output(block.failure, FAILURE_ROW),
             modes: output(block.modes, MODE_ROW),
             wave_speed: output(block.wave_speed, WAVE_ROW),
+            tangent: output(block.tangent, TANGENT_ROW),
             status: if block.status.is_null() { block.status } else { self.codes.as_mut_ptr() },
             ..*block
         };
@@ -1073,6 +1154,9 @@ impl<T: Precision> LeftOver<T> {
                 self.put_row(component(block.modes, c), MODE_ROW + c);
             }
             self.put_row(block.wave_speed, WAVE_ROW);
+            for c in 0..block.measure.components() {
+                self.put_row(component(block.tangent, c), TANGENT_ROW + c);
+            }
             if !block.status.is_null() {
                 for (j, &code) in self.codes.iter().take(self.count).enumerate() {
                     *block.status.add(self.first + j) = code;

@@ -1,0 +1,96 @@
+! utan41v of LS-DYNA, the tangent that goes with umat41v in an implicit analysis, a block of elements at a time (IVECT = 1).
+!
+! The deck is that of umat41v. The kinds of REAL, INTEGER and LOGICAL are those of the build, so compile this file with the
+! object package's own flags.
+!
+! The argument list is that of R12. Up to R9 there are no UNSYM and NNPCRV.
+!
+! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
+      subroutine utan41v(cm, d1, d2, d3, d4, d5, d6, sig1, sig2, sig3,  &
+     &  sig4, sig5, sig6, epsps, hsvs, unsym, lft, llt, dt1siz, capa,   &
+     &  etype, tt, temps, dsave, nlqa, crv, nnpcrv, failels, cma, qmat)
+      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, &
+     &  c_int32_t, c_size_t
+      implicit none
+      real :: cm(*), d1(*), d2(*), d3(*), d4(*), d5(*), d6(*)
+      real :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*)
+      real :: epsps(*), hsvs(*), dt1siz(*), capa, tt, temps(*), dsave(*)
+      real :: crv(*), cma(*), qmat(*)
+      integer :: lft, llt, nlqa, nnpcrv(*)
+      character(len=5) :: etype
+      logical :: unsym, failels(*)
+      integer(c_size_t), parameter :: number_of_properties = 11
+      integer(c_int32_t), parameter :: nhv = 11
+      integer(c_int32_t) :: status
+
+!     The default kind of REAL picks the precision.
+      interface toron_utan_vector
+        function toron_lsdyna_utan_vector_f64(cm, hsvs, nhv, lft, llt,  &
+     &    nlq, dsave) bind(c) result(status)
+          import :: c_double, c_int32_t
+          real(c_double), intent(in) :: cm(*), hsvs(*)
+          integer(c_int32_t), value :: nhv, lft, llt, nlq
+          real(c_double), intent(inout) :: dsave(*)
+          integer(c_int32_t) :: status
+        end function
+        function toron_lsdyna_utan_vector_f32(cm, hsvs, nhv, lft, llt,  &
+     &    nlq, dsave) bind(c) result(status)
+          import :: c_float, c_int32_t
+          real(c_float), intent(in) :: cm(*), hsvs(*)
+          integer(c_int32_t), value :: nhv, lft, llt, nlq
+          real(c_float), intent(inout) :: dsave(*)
+          integer(c_int32_t) :: status
+        end function
+      end interface
+      interface toron_validate
+        function toron_hyperelastic_validate_f64(values, count, text,   &
+     &    capacity, status) bind(c) result(length)
+          import :: c_char, c_double, c_int32_t, c_size_t
+          real(c_double), intent(in) :: values(*)
+          integer(c_size_t), value :: count, capacity
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_int32_t), intent(inout) :: status
+          integer(c_size_t) :: length
+        end function
+        function toron_hyperelastic_validate_f32(values, count, text,   &
+     &    capacity, status) bind(c) result(length)
+          import :: c_char, c_float, c_int32_t, c_size_t
+          real(c_float), intent(in) :: values(*)
+          integer(c_size_t), value :: count, capacity
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_int32_t), intent(inout) :: status
+          integer(c_size_t) :: length
+        end function
+      end interface
+      interface
+        function toron_status_message(status, text, capacity)           &
+     &    bind(c) result(length)
+          import :: c_char, c_int32_t, c_size_t
+          integer(c_int32_t), value :: status
+          character(kind=c_char), intent(inout) :: text(*)
+          integer(c_size_t), value :: capacity
+          integer(c_size_t) :: length
+        end function
+      end interface
+
+      status = toron_utan_vector(cm, hsvs, nhv, int(lft, c_int32_t),    &
+     &  int(llt, c_int32_t), int(nlqa, c_int32_t), dsave)
+!     Below -300 the elements are at fault, and has no stiffness; above, the deck is.
+      if (status < 0 .and. status > -300) call refuse
+
+      contains
+
+      subroutine refuse
+      integer(c_size_t), parameter :: capacity = 300
+      character(kind=c_char) :: text(capacity)
+      integer(c_size_t) :: length
+      integer(c_int32_t) :: code
+      length = toron_validate(cm, number_of_properties, text,           &
+     &  capacity, code)
+      if (code /= status)                                               &
+     &  length = toron_status_message(status, text, capacity)
+      length = min(length, capacity - 1)
+      write (*, '(1x, *(a))') 'toron: ', text(1:length)
+      call adios(2)
+      end subroutine
+      end subroutine

@@ -1,0 +1,229 @@
+//! CalculiX: an external behaviour through the native interface, `*MATERIAL, NAME=@TORON_HYPERELASTIC`.
+//!
+//! | | |
+//! |---|---|
+//! | found as | `HYPERELASTIC` in `libTORON.so`, a link to `libtoron.so` |
+//! | properties | elconloc(1) … elconloc(11), kode = −100 − 11 |
+//! | deformation | xkl(3,3), F by columns, global |
+//! | state | xstateini, xstate: (nstate_, mi(1), elements), nstate_ ≥ 11 |
+//! | stress | stre(6): second Piola–Kirchhoff 11 22 33 **12 13 23** |
+//! | tangent | stiff(21): dS/dE, tensor components, the upper triangle of that order by columns; on every call |
+//! | failure | stress 0; stiff keeps a millionth, or the nodes between failed elements would hang on nothing |
+//! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
+//!
+//! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM,
+//! and no initial stress. The header does not declare the entry: CalculiX alone calls it.
+
+use core::ffi::c_char;
+
+use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::parameters;
+use crate::law::state::HYPERELASTIC_STATE;
+use crate::law::status::{self, Error};
+use crate::law::tangent::{Measure, Moduli};
+use nalgebra::{Matrix3, Vector3};
+
+use super::c_api::properties;
+
+/// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
+const CUTBACK: f64 = 0.25;
+
+/// What CalculiX ends with after an error in a material.
+const EXIT_CODE: i32 = 201;
+
+/// What stiff keeps where a point has none, relative to the fibre's bulk modulus. With 0 CalculiX's equation solver ends the
+/// job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
+const RESIDUAL_STIFFNESS: f64 = 1e-6;
+
+/// CalculiX's components 11 22 33 12 13 23 in the law's order 11 22 33 12 23 31.
+const COMPONENTS: [usize; 6] = [0, 1, 2, 3, 5, 4];
+
+/// Where the law keeps each entry of stiff, and whether it stands on the diagonal: the upper triangle by columns.
+const PLACES: [usize; 21] = UPPER_TRIANGLE.0;
+const DIAGONAL: [bool; 21] = UPPER_TRIANGLE.1;
+const UPPER_TRIANGLE: ([usize; 21], [bool; 21]) = {
+    let (mut places, mut diagonal) = ([0; 21], [false; 21]);
+    let (mut entry, mut column) = (0, 0);
+    while column < 6 {
+        let mut row = 0;
+        while row <= column {
+            places[entry] = Moduli::<f64>::place(COMPONENTS[row], COMPONENTS[column]);
+            diagonal[entry] = row == column;
+            (entry, row) = (entry + 1, row + 1);
+        }
+        column += 1;
+    }
+    (places, diagonal)
+};
+
+/// What the law has a use for among CalculiX's arguments.
+struct Arguments<'a> {
+    /// −100 less the number of constants.
+    kode: i32,
+    constants: *const f64,
+    /// Lagrange strain 11 22 33 12 13 23, without its quadratic part where the analysis is linear.
+    strain: &'a [f64; 6],
+    initial_stress: &'a [f64; 6],
+    f: &'a [[f64; 3]; 3],
+    /// Axes of `*ORIENTATION` and the place of the point, if there are any.
+    orientation: Option<(&'a [f64; 7], &'a [f64; 3])>,
+    state_count: i32,
+}
+
+impl Arguments<'_> {
+    /// The law of the deck's properties, and the fibre direction where it is not theirs.
+    ///
+    /// # Errors
+    /// Whatever a deck may have wrong that the arguments show.
+    fn law(&self) -> Result<(Hyperelastic<f64>, Option<[f64; 3]>), Error> {
+        let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
+        // SAFETY: CalculiX's promise: as many constants as kode says.
+        let properties = unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?;
+        let law = Hyperelastic::new(properties)?;
+        if self.state_count < HYPERELASTIC_STATE as i32 {
+            return Err(Error::Plain(status::STATE_COUNT));
+        }
+        if let Some(&value) = self.initial_stress.iter().find(|&&x| x != 0.0) {
+            return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
+        }
+        if self.is_linear() {
+            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        }
+        let fibre = match (self.orientation, properties) {
+            (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
+            _ => None,
+        };
+        Ok((law, fibre))
+    }
+
+    /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
+    fn is_linear(&self) -> bool {
+        let h = Matrix3::from(*self.f) - Matrix3::identity();
+        let six = |s: Matrix3<f64>| [s.m11, s.m22, s.m33, s.m12, s.m13, s.m23];
+        let largest = |s: [f64; 6]| s.into_iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let (linear, quadratic) = (six(0.5 * (h + h.transpose())), largest(six(0.5 * h.tr_mul(&h))));
+        let mut off = *self.strain;
+        off.iter_mut().zip(linear).for_each(|(strain, linear)| *strain -= linear);
+        quadratic > 1e-9 && largest(off) < 1e-3 * quadratic
+    }
+}
+
+/// The vector whose components in the axes of `*ORIENTATION` are `m`: rectangular axes by two vectors, or cylindrical ones about
+/// the line through two points, as CalculiX's `transformatrix.f` reads them.
+fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place: &[f64; 3]) -> [f64; 3] {
+    let (a, b) = (Vector3::new(a_1, a_2, a_3), Vector3::new(b_1, b_2, b_3));
+    let unit = |v: Vector3<f64>| v / v.norm();
+    let across = |v: Vector3<f64>, axis: Vector3<f64>| unit(v - axis * axis.dot(&v));
+    let (e1, e2, e3);
+    if system > 0.0 {
+        e1 = unit(a);
+        e2 = across(b, e1);
+        e3 = e1.cross(&e2);
+    } else {
+        e3 = unit(b - a);
+        e1 = across(Vector3::from(*place) - a, e3);
+        e2 = e3.cross(&e1);
+    }
+    let [m_1, m_2, m_3] = m;
+    (e1 * m_1 + e2 * m_2 + e3 * m_3).into()
+}
+
+/// dS/dE as CalculiX stores it; `residual` times the identity where there is none.
+fn stiffness(moduli: &Moduli<f64>, residual: f64) -> [f64; 21] {
+    if moduli.0.iter().all(|&c| c == 0.0) {
+        return DIAGONAL.map(|diagonal| if diagonal { residual } else { 0.0 });
+    }
+    PLACES.map(|place| moduli.0[place])
+}
+
+/// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
+fn refuse(material: &[u8; 80], error: Error) -> ! {
+    let print = |text: &str| {
+        // SAFETY: the format takes a length and as many bytes.
+        unsafe { libc::printf(c"%.*s".as_ptr(), text.len() as libc::c_int, text.as_ptr()) };
+    };
+    print(" *ERROR: toron, material ");
+    print(core::str::from_utf8(material).unwrap_or("").trim_end());
+    print(": ");
+    error.describe(&mut |piece| print(piece));
+    print("\n");
+    // SAFETY: CalculiX's own way out, which writes what its files still lack.
+    unsafe { libc::exit(EXIT_CODE) }
+}
+
+/// The hyperelastic law as an external behaviour of CalculiX. Arguments as CalculiX passes them, see its `umat_user.f`.
+///
+/// # Safety
+/// CalculiX's promise: every pointer has as many values as said there.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+#[allow(non_snake_case)] // CalculiX looks for capitals.
+pub unsafe extern "C" fn HYPERELASTIC(
+    amat: *const c_char,
+    iel: *const i32,
+    iint: *const i32,
+    kode: *const i32,
+    elconloc: *const f64,
+    emec: *const f64,
+    _emec0: *const f64,
+    beta: *const f64,
+    _xokl: *const f64,
+    _voj: *const f64,
+    xkl: *const f64,
+    _vj: *const f64,
+    _ithermal: *const i32,
+    _t1l: *const f64,
+    _dtime: *const f64,
+    _time: *const f64,
+    _ttime: *const f64,
+    _icmd: *const i32,
+    _ielas: *const i32,
+    mi: *const i32,
+    nstate_: *const i32,
+    xstateini: *const f64,
+    xstate: *mut f64,
+    stre: *mut f64,
+    stiff: *mut f64,
+    iorien: *const i32,
+    pgauss: *const f64,
+    orab: *const f64,
+    pnewdt: *mut f64,
+    _ipkon: *const i32,
+    _amat_length: i32,
+) {
+    // SAFETY: CalculiX's promise.
+    let arguments = unsafe {
+        Arguments {
+            kode: *kode,
+            constants: elconloc,
+            strain: &*emec.cast(),
+            initial_stress: &*beta.cast(),
+            f: &*xkl.cast(),
+            orientation: usize::try_from(*iorien - 1).ok().map(|i| (&*orab.cast::<[f64; 7]>().add(i), &*pgauss.cast())),
+            state_count: *nstate_,
+        }
+    };
+    let (law, fibre) = match arguments.law() {
+        Ok(law) => law,
+        // SAFETY: a material's name has 80 characters.
+        Err(error) => refuse(unsafe { &*amat.cast() }, error),
+    };
+    // SAFETY: CalculiX's promise; integration points and elements count from 1.
+    let (old, new) = unsafe {
+        let place = (*iel as usize - 1) * *mi as usize + (*iint as usize - 1);
+        let place = place * *nstate_ as usize;
+        (&*xstateini.add(place).cast::<[f64; HYPERELASTIC_STATE]>(), xstate.add(place))
+    };
+    let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
+    let (point, moduli) = law.point_with_moduli(arguments.f, fibre, old, request, Measure::Material);
+    let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
+    // SAFETY: as above.
+    unsafe {
+        *stre.cast::<[f64; 6]>() = COMPONENTS.map(|c| stress[c]);
+        *stiff.cast::<[f64; 21]>() = stiffness(&moduli, RESIDUAL_STIFFNESS * law.bulk_and_shear()[0]);
+        *new.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
+        if point.status != status::OK {
+            *pnewdt = if *pnewdt > 0.0 { (*pnewdt).min(CUTBACK) } else { CUTBACK };
+        }
+    }
+}
