@@ -498,7 +498,7 @@ fn greatest_properties<T: Number>() {
                     assert!(v.iter().all(|x| x.is_finite()), "{v:?} from {input:?}, p = {p}, {level:?} {asked:?}");
                     assert!([status::OK, status::OVERFLOW].contains(&output.status), "{output:?} from {input:?}");
                 }
-                                if size_of::<T>() == 8 || p == 1.2 {
+                if size_of::<T>() == 8 || p == 1.2 {
                     assert_eq!(outputs[0].status, status::OK, "p = {p}, {level:?} {asked:?}");
                 }
             }

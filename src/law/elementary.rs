@@ -153,10 +153,13 @@ impl<R: Real> Asinh<R> {
         let (z, k) = growth.split_exponent();
         // w < 1/5, that is z < 1½ with room for rounding: there k = 0.
         let small = (R::splat(5.01) * s).lt(t);
+        // For k = 1, w = (3s − t)/(3t − s), which has the error of s and t without that of j.
+        let three = R::splat(3.0);
+        let middle = k.lt(R::splat(1.5));
         let asinh = Asinh {
-            k,
-            numerator: R::select(small, s, z - one),
-            denominator: R::select(small, t, z + one),
+            k: R::select(small, R::splat(0.0), R::select(middle, one, k)),
+            numerator: R::select(small, s, R::select(middle, three.mul_add(s, -t), z - one)),
+            denominator: R::select(small, t, R::select(middle, three.mul_add(t, -s), z + one)),
             divisor: R::select(small, one, s),
             small,
         };

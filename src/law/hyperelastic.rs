@@ -220,13 +220,7 @@ impl<R: Real> Hyperelastic<R> {
     /// which holds its digits where the section is hardly distorted. So
     /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
-    pub fn cauchy(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        intact: R::Mask,
-        shear: bool,
-    ) -> [R; 6] {
+    pub fn cauchy(&self, kinematics: Kinematics<'_, R>, k: &Kirchhoff<R>, intact: R::Mask, shear: bool) -> [R; 6] {
         let Kinematics { stretch: d, section, images: [image_a, image_b], strain } = kinematics;
         let zero = R::splat(0.0);
         let distortion = k.distortion * d.inverse_jacobian;

@@ -54,7 +54,7 @@ impl<R: Real> Hyperelastic<R> {
         let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         // The stiffness stays out of the squares, which would leave the range.
-        let [on_q1, on_q2] = shear_components(d, one);
+        let [on_q1, on_q2] = shear_components(d, R::splat(1.0));
         let coupling = R::splat(4.0) * k.shear * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
 
         let across = self.k_el.mul_add(strain.i_el.max(zero), compacting + distorting + shearing);

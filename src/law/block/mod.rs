@@ -25,9 +25,7 @@ use core::mem::MaybeUninit;
 
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
-use super::kinematics::{
-    Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch,
-};
+use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::real::Real;
 use super::status::{self, Error};
 use super::tangent::{Measure, unrepresentable};
