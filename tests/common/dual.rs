@@ -83,6 +83,9 @@ impl Real for Dual {
     fn max(self, other: Self) -> Self {
         if self.value > other.value { self } else { other }
     }
+    fn min(self, other: Self) -> Self {
+        if self.value < other.value { self } else { other }
+    }
     fn lt(self, other: Self) -> bool {
         self.value < other.value
     }
