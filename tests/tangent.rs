@@ -13,7 +13,7 @@ use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use proptest::prelude::*;
 use toron::law::block::{Arrays, Level};
 use toron::law::hyperelastic::{Hyperelastic, Point, Request};
-use toron::law::kinematics::{Decomposition, FibreFrame};
+use toron::law::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
 use toron::law::real::Real;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
@@ -131,10 +131,14 @@ fn dual_stresses(law: &Hyperelastic<f64>, f: &Matrix3<f64>, df: &Matrix3<f64>, s
     let law = law.lanes::<Dual>();
     let columns = std::array::from_fn(|j| std::array::from_fn(|i| Dual::new(f[(i, j)], df[(i, j)])));
     let frame: FibreFrame<Dual> = law.frame();
-    let (stretch, section, strain, k, _) = law.evaluate(&columns, &frame);
-    let modes = law.modes(&Decomposition::new(&stretch, &section), &k, &frame);
+    let (stretch, images) = Stretch::new(&columns, &frame);
+    let (section, images) = Section::new(&stretch, images, &frame);
+    let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
+    let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+    let k = law.kirchhoff_of(kinematics);
+    let modes = law.modes(&Decomposition::new(kinematics), &k, &frame);
     let second = std::array::from_fn(|c| modes[0][c] + modes[1][c] + modes[2][c] + modes[3][c]);
-    [law.cauchy(&stretch, &section, &strain, &k, true, shear), second]
+    [law.cauchy(kinematics, &k, true, shear), second]
 }
 
 fn slopes(s: &[Dual; 6]) -> Vector6<f64> {

@@ -202,6 +202,13 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
+    /// Likewise, with the power taken at once.
+    #[inline(always)]
+    pub fn kirchhoff_of(&self, kinematics: Kinematics<'_, R>) -> Kirchhoff<R> {
+        let power = self.compaction(kinematics.strain).reduce(&self.exponent).finish();
+        self.kirchhoff(kinematics.stretch, kinematics.strain, power)
+    }
+
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
     pub fn energies(&self, strain: &Strain<R>, i_ld: R, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
@@ -468,9 +475,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         let (stretch, images) = Stretch::new(f, axes);
         let (section, images) = Section::new(&stretch, images, axes);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-        let power = self.compaction(&strain).reduce(&self.exponent).finish();
-        let k = self.kirchhoff(&stretch, &strain, power);
         let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+        let k = self.kirchhoff_of(kinematics);
         let mut tangent = tangent(kinematics, &k, frame);
         let (latch, shear) = (state[FAILED], self.shears());
         let zero = T::splat(0.0);
