@@ -1,7 +1,7 @@
 //! The tangents of the yarn law, in closed form.
 //!
 //! In the current frame (e, q1, q2) most entries of the Truesdell modulus of τ vanish. With E = e⊗e, P = 1 − E, the
-//! deviator D of the section, A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, and the factors of [`Factors`], it is
+//! deviator D of the section, A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, and the factors of `Factors`, it is
 //! (derivation in `docs/theory.md`)
 //!
 //! ```text
