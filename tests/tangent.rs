@@ -412,7 +412,13 @@ fn bad_points() {
     assert_eq!((point.status, rows, point.stress), (status::OVERFLOW, [[0.0; 6]; 6], [0.0; 6]));
     // Another measure of it does.
     let (point, rows) = stiff.tangent(&f, Measure::Truesdell);
-    assert!(point.status == status::OK && rows[1][1] > 1e34 && point.stress[1] < -1e34);
+    assert!(
+        point.status == status::OK && rows[1][1] > 1e34 && point.stress[1] < -1e34,
+        "{}, {:e}, {:e}",
+        point.status,
+        rows[1][1],
+        point.stress[1]
+    );
 }
 
 fn numbers_only<T: Real<Mask = bool> + Into<f64> + std::fmt::Debug>(

@@ -17,6 +17,8 @@ pub trait Real:
 
     /// Smallest positive normal number.
     const MIN_POSITIVE: f64;
+    /// The distance from 1 to the next number.
+    const EPSILON: f64;
     /// Exponents of two that leave room for a factor of some thousands on either side of the range.
     const EXPONENTS: (f64, f64);
     /// Squares of stretches and of area ratios within which the law is evaluated: no intermediate result leaves the range.
@@ -119,6 +121,7 @@ macro_rules! scalar {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
             const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 + 20.0, $t::MAX_EXP as f64 - 20.0);
+            const EPSILON: f64 = $t::EPSILON as f64;
             const SQUARES: (f64, f64) = $squares;
             const ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;

@@ -100,10 +100,6 @@ struct Factors<R> {
     shear: R,
 }
 
-/// D⊗D W2 = (D/s)⊗(D/s)(k_td/4)(1 − x a/s): the bracket has an error of some roundings of 1 and D/s is a direction, so that no
-/// series is needed near s = 0, only something to divide by. Below this s² the whole term is below rounding.
-const LEAST_SQUARE: f64 = 1e-20;
-
 /// The tensors that a modulus is made of, 11 22 33 12 23 31.
 struct Bases<R> {
     e: [R; 6],
@@ -172,7 +168,10 @@ impl<R: Real> Hyperelastic<R> {
     fn factors(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = self.compaction_slopes(strain, k);
-        let square = (d.s * d.s).max(R::splat(LEAST_SQUARE));
+        // D⊗D W2 = (D/s)⊗(D/s)(k_td/4)(1 − x a/s): the bracket has an error of some roundings of 1 and D/s is a direction, so
+        // that no series is needed near s = 0, only something to divide by. Where s² is below a rounding of 1, so is the
+        // term beside W1.
+        let square = (d.s * d.s).max(R::splat(R::EPSILON));
         // a/s and x a/s.
         let ratio = strain.distortion_ratio * d.area_ratio;
         let stiffness = d.cosh * ratio;

@@ -57,6 +57,7 @@ impl Real for Dual {
     type Mask = bool;
     const MIN_POSITIVE: f64 = f64::MIN_POSITIVE;
     const EXPONENTS: (f64, f64) = <f64 as Real>::EXPONENTS;
+    const EPSILON: f64 = <f64 as Real>::EPSILON;
     const SQUARES: (f64, f64) = <f64 as Real>::SQUARES;
     const ARTANH: &'static [f64] = <f64 as Real>::ARTANH;
     const LN: &'static [f64] = <f64 as Real>::LN;

@@ -94,6 +94,7 @@ macro_rules! register {
             type Mask = $mask;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
             const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
+            const EPSILON: f64 = <$t as Real>::EPSILON;
             const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
             const ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
