@@ -63,8 +63,8 @@ fn property_table(properties: &[Property], units: &UnitSystem) -> String {
     let rows = properties.iter().enumerate().map(|(i, property)| {
         let bound = match (property.minimum.is_finite(), property.minimum_excluded) {
             (false, _) => "any".to_string(),
-            (true, true) => format!("> {}, <= {:?}", property.minimum, property.maximum),
-            (true, false) => format!(">= {}, <= {:?}", property.minimum, property.maximum),
+            (true, true) => format!("> {}, to {:?}", property.minimum, property.maximum),
+            (true, false) => format!("{} to {:?}", property.minimum, property.maximum),
         };
         let default = property.default.map_or("-".to_string(), |value| value.to_string());
         let unit = unit(units, property.dimension);

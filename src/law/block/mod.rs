@@ -356,11 +356,6 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store_integers(self, to: *mut i32);
-    /// Stores where the mask holds. Elsewhere the value at `old` may be stored or nothing at all.
-    ///
-    /// # Safety
-    /// `to` has room for `COUNT` values, and `old` points to as many.
-    unsafe fn store_where(self, mask: Self::Mask, to: *mut T, old: *const T);
     /// Has the processor fetch what is at an address, if there is anything.
     fn prefetch(place: *const T);
     /// Whether a mask holds for any of the points.
@@ -401,11 +396,6 @@ macro_rules! precision {
             unsafe fn store_integers(self, to: *mut i32) {
                 // SAFETY: the caller's promise.
                 unsafe { *to = self as i32 }
-            }
-            #[inline(always)]
-            unsafe fn store_where(self, mask: bool, to: *mut $t, old: *const $t) {
-                // SAFETY: the caller's promise.
-                unsafe { *to = if mask { self } else { *old } }
             }
             #[inline(always)]
             fn prefetch(_: *const $t) {}
@@ -646,7 +636,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut stretches, mut sections, mut images) = (Stage::new(), Stage::new(), Stage::new());
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
-    let mut all_new = zero.le(zero);
+    let mut any_strange = zero.lt(zero);
     let at = |k: usize| i + k * R::COUNT;
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the ones before have put.
@@ -691,17 +681,15 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
                 strain: strains.get(k),
             };
             let outcome = finish::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, doubt);
-            all_new = all_new & outcome.new;
+            any_strange = any_strange | outcome.flawed;
             outcomes.put(k, outcome);
         }
         if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
             for k in 0..count {
                 let (d, strain) = (stretches.get(k), strains.get(k));
-                remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
+                let wrong = remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
+                any_strange = any_strange | wrong;
             }
-        }
-        if !R::any(!all_new) {
-            return;
         }
         if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
@@ -709,10 +697,6 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             }
         }
         // Points that failed before are nothing strange; what is, is rare.
-        let mut any_strange = zero.lt(zero);
-        for k in 0..count {
-            any_strange = any_strange | retain::<T, R, WANT>(block, at(k), outcomes.get(k));
-        }
         if R::any(any_strange) {
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
@@ -894,7 +878,7 @@ unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize,
     }
 }
 
-/// Stores what the points remember. Those whose state is not new still want their old one.
+/// Stores what the points remember. Returns where something is kept that is not finite.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
@@ -907,31 +891,37 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
     strain: &Strain<R>,
     power: R,
     outcome: &Outcome<R>,
-) {
+) -> R::Mask {
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
     let k = law.kirchhoff(d, strain, power);
     let r = law.history(d, strain, &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
-    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
-    unsafe {
-        if request.energies {
-            for c in 0..4 {
-                let at = c * stride + i;
-                r.energies[c].store_where(outcome.new, block.energies.add(at), block.energies_old.add(at));
-            }
+    let mut sum = outcome.latch;
+    let mut keep = |x: R, old: *const T, new: *mut T, c: usize| {
+        let at = c * stride + i;
+        // SAFETY: the arrays have the component, and the lanes from i on.
+        unsafe {
+            let kept = R::select(outcome.new, x, R::load(old.add(at)));
+            sum = sum + kept;
+            kept.store(new.add(at));
         }
-        if request.invariants {
-            for c in 0..4 {
-                let at = c * stride + i;
-                r.invariants[c].store_where(outcome.new, block.invariants.add(at), block.invariants_old.add(at));
-            }
-        }
-        if request.failure {
-            r.failure_index.store_where(outcome.new, block.failure.add(i), block.failure_old.add(i));
+    };
+    if request.energies {
+        (0..4).for_each(|c| keep(r.energies[c], block.energies_old, block.energies, c));
+    }
+    if request.invariants {
+        (0..4).for_each(|c| keep(r.invariants[c], block.invariants_old, block.invariants, c));
+    }
+    if request.failure {
+        keep(r.failure_index, block.failure_old, block.failure, 0);
+        // SAFETY: likewise.
+        unsafe {
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
     }
+    let zero = R::splat(0.0);
+    !outcome.new & !(sum * zero).le(zero)
 }
 
 /// Has the processor fetch what [`remember`] will store to.
@@ -942,46 +932,11 @@ fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
-/// Gives points whose state is not new their old one. Returns where there is more to be said of them than that they had failed
-/// before: they are flawed, or what they keep is not finite.
-///
-/// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`finish`].
-#[inline(always)]
-unsafe fn retain<T: Precision, R: Lanes<T>, const WANT: u8>(
-    block: &Pointers<T>,
-    i: usize,
-    outcome: &Outcome<R>,
-) -> R::Mask {
-    let request = request::<T, WANT>(block);
-    let (zero, stride) = (R::splat(0.0), block.leading_dimension);
-    let mut sum = outcome.latch;
-    let mut component = |old: *const T, new: *mut T, c: usize| {
-        // SAFETY: the arrays have the component, and the lanes from i on.
-        unsafe {
-            let (old, new) = (old.add(c * stride + i), new.add(c * stride + i));
-            let value = R::load(old);
-            sum = sum + value;
-            value.store_where(!outcome.new, new, new);
-        }
-    };
-    if request.energies {
-        (0..4).for_each(|c| component(block.energies_old, block.energies, c));
-    }
-    if request.invariants {
-        (0..4).for_each(|c| component(block.invariants_old, block.invariants, c));
-    }
-    if request.failure {
-        component(block.failure_old, block.failure, 0);
-    }
-    outcome.flawed | (!outcome.new & !(sum * zero).le(zero))
-}
-
 /// Says why points have kept their old state, drops what is not finite in it, and takes the stress of flawed ones away. Returns
 /// the worst code.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`retain`].
+/// As for [`sweep`], for the lanes from i on, after [`remember`].
 #[inline(always)]
 unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,

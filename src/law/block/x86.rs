@@ -25,7 +25,6 @@ macro_rules! register {
         memory $load:ident $store:ident;
         integers ($x:ident, $to_int:ident) $store_integers:expr;
         compare ($l:ident, $r:ident) $lt:expr, $le:expr;
-        store_where ($where_x:ident, $where_mask:ident, $where_to:ident, $where_old:ident) $store_where:expr;
         any ($any_mask:ident) $any:expr;
         select ($m:ident, $yes:ident, $no:ident) $select:expr;
         mul_add ($fa:ident, $fb:ident, $fc:ident) $mul_add:expr;
@@ -235,12 +234,6 @@ macro_rules! register {
                 unsafe { $store_integers }
             }
             #[inline(always)]
-            unsafe fn store_where(self, $where_mask: $mask, $where_to: *mut $t, $where_old: *const $t) {
-                let $where_x = self.0;
-                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
-                unsafe { $store_where }
-            }
-            #[inline(always)]
             fn prefetch(place: *const $t) {
                 // SAFETY: a prefetch never faults.
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(place.cast()) }
@@ -376,7 +369,6 @@ register! {
     memory _mm_loadu_pd _mm_storeu_pd;
     integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
     compare (a, b) Mask64x2(_mm_cmplt_pd(a, b)), Mask64x2(_mm_cmple_pd(a, b));
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) _mm_movemask_pd(mask.0) != 0;
     select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
     mul_add (a, b, c) _mm_add_pd(_mm_mul_pd(a, b), c);
@@ -397,7 +389,6 @@ register! {
     memory _mm_loadu_ps _mm_storeu_ps;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm_cvttps_epi32(x));
     compare (a, b) Mask32x4(_mm_cmplt_ps(a, b)), Mask32x4(_mm_cmple_ps(a, b));
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) _mm_movemask_ps(mask.0) != 0;
     select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
     mul_add (a, b, c) _mm_add_ps(_mm_mul_ps(a, b), c);
@@ -418,7 +409,6 @@ register! {
     memory _mm256_loadu_pd _mm256_storeu_pd;
     integers (x, to) _mm_storeu_si128(to.cast(), _mm256_cvttpd_epi32(x));
     compare (a, b) Mask64x4(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x4(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b));
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) _mm256_movemask_pd(mask.0) != 0;
     select (mask, a, b) _mm256_blendv_pd(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_pd(a, b, c);
@@ -439,7 +429,6 @@ register! {
     memory _mm256_loadu_ps _mm256_storeu_ps;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm256_cvttps_epi32(x));
     compare (a, b) Mask32x8(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x8(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b));
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) _mm256_movemask_ps(mask.0) != 0;
     select (mask, a, b) _mm256_blendv_ps(b, a, mask.0);
     mul_add (a, b, c) _mm256_fmadd_ps(a, b, c);
@@ -460,7 +449,6 @@ register! {
     memory _mm512_loadu_pd _mm512_storeu_pd;
     integers (x, to) _mm256_storeu_si256(to.cast(), _mm512_cvttpd_epi32(x));
     compare (a, b) _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b);
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) mask != 0;
     select (mask, a, b) _mm512_mask_blend_pd(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
@@ -487,7 +475,6 @@ register! {
     memory _mm512_loadu_ps _mm512_storeu_ps;
     integers (x, to) _mm512_storeu_si512(to.cast(), _mm512_cvttps_epi32(x));
     compare (a, b) _mm512_cmp_ps_mask::<_CMP_LT_OQ>(a, b), _mm512_cmp_ps_mask::<_CMP_LE_OQ>(a, b);
-    store_where (x, mask, to, old) Self::select(mask, Self(x), Self::load(old)).store(to);
     any (mask) mask != 0;
     select (mask, a, b) _mm512_mask_blend_ps(mask, b, a);
     mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
