@@ -756,7 +756,9 @@ fn nothing_meaningless_leaves<T: Number>(
                     let same = (0..9).all(|c| v[6 + c] == kept[c] || !asked.of_state(c));
                     prop_assert!(same, "{v:?} from {input:?}, {call:?}");
                 }
-                if asked == Asked::ALL {
+                // Beyond this a fibre's shear leaves nothing but rounding of the section, and of what can be said of it.
+                let sensible = input.f.iter().all(|&x| Into::<f64>::into(Real::abs(x)) < T::ROUNDING.sqrt().recip());
+                if asked == Asked::ALL && (sensible || !input.f.iter().all(|&x| Into::<f64>::into(x).is_finite())) {
                     prop_assert!(
                         could_be(&law, input, call.fibres, output.status),
                         "{output:?} from {input:?}, {call:?}"

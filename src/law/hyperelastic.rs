@@ -367,9 +367,11 @@ impl<R: Real> Hyperelastic<R> {
         let code = |status: i32| R::splat(f64::from(status));
         // A number times zero is zero unless it is NaN or infinite. What is too large has no determinant to speak of.
         let (mut finite, mut size) = (zero, zero);
-        for &entry in f.iter().flatten() {
-            finite = entry.mul_add(zero, finite);
-            size = entry.mul_add(entry, size);
+        for column in f {
+            for &entry in column {
+                finite = entry.mul_add(zero, finite);
+                size = entry.mul_add(entry, size);
+            }
         }
         let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
         // The first reason that applies, from the last to the first.
