@@ -612,7 +612,11 @@ unsafe fn evaluate<T: Precision, R: Lanes<T>, const WANT: u8>(
             for k in 0..count {
                 frames.put(k, frame::<T, R, WANT>(law, block, i + k * R::COUNT));
             }
-            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |k| *frames.get(k), worst);
+            let fibre = |k: usize| {
+                let (frame, usable) = *frames.get(k);
+                (frame, Some(usable))
+            };
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, fibre, worst);
         } else {
             staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |_| (law.frame, None), worst);
         }
@@ -732,15 +736,15 @@ unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
     i: usize,
-) -> (FibreFrame<R>, Option<R::Mask>) {
+) -> (FibreFrame<R>, R::Mask) {
     let m = &block.fibre;
     if WANT & AS_ASKED != 0 && m[0].is_null() {
-        return (law.frame, None);
+        let zero = R::splat(0.0);
+        return (law.frame, zero.le(zero));
     }
     // SAFETY: the caller's promise.
     let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
-    let (frame, usable) = FibreFrame::new(direction);
-    (frame, Some(usable))
+    FibreFrame::new(direction)
 }
 
 /// What a kernel is asked for.
