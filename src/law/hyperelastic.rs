@@ -303,9 +303,12 @@ impl<R: Real> Hyperelastic<R> {
         // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
         // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
         // A compaction energy that does not fit shows in the stress, if that is asked for.
-        let mut probe = (stress[0] + stress[1]) + (stress[2] + stress[3]) + ((stress[4] + stress[5]) + doubt);
-        if request.energies && !request.stress {
-            probe = probe + k.compaction_energy;
+        let mut probe = doubt;
+        if !R::HEADROOM || shear {
+            probe = probe + ((stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]));
+            if request.energies && !request.stress {
+                probe = probe + k.compaction_energy;
+            }
         }
         if request.energies && shear {
             probe = probe + self.energies(strain, d.shear_invariant(), k, shear)[3];
@@ -340,8 +343,8 @@ impl<R: Real> Hyperelastic<R> {
     #[allow(clippy::too_many_arguments)]
     pub fn history(
         &self,
-        d: &Stretch<R>,
         strain: &Strain<R>,
+        i_ld: R,
         k: &Kirchhoff<R>,
         new: R::Mask,
         latch: R,
@@ -349,7 +352,6 @@ impl<R: Real> Hyperelastic<R> {
         shear: bool,
     ) -> History<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let i_ld = d.shear_invariant();
         let index = if request.failure { self.failure.index(strain) } else { zero };
         History {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
@@ -484,7 +486,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         let zero = T::splat(0.0);
         let doubt = T::select(usable, strain.doubt, T::splat(f64::NAN)) + unrepresentable(tangent.as_mut());
         let r = self.respond(kinematics, &k, frame, doubt, latch, request, shear);
-        let history = self.history(&stretch, &strain, &k, r.new, latch, request, shear);
+        let history = self.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
         let (mut stress, mut status) = (r.stress, status::OK);
         let mut new = [zero; HYPERELASTIC_STATE];
         new[ENERGIES..INVARIANTS].copy_from_slice(&history.energies);

@@ -23,6 +23,8 @@ pub trait Real:
     const EXPONENTS: (f64, f64);
     /// Squares of stretches and of area ratios within which the law is evaluated: no intermediate result leaves the range.
     const SQUARES: (f64, f64);
+    /// Whether this range is so wide that no stress, but for the longitudinal shear's, can leave it.
+    const HEADROOM: bool;
     /// Coefficients of artanh, the logarithm and the exponential, see [`elementary`](super::elementary).
     const ARTANH: &'static [f64];
     const LN: &'static [f64];
@@ -116,13 +118,14 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 macro_rules! scalar {
-    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, headroom: $headroom:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
         impl Real for $t {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
             const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 + 20.0, $t::MAX_EXP as f64 - 20.0);
             const EPSILON: f64 = $t::EPSILON as f64;
             const SQUARES: (f64, f64) = $squares;
+            const HEADROOM: bool = $headroom;
             const ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
@@ -195,7 +198,7 @@ macro_rules! scalar {
 }
 
 scalar!(
-    f64, u64, libm::sqrt, f64::abs, squares: (1e-100, 1e100),
+    f64, u64, libm::sqrt, f64::abs, squares: (1e-100, 1e100), headroom: true,
     difference: |a, b, c, d| {
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
@@ -203,7 +206,7 @@ scalar!(
     series: ARTANH_F64, LN_F64, EXP_F64
 );
 scalar!(
-    f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15),
+    f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15), headroom: false,
     difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
     series: ARTANH_F32, LN_F32, EXP_F32
 );

@@ -59,6 +59,7 @@ impl Real for Dual {
     const EXPONENTS: (f64, f64) = <f64 as Real>::EXPONENTS;
     const EPSILON: f64 = <f64 as Real>::EPSILON;
     const SQUARES: (f64, f64) = <f64 as Real>::SQUARES;
+    const HEADROOM: bool = <f64 as Real>::HEADROOM;
     const ARTANH: &'static [f64] = <f64 as Real>::ARTANH;
     const LN: &'static [f64] = <f64 as Real>::LN;
     const EXP: &'static [f64] = <f64 as Real>::EXP;

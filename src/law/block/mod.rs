@@ -524,7 +524,13 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
         while i < part.n {
             let count = STAGED.min((part.n - i) / R::COUNT);
             // SAFETY: i + count COUNT ≤ n, and the caller's promise.
-            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
+            unsafe {
+                if count == STAGED {
+                    evaluate::<T, R, WANT>(&lanes, &part, i, STAGED, &mut worst);
+                } else {
+                    evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst);
+                }
+            }
             i += count * R::COUNT;
         }
         if left_over.count > 0 {
@@ -899,7 +905,7 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
     let k = law.kirchhoff(d, strain, power);
-    let r = law.history(d, strain, &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
+    let r = law.history(strain, d.shear_invariant(), &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
     let mut sum = outcome.latch;
     let mut keep = |x: R, old: *const T, new: *mut T, c: usize| {
         let at = c * stride + i;
@@ -911,10 +917,14 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
     };
     if request.energies {
-        (0..4).for_each(|c| keep(r.energies[c], block.energies_old, block.energies, c));
+        for c in 0..4 {
+            keep(r.energies[c], block.energies_old, block.energies, c);
+        }
     }
     if request.invariants {
-        (0..4).for_each(|c| keep(r.invariants[c], block.invariants_old, block.invariants, c));
+        for c in 0..4 {
+            keep(r.invariants[c], block.invariants_old, block.invariants, c);
+        }
     }
     if request.failure {
         keep(r.failure_index, block.failure_old, block.failure, 0);
@@ -932,7 +942,9 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
 #[inline(always)]
 fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T, leading_dimension: usize, i: usize) {
     if wanted {
-        (0..COMPONENTS).for_each(|c| R::prefetch(array.wrapping_add(c * leading_dimension + i)));
+        for c in 0..COMPONENTS {
+            R::prefetch(array.wrapping_add(c * leading_dimension + i));
+        }
     }
 }
 
@@ -965,10 +977,14 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
     };
     if request.energies {
-        (0..4).for_each(|c| clean(block.energies, c));
+        for c in 0..4 {
+            clean(block.energies, c);
+        }
     }
     if request.invariants {
-        (0..4).for_each(|c| clean(block.invariants, c));
+        for c in 0..4 {
+            clean(block.invariants, c);
+        }
     }
     if request.failure {
         clean(block.failure, 0);
