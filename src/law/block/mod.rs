@@ -524,13 +524,7 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
         while i < part.n {
             let count = STAGED.min((part.n - i) / R::COUNT);
             // SAFETY: i + count COUNT ≤ n, and the caller's promise.
-            unsafe {
-                if count == STAGED {
-                    evaluate::<T, R, WANT>(&lanes, &part, i, STAGED, &mut worst);
-                } else {
-                    evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst);
-                }
-            }
+            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
             i += count * R::COUNT;
         }
         if left_over.count > 0 {
