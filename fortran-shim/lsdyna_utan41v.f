@@ -75,7 +75,7 @@
 
       status = toron_utan_vector(cm, hsvs, nhv, int(lft, c_int32_t),    &
      &  int(llt, c_int32_t), int(nlqa, c_int32_t), dsave)
-!     Below -300 the elements are at fault, and has no stiffness; above, the deck is.
+!     Below -300 the elements are at fault and have no stiffness; above, the deck is.
       if (status < 0 .and. status > -300) call refuse
 
       contains

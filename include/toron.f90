@@ -53,6 +53,7 @@ module toron
     integer(c_int32_t) :: has_default
     real(c_double) :: default_value
     real(c_double) :: minimum
+    real(c_double) :: maximum
     integer(c_int32_t) :: minimum_excluded
     character(kind=c_char) :: allowed(80)
     character(kind=c_char) :: meaning(96)

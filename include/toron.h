@@ -197,9 +197,10 @@ typedef struct {
   int32_t has_default;
   double default_value;
   /*
-   The least value allowed, and whether it is itself excluded; -infinity for state variables.
+   The least value allowed, and whether it is itself excluded, and the greatest one; infinite where there is no bound.
    */
   double minimum;
+  double maximum;
   int32_t minimum_excluded;
   /*
    The bounds in words, and what the quantity is.
@@ -766,7 +767,8 @@ int32_t toron_linear_elastic_step_f64(const double *values,
  As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
 
  - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
-   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` is DDSDDE, row by row.
+   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` has DDSDDE's
+   entries, in the order of the stress here.
 
  # Safety
  Every pointer is null or has as many values as said.

@@ -487,8 +487,9 @@ fn any_combination_of_outputs_f32() {
 fn greatest_properties<T: Number>() {
     let section = |x: f64| Input::<T>::fresh([1.0, 0.2, 0.1, 0.1 * x, x, 0.0, 0.0, 0.0, x], AXIS);
     let inputs: Vec<_> = [0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 2.0, 100.0].map(section).into();
-    for p in [1.000_001, 1.2, 2.0, 17.0, 40.0] {
-        let law = law::<T>([1e25, 1e25, p, 1e25, 1e25, 1e25, 1e25, 1e25, 1.0, 0.0, 0.0]);
+    let cases = [1.000_001, 1.2, 2.0, 17.0, 40.0].into_iter().flat_map(|p| [(p, 0.0), (p, 1e25)]);
+    for (p, k_ld) in cases {
+        let law = law::<T>([1e25, 1e25, p, 1e25, k_ld, 1e25, 1e25, 1e25, 1.0, 0.0, 0.0]);
         for level in levels() {
             for bits in 64..128 {
                 let asked = Asked::from_bits(bits);
@@ -514,6 +515,53 @@ fn greatest_properties_f64() {
 #[test]
 fn greatest_properties_f32() {
     greatest_properties::<f32>();
+}
+
+/// The columns of F almost multiples of one another, so that the section's vectors may cancel to nothing while det F does not:
+/// whatever is asked for, no NaN leaves.
+fn almost_parallel_images<T: Number>() {
+    let mut random = fastrand::Rng::with_seed(11);
+    let by_hand = [
+        [3.0, 1.0 / 7.0, 0.0, 0.03, 0.01 / 7.0, 0.0, 0.0, 0.0, 1.0],
+        [8.0, 12.0, -4.0, -2.0, -3.0, 1.0, 2.0, 1.8626458153647718e-9, -6.103515625e-5],
+        [15.0, 10.0, 15.0, 5.5511151231257827e-17, 0.0, 0.0, -3.0, -1.9992675781248863, -3.0],
+        [0.58620691, 3.2857144, 1.6923077, 17586.207, 98571.43, 50769.23, 164137.94, 920000.0, 473846.16],
+    ];
+    let mut ratio = |most: u32| f64::from(random.u32(1..most)) / f64::from(random.u32(1..most));
+    let mut any = || {
+        let c1 = [ratio(20), ratio(20), ratio(20)];
+        let [s2, s3] = [ratio(9), ratio(9)].map(|s| s * ratio(9).powi(8));
+        let off = 1.0 + T::ROUNDING * (ratio(5) - 1.0);
+        std::array::from_fn(|c| [1.0, s2, s3][c / 3] * c1[c % 3] * if c == 4 || c == 8 { off } else { 1.0 })
+    };
+    let gradients: Vec<[f64; 9]> = by_hand.into_iter().chain((0..4000).map(|_| any())).collect();
+    for fibre in [AXIS, [-4.0, 1.0, 0.0], [-4.0, 4.0, 0.0], [1.0, 2.0, -3.0]] {
+        let inputs: Vec<Input<T>> = gradients.iter().map(|&f| Input::fresh(f, fibre)).collect();
+        for k_ld in [0.0, 1e9] {
+            let [m_1, m_2, m_3] = fibre;
+            let law = law::<T>([82341.0, 1055.0, 2.2, 649.74, k_ld, 0.0458, 1.8, 0.5, m_1, m_2, m_3]);
+            for level in levels() {
+                let requests = [Asked::ALL, Asked::from_bits(64 + 6)].into_iter().chain(Asked::USUAL);
+                for (asked, fibres) in requests.flat_map(|asked| [(asked, false), (asked, true)]) {
+                    let (outputs, _) = run(&law, &inputs, &Call { asked, fibres, ..Call::new(level) });
+                    for (output, input) in outputs.iter().zip(&inputs) {
+                        let v = output.values::<T>();
+                        assert!(v.iter().all(|x| x.is_finite()), "{v:?} from {input:?}, {level:?} {asked:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn almost_parallel_images_f64() {
+    almost_parallel_images::<f64>();
+}
+
+#[test]
+fn almost_parallel_images_f32() {
+    almost_parallel_images::<f32>();
 }
 
 /// Arrays of a block of `n` points, as long as they must be.

@@ -115,7 +115,6 @@ fn truth() {
     for (category, (error, allowed)) in worst {
         println!("{category:<20}{error:>12.1e}{allowed:>16.1e}");
         let bound = match category.as_str() {
-            "compaction" | "exponent" => 1e-8,
             "distortion" => f64::INFINITY,
             _ => 1e-12,
         };

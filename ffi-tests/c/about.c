@@ -83,7 +83,7 @@ static void tables(void)
     CHECK(toron_property_count(2) == TORON_UNKNOWN_NAME && toron_state_count(-1) == TORON_UNKNOWN_NAME, "no such law");
     toron_table_row row;
     toron_property(TORON_HYPERELASTIC, 2, &row);
-    CHECK(strcmp(row.name, "p") == 0 && row.minimum == 1 && row.minimum_excluded == 1 && row.has_default == 0, "p");
+    CHECK(strcmp(row.name, "p") == 0 && row.minimum == 1 && row.minimum_excluded == 1 && row.maximum == 40 && row.has_default == 0, "p");
     CHECK(strcmp(row.allowed, "a number > 1, at most 40") == 0, "%s", row.allowed);
     toron_property(TORON_HYPERELASTIC, toron_property_index(TORON_HYPERELASTIC, "k_el"), &row);
     CHECK(strcmp(row.unit, "stress") == 0 && row.mass == 1 && row.length == -1 && row.time == -2, "%s", row.unit);

@@ -98,7 +98,7 @@ contains
     call check(toron_property_count(toron_hyperelastic) == properties, 'count', 0)
     call check(toron_state_count(toron_linear_elastic) == toron_linear_elastic_state, 'count', 0)
     call check(toron_property(toron_hyperelastic, 2, row) == toron_status_ok, 'row', 0)
-    call check(text(row%name) == 'p' .and. row%minimum == 1 .and. row%minimum_excluded == 1, 'p', 0)
+    call check(text(row%name) == 'p' .and. row%minimum == 1 .and. row%minimum_excluded == 1 .and. row%maximum == 40, 'p', 0)
     call check(text(row%meaning) == 'transverse compaction exponent', 'meaning', 0)
     call check(toron_property_index(toron_hyperelastic, 'eps_lim' // c_null_char) == 5, 'eps_lim', 0)
     call check(toron_state_variable(toron_hyperelastic, 10, row) == toron_status_ok, 'row', 0)

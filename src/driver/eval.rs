@@ -44,11 +44,14 @@ struct Input {
 
 #[derive(Debug, Deserialize)]
 struct Params {
+    #[serde(alias = "k_el")]
     kel: f64,
+    #[serde(alias = "k_tc")]
     ktc: f64,
     p: f64,
+    #[serde(alias = "k_td")]
     ktd: f64,
-    #[serde(default)]
+    #[serde(alias = "k_ld", default)]
     kld: f64,
     #[serde(default)]
     eps_lim: f64,

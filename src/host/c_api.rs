@@ -200,8 +200,9 @@ pub struct TableRow {
     /// Whether there is a default, and its value; for state variables the value at the start, 0.
     pub has_default: i32,
     pub default_value: f64,
-    /// The least value allowed, and whether it is itself excluded; -infinity for state variables.
+    /// The least value allowed, and whether it is itself excluded, and the greatest one; infinite where there is no bound.
     pub minimum: f64,
+    pub maximum: f64,
     pub minimum_excluded: i32,
     /// The bounds in words, and what the quantity is.
     pub allowed: [c_char; 80],
@@ -229,6 +230,7 @@ impl TableRow {
             has_default: 1,
             default_value: 0.0,
             minimum: f64::NEG_INFINITY,
+            maximum: f64::INFINITY,
             minimum_excluded: 0,
             allowed: text("a finite number"),
             meaning: text(meaning),
@@ -242,6 +244,7 @@ impl From<&Property> for TableRow {
             has_default: i32::from(row.default.is_some()),
             default_value: row.default.unwrap_or(0.0),
             minimum: row.minimum,
+            maximum: row.maximum,
             minimum_excluded: i32::from(row.minimum_excluded),
             allowed: text(row.allowed),
             ..TableRow::new(row.name, row.symbol, row.dimension, row.meaning)
@@ -1100,7 +1103,8 @@ pub unsafe extern "C" fn toron_linear_elastic_step_f64(
 /// As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
 ///
 /// - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
-///   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` is DDSDDE, row by row.
+///   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` has DDSDDE's
+///   entries, in the order of the stress here.
 ///
 /// # Safety
 /// Every pointer is null or has as many values as said.

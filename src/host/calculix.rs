@@ -216,6 +216,10 @@ pub unsafe extern "C" fn HYPERELASTIC(
     };
     let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
     let (point, moduli) = law.point_with_moduli(arguments.f, fibre, old, request, Measure::Material);
+    if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&point.status) {
+        // No smaller increment helps. SAFETY: as above.
+        refuse(unsafe { &*amat.cast() }, Error::Plain(point.status));
+    }
     let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
     // SAFETY: as above.
     unsafe {

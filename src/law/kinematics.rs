@@ -289,9 +289,11 @@ impl<R: Real> Logarithms<R> {
             product_2,
             product_3,
             inverse: R::splat(1.0) / (product_3 * d_4),
-            // A size that is NaN stays so in the largest one.
+            // A size that is NaN stays so in the largest one, a growth in the least. Where the three images are almost parallel
+            // a and b may vanish by cancellation, though J does not.
             doubt: R::select(
-                least.lt(d.jacobian.min(d.square).min(section.area_square)) & growth.max(d.size).lt(most),
+                least.lt(d.jacobian.min(d.square).min(section.area_square).min(section.a_square).min(growth))
+                    & growth.max(d.size).lt(most),
                 R::splat(0.0),
                 R::splat(f64::NAN),
             ),
