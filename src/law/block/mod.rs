@@ -900,36 +900,39 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
     let stride = block.leading_dimension;
     let k = law.kirchhoff(d, strain, power);
     let r = law.history(strain, d.shear_invariant(), &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
-    let mut sum = outcome.latch;
-    let mut keep = |x: R, old: *const T, new: *mut T, c: usize| {
+    let keep = |x: R, old: *const T, new: *mut T, c: usize| {
         let at = c * stride + i;
         // SAFETY: the arrays have the component, and the lanes from i on.
         unsafe {
             let kept = R::select(outcome.new, x, R::load(old.add(at)));
-            sum = sum + kept;
             kept.store(new.add(at));
+            kept
         }
     };
+    // Products of what is kept: finite, but for rare overflows, only where all of it is.
+    let (zero, mut probe) = (R::splat(0.0), outcome.latch);
+    let mut energies = [zero; 4];
     if request.energies {
         for c in 0..4 {
-            keep(r.energies[c], block.energies_old, block.energies, c);
+            energies[c] = keep(r.energies[c], block.energies_old, block.energies, c);
         }
     }
     if request.invariants {
         for c in 0..4 {
-            keep(r.invariants[c], block.invariants_old, block.invariants, c);
+            probe = keep(r.invariants[c], block.invariants_old, block.invariants, c).mul_add(energies[c], probe);
         }
+    } else {
+        probe = energies[0].mul_add(energies[1], energies[2].mul_add(energies[3], probe));
     }
     if request.failure {
-        keep(r.failure_index, block.failure_old, block.failure, 0);
+        probe = keep(r.failure_index, block.failure_old, block.failure, 0).mul_add(outcome.latch, probe);
         // SAFETY: likewise.
         unsafe {
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
     }
-    let zero = R::splat(0.0);
-    !outcome.new & !(sum * zero).le(zero)
+    !outcome.new & !(probe * zero).le(zero)
 }
 
 /// Has the processor fetch what [`remember`] will store to.
