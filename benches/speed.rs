@@ -23,7 +23,7 @@ use toron::law::hyperelastic::Hyperelastic;
 use toron::law::state::HYPERELASTIC_STATE;
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 6;
 /// A point of the truth fills this many points, so that lanes and vectorised loops run as they do in a block.
 const COPIES: usize = 16;
 
@@ -136,8 +136,8 @@ fn output(round: usize) -> PathBuf {
 fn criterion(round: usize) -> Criterion {
     Criterion::default()
         .output_directory(&output(round))
-        .warm_up_time(Duration::from_millis(10))
-        .measurement_time(Duration::from_millis(60))
+        .warm_up_time(Duration::from_millis(5))
+        .measurement_time(Duration::from_millis(30))
         .sample_size(10)
         .nresamples(1000)
         .configure_from_args()
