@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::parallel::parallel_block;
 use super::scene::Scene;
 use super::{Error, print};
+use crate::host::calls::Umat;
 use crate::law::block::{Level, Precision};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
@@ -33,6 +34,8 @@ const BATCH: Duration = Duration::from_millis(2);
 pub enum Entry {
     /// Point by point.
     Point,
+    /// Point by point through the C entry that Abaqus calls, which prepares the law at every call; with DDSDDE or with none.
+    Umat { tangent: bool },
     /// A block: stress, energies, invariants, failure, status.
     Block(Level),
     /// A block: stress and status.
@@ -44,7 +47,7 @@ pub enum Entry {
 }
 
 impl Entry {
-    /// What this processor can run.
+    /// What this processor can run, in either precision.
     pub fn all() -> Vec<Entry> {
         let best = Level::best();
         let levels = Level::ALL.into_iter().filter(|&level| level <= best).map(Entry::Block);
@@ -52,10 +55,15 @@ impl Entry {
         [Entry::Point].into_iter().chain(levels).chain(others).collect()
     }
 
+    /// What there is in double precision alone.
+    const DOUBLE: [Entry; 2] = [Entry::Umat { tangent: false }, Entry::Umat { tangent: true }];
+
     /// The name in tables.
     pub fn name(self) -> String {
         match self {
             Entry::Point => "point by point".to_string(),
+            Entry::Umat { tangent: false } => "UMAT".to_string(),
+            Entry::Umat { tangent: true } => "UMAT with DDSDDE".to_string(),
             Entry::Block(level) => format!("block, {}", level.name()),
             Entry::StressOnly(level) => format!("block, {}, stress only", level.name()),
             Entry::Threads(level) => format!("block, {}, {} threads", level.name(), rayon::current_num_threads()),
@@ -74,6 +82,7 @@ impl Entry {
     ) -> Result<(), crate::law::status::Error> {
         match self {
             Entry::Point => points(law, scene),
+            Entry::Umat { tangent } => umat(scene, tangent),
             Entry::Block(level) => drop(law.block(scene.arrays(level))?),
             Entry::StressOnly(level) => drop(law.block(scene.stress_only(level))?),
             Entry::Threads(level) => drop(parallel_block(law, scene.arrays(level))?),
@@ -119,6 +128,19 @@ fn points<T: Precision + Scalar>(law: &Hyperelastic<T>, scene: &mut Scene<T>) {
     each_point(scene, |f, state| {
         let point = law.point(f, state, wanted);
         (point.stress, point.state, point.status)
+    });
+}
+
+/// The properties are the preset's, whatever the law of the other rows.
+fn umat<T: Precision + Scalar>(scene: &mut Scene<T>, tangent: bool) {
+    let Ok(properties) = properties().try_into() else { return }; // not reached: the preset is this law's
+    let mut point = Umat::FRESH;
+    each_point(scene, |f, state| {
+        point.statev = state.map(Into::into);
+        let columns: [f64; 9] = std::array::from_fn(|c| f[c].into());
+        let status = point.call(properties, &columns, tangent);
+        black_box(&point.ddsdde);
+        (point.stress.map(T::splat), point.statev.map(T::splat), status)
     });
 }
 
@@ -175,8 +197,9 @@ struct Report {
 /// # Errors
 /// The file cannot be written.
 pub fn run(output: Option<&Path>) -> Result<(), Error> {
-    let mut rows = measured::<f64>("f64")?;
-    rows.extend(measured::<f32>("f32")?);
+    let both = Entry::all();
+    let mut rows = measured::<f64>("f64", &[&Entry::DOUBLE, &both[..]].concat())?;
+    rows.extend(measured::<f32>("f32", &both)?);
     let report =
         Report { version: env!("CARGO_PKG_VERSION"), processor: processor(), preset: PRESET, sizes: SIZES, rows };
     print(&table(&report));
@@ -193,16 +216,15 @@ pub fn properties() -> &'static [f64] {
     parameters::preset(PRESET).map_or(&[], |preset| preset.values)
 }
 
-/// All rows of a precision.
-fn measured<T: Precision + Scalar + Send + Sync>(precision: &str) -> Result<Vec<Row>, Error> {
+/// All rows of a precision; the copy limit is the last entry.
+fn measured<T: Precision + Scalar + Send + Sync>(precision: &str, entries: &[Entry]) -> Result<Vec<Row>, Error> {
     let properties: Vec<T> = properties().iter().map(|&value| T::splat(value)).collect();
     let fault = |error: crate::law::status::Error| Error::Evaluation(error.to_string());
     let law = Hyperelastic::new(&properties).map_err(fault)?;
-    let entries = Entry::all();
     let mut times = vec![Vec::new(); entries.len()];
     for n in SIZES {
         let mut scene = Scene::<T>::impact(n);
-        for (times, time) in times.iter_mut().zip(fastest(&entries, &law, &mut scene).map_err(fault)?) {
+        for (times, time) in times.iter_mut().zip(fastest(entries, &law, &mut scene).map_err(fault)?) {
             times.push(time);
         }
     }
@@ -261,6 +283,13 @@ fn table(report: &Report) -> String {
         let _ = write!(text, "\n{:<30}", row.name);
         for (time, copies) in row.nanoseconds.iter().zip(&row.copies) {
             let _ = write!(text, "{:>15}", format!("{time:.2} ({copies:.1})"));
+        }
+    }
+    let row = |entry: Entry| report.rows.iter().find(|row| row.name == format!("f64 {}", entry.name()));
+    if let [Some(alone), Some(with)] = Entry::DOUBLE.map(row) {
+        let _ = write!(text, "\n\n{:<30}", "DDSDDE or not, ratio");
+        for (with, alone) in with.nanoseconds.iter().zip(&alone.nanoseconds) {
+            let _ = write!(text, "{:>15}", format!("{:.2}", with / alone));
         }
     }
     text + "\n"

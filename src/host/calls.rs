@@ -1,4 +1,4 @@
-//! The C entries as their hosts call them, behind safe functions: for the program's `eval`.
+//! The C entries as their hosts call them, behind safe functions: for the program's `eval` and `bench`.
 
 use std::ptr::{null, null_mut};
 
@@ -147,33 +147,55 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
     answer
 }
 
+/// What a UMAT gets from Abaqus beside deformation gradient and properties, and gives back, in Abaqus's order.
+#[derive(Clone, Copy, Debug)]
+pub struct Umat {
+    pub stress: [f64; 6],
+    pub statev: [f64; HYPERELASTIC_STATE],
+    pub ddsdde: [[f64; 6]; 6],
+    pub sse: f64,
+    pub pnewdt: f64,
+}
+
+impl Umat {
+    /// A point at the start of an analysis.
+    pub const FRESH: Umat =
+        Umat { stress: [0.0; 6], statev: [0.0; HYPERELASTIC_STATE], ddsdde: [[0.0; 6]; 6], sse: 0.0, pnewdt: 1.0 };
+
+    /// Calls the UMAT, without `tangent` with a null DDSDDE; returns its status.
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> i32 {
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe {
+            abaqus::toron_abaqus_umat_tangent_f64(
+                self.stress.as_mut_ptr(),
+                self.statev.as_mut_ptr(),
+                if tangent { self.ddsdde.as_mut_ptr().cast() } else { null_mut() },
+                &mut self.sse,
+                &mut self.pnewdt,
+                f.as_ptr(),
+                properties.as_ptr(),
+                HYPERELASTIC_PROPERTIES as i32,
+                HYPERELASTIC_STATE as i32,
+                3,
+                3,
+                1,
+            )
+        }
+    }
+}
+
 pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
-    let mut answer = Answer::default();
-    let (mut sse, mut pnewdt) = (0.0, 1.0);
-    let mut stress = [0.0; 6];
-    let mut ddsdde = [[0.0; 6]; 6];
-    // SAFETY: the arrays have the sizes that the entry asks for.
-    answer.status = unsafe {
-        abaqus::toron_abaqus_umat_tangent_f64(
-            stress.as_mut_ptr(),
-            answer.state.as_mut_ptr(),
-            if tangent { ddsdde.as_mut_ptr().cast() } else { null_mut() },
-            &mut sse,
-            &mut pnewdt,
-            f.as_ptr(),
-            properties.as_ptr(),
-            HYPERELASTIC_PROPERTIES as i32,
-            HYPERELASTIC_STATE as i32,
-            3,
-            3,
-            1,
-        )
-    };
-    let [s11, s22, s33, s12, s13, s23] = stress;
-    answer.stress = [s11, s22, s33, s12, s23, s13];
+    let mut point = Umat::FRESH;
+    let status = point.call(properties, f, tangent);
+    let Umat { stress: [s11, s22, s33, s12, s13, s23], statev, ddsdde, .. } = point;
     let order = [0, 1, 2, 3, 5, 4];
-    answer.ddsdde = tangent.then(|| order.map(|i| order.map(|j| ddsdde[i][j])));
-    answer
+    Answer {
+        status,
+        stress: [s11, s22, s33, s12, s23, s13],
+        state: statev,
+        modes: None,
+        ddsdde: tangent.then(|| order.map(|i| order.map(|j| ddsdde[i][j]))),
+    }
 }
 
 /// A VUMAT of one point at the stretch U, 11 22 33 12 23 31; the stress is the corotational one.
