@@ -16,12 +16,13 @@
 //! `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`.
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
-use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::hyperelastic::Hyperelastic;
 use crate::law::parameters;
+use crate::law::point::{Call, Point, Sink, StressAndState};
 use crate::law::real::{Real, cross, dot};
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status;
-use crate::law::tangent::Measure;
+use crate::law::tangent::{Jaumann, Measure, Moduli};
 
 use super::c_api::properties;
 
@@ -38,9 +39,6 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
         status::OK
     }
 }
-
-/// Where Abaqus's components 11 22 33 12 13 23 stand among the library's.
-const ORDER: [usize; 6] = [0, 1, 2, 3, 5, 4];
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
@@ -87,54 +85,98 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
         return code;
     }
     // SAFETY: not null, and the caller's promise.
-    let (props, f, old) = unsafe {
+    let (properties, f, state) = unsafe {
         (
             properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
             *dfgrd1.cast::<[[f64; 3]; 3]>(),
             *statev.cast::<[f64; HYPERELASTIC_STATE]>(),
         )
     };
-    let law = match props.and_then(Hyperelastic::new) {
-        Ok(law) => law,
+    let properties = match properties {
+        Ok(properties) => properties,
         Err(error) => return error.code(),
     };
-    let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
-    let components = if nshr == 3 { &ORDER[..] } else { &ORDER[..4] };
-    let point = if ddsdde.is_null() {
-        law.point_along(&f, None, &old, request)
+    let mut code = status::OK;
+    let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f: &f, shear: nshr, status: &mut code };
+    let result = if ddsdde.is_null() {
+        f64::once(Call { properties, f: &f, fibre: None, state: &state, tangent: StressAndState, sink })
     } else {
-        let (point, moduli) = law.point_with_moduli(&f, None, &old, request, Measure::Jaumann);
-        let rows = moduli.matrix();
-        let rows = ORDER.map(|i| ORDER.map(|j| rows[i][j]));
+        f64::once(Call { properties, f: &f, fibre: None, state: &state, tangent: Jaumann, sink })
+    };
+    match result {
+        Ok(()) => code,
+        Err(error) => error.code(),
+    }
+}
+
+/// Where a UMAT's answer goes: Abaqus's arrays, which the caller answers for.
+struct Umat<'a> {
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    f: &'a [[f64; 3]; 3],
+    shear: i32,
+    status: &'a mut i32,
+}
+
+impl Umat<'_> {
+    /// All but DDSDDE.
+    #[inline(always)]
+    fn put(self, point: &Point<f64>) {
+        let [s11, s22, s33, s12, s23, s31] = point.stress;
+        *self.status = point.status;
+        // SAFETY: ntens entries, for ntens = 6 or 4, and as many state variables as the law has.
+        unsafe {
+            *self.stress.cast() = [s11, s22, s33, s12];
+            if self.shear == 3 {
+                *self.stress.add(4).cast() = [s31, s23];
+            }
+            if point.status == status::OK {
+                *self.statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
+                let [w_el, w_tc, w_td, w_ld, ..] = point.state;
+                let energy = ((w_el + w_tc) + w_td) + w_ld;
+                let jacobian = dot(self.f[0], cross(self.f[1], self.f[2]));
+                // A failed point may arrive with any F.
+                let current = energy / jacobian;
+                *self.sse = if jacobian > 0.0 && current.is_finite() { current } else { energy };
+            } else {
+                *self.pnewdt = (*self.pnewdt).min(CUTBACK);
+            }
+        }
+    }
+}
+
+impl Sink<f64, 0> for Umat<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, _: [f64; 0]) {
+        self.put(&point);
+    }
+}
+
+impl Sink<f64, 21> for Umat<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+        let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix().map(abaqus_order);
         // SAFETY: ntens² entries, for ntens = 6 or 4.
         unsafe {
-            if nshr == 3 {
-                *ddsdde.cast() = rows;
+            if self.shear == 3 {
+                *self.ddsdde.cast() = [r1, r2, r3, r4, r6, r5];
             } else {
-                for (k, [c1, c2, c3, c4, ..]) in rows.iter().take(4).enumerate() {
-                    *ddsdde.cast::<[f64; 4]>().add(k) = [*c1, *c2, *c3, *c4];
+                for (k, [c1, c2, c3, c4, ..]) in [r1, r2, r3, r4].into_iter().enumerate() {
+                    *self.ddsdde.cast::<[f64; 4]>().add(k) = [c1, c2, c3, c4];
                 }
             }
         }
-        point
-    };
-    // SAFETY: as above.
-    unsafe {
-        for (k, &i) in components.iter().enumerate() {
-            *stress.add(k) = point.stress[i];
-        }
-        if point.status == status::OK {
-            *statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
-            let energy: f64 = point.state[ENERGIES..INVARIANTS].iter().sum();
-            let jacobian = dot(f[0], cross(f[1], f[2]));
-            // A failed point may arrive with any F.
-            let current = energy / jacobian;
-            *sse = if jacobian > 0.0 && current.is_finite() { current } else { energy };
-        } else {
-            *pnewdt = (*pnewdt).min(CUTBACK);
-        }
+        self.put(&point);
     }
-    point.status
+}
+
+/// 11 22 33 12 13 23 of 11 22 33 12 23 31.
+#[inline(always)]
+fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
+    [c11, c22, c33, c12, c31, c23]
 }
 
 /// As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.

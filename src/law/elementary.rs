@@ -71,12 +71,48 @@ pub(super) const EXP_F32: [f64; 5] =
 
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
+    if R::WAITS {
+        return halved_polynomial(coefficients, x);
+    }
     let mut rest = coefficients.iter().rev();
     let mut sum = R::splat(rest.next().copied().unwrap_or(0.0));
     for &c in rest {
         sum = sum.mul_add(x, R::splat(c));
     }
     sum
+}
+
+/// The same in a chain of logarithmic length (Estrin): neighbours are joined, then neighbours of those. For as many
+/// coefficients as the functions have in double precision, 7 or 10.
+#[inline(always)]
+fn halved_polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
+    let square = x * x;
+    let fourth = square * square;
+    let low = four(coefficients, 0, x, square);
+    if coefficients.len() > 8 {
+        let middle = four(coefficients, 4, x, square);
+        return pair(coefficients, 8, x).mul_add(fourth * fourth, middle.mul_add(fourth, low));
+    }
+    four(coefficients, 4, x, square).mul_add(fourth, low)
+}
+
+/// Four terms from the k-th on, over x^k.
+#[inline(always)]
+fn four<R: Real>(coefficients: &[f64], k: usize, x: R, square: R) -> R {
+    let low = pair(coefficients, k, x);
+    match coefficients.get(k + 3) {
+        Some(_) => pair(coefficients, k + 2, x).mul_add(square, low),
+        None => R::splat(coefficients.get(k + 2).copied().unwrap_or(0.0)).mul_add(square, low),
+    }
+}
+
+/// Two terms from the k-th on, over x^k.
+#[inline(always)]
+fn pair<R: Real>(coefficients: &[f64], k: usize, x: R) -> R {
+    match coefficients.get(k..k + 2) {
+        Some(&[c0, c1]) => R::splat(c1).mul_add(x, R::splat(c0)),
+        _ => R::splat(0.0),
+    }
 }
 
 /// A logarithm half done: y = (1 + f) 2^k with 1 + f in [¾, 1½). What is missing is a reciprocal, which several may share.
@@ -206,12 +242,13 @@ pub struct Exponent<R> {
 
 impl<R: Real + Into<f64>> Exponent<R> {
     /// For q > 0.
+    #[inline(always)]
     pub fn new(q: R) -> Self {
         // Veltkamp's split at 2^13 leaves 40 bits of 53; in single precision 11 of 24.
         let factor = R::splat(8193.0);
         let big = factor * q;
         let high = big - (big - q);
-        let least = libm::exp2(R::EXPONENTS.0 / q.into()).max(R::MIN_POSITIVE);
+        let least = rough_power_of_two(R::EXPONENTS.0 / q.into()).max(R::MIN_POSITIVE);
         Exponent {
             value: q,
             high,
@@ -232,6 +269,16 @@ impl<R: Real + Into<f64>> Exponent<R> {
             least: lane(self.least),
         }
     }
+}
+
+/// 2^x for x ≤ 0 to four digits, all that the end of a range needs: a cubic of the fraction. Below the range of normal
+/// numbers, some small number.
+#[inline(always)]
+fn rough_power_of_two(x: f64) -> f64 {
+    const CUBIC: [f64; 4] = [1.0, 0.69512, 0.22764, 0.07707];
+    let x = x.max(f64::MIN_EXP.into());
+    let octave = x as i32 - 1;
+    polynomial(&CUBIC, x - f64::from(octave)).times_power_of_two(octave.into())
 }
 
 /// i^q in three steps, each with a chain of operations short enough for a processor to overlap several.

@@ -22,6 +22,7 @@ pub struct Failure<R> {
 
 impl<R: Real> Failure<R> {
     /// From the property ε_lim, 0 for no failure, and the weights.
+    #[inline(always)]
     pub fn new(eps_lim: R, alpha: R, beta: R) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let fails = zero.lt(eps_lim);

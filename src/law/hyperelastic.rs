@@ -10,18 +10,16 @@
 //! [`kinematics`](super::kinematics) gives it. It is the thesis's Eq. 4.14 pushed forward, without its quotient 0/0:
 //! 2 I_td/ŝ is smooth through ŝ = 0.
 
-use nalgebra::Matrix3;
-
 use super::elementary::{Exponent, Power, power};
 use super::failure::Failure;
-use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::parameters::{self, FIBRE};
+use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
+use super::parameters::{self, FIBRE, HYPERELASTIC_PROPERTIES};
 use super::real::{Real, along, scale};
-use super::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use super::status::{self, Error};
 use super::stress::{square, symmetric_product as product};
-use super::tangent::unrepresentable;
 use super::wave_speed::COMPACTION_FLOOR;
+
+pub use super::point::Point;
 
 /// The law's properties, checked and prepared once.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +56,8 @@ impl Request {
     /// Everything there is.
     pub const ALL: Request =
         Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
+    /// What a solver wants at every step.
+    pub const STRESS_AND_STATE: Request = Request { modes: false, wave_modulus: false, ..Request::ALL };
 }
 
 /// What the law answers at once, for one point or for several side by side.
@@ -92,22 +92,22 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
     ///
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
+    // A scalar call prepares the law anew: inlined, its numbers go where they are wanted as they come. Copied as a whole they
+    // would all have to be there first.
+    #[inline(always)]
     pub fn new(properties: &[T]) -> Result<Self, Error> {
-        parameters::check(&parameters::HYPERELASTIC, properties)?;
-        let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3] = properties else {
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
+        const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = parameters::limits(&parameters::HYPERELASTIC);
+        let Ok(properties) = <&[T; HYPERELASTIC_PROPERTIES]>::try_from(properties) else {
+            parameters::check(&parameters::HYPERELASTIC, properties)?;
+            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the check says so
         };
-        let (frame, usable) = FibreFrame::new([m_1, m_2, m_3]);
-        if T::select(usable, T::splat(0.0), T::splat(1.0)).into() != 0.0 {
-            return Err(Error::Direction {
-                index: FIBRE,
-                name: "fibre direction",
-                value: [m_1.into(), m_2.into(), m_3.into()],
-                wanted: "any vector but zero",
-            });
+        if !parameters::within(&LIMITS, properties) {
+            parameters::check(&parameters::HYPERELASTIC, properties)?;
         }
+        let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3] = properties;
+        let aligned = m_2.into() == 0.0 && m_3.into() == 0.0 && m_1.into() >= T::MIN_POSITIVE;
+        let frame = if aligned { FibreFrame::first_axis() } else { fibre_frame([m_1, m_2, m_3])? };
         let one = T::splat(1.0);
-        let aligned = m_2.into() == 0.0 && m_3.into() == 0.0 && m_1.into() > 0.0;
         let exponent = Exponent::new(p - one);
         let [held_below, greatest_curvature] = held_stiffness(k_tc, p, &exponent);
         Ok(Hyperelastic {
@@ -120,13 +120,29 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             held_below,
             greatest_curvature,
             failure: Failure::new(eps_lim, alpha, beta),
-            frame: if aligned { FibreFrame::first_axis() } else { frame },
+            frame,
             aligned,
         })
     }
 }
 
+/// The frame of the property's fibre direction.
+#[inline(always)]
+fn fibre_frame<T: Real + Into<f64>>(direction: [T; 3]) -> Result<FibreFrame<T>, Error> {
+    let (frame, usable) = FibreFrame::new(direction);
+    if T::select(usable, T::splat(0.0), T::splat(1.0)).into() == 0.0 {
+        return Ok(frame);
+    }
+    Err(Error::Direction {
+        index: FIBRE,
+        name: "fibre direction",
+        value: direction.map(T::into),
+        wanted: "any vector but zero",
+    })
+}
+
 /// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
+#[inline(always)]
 fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
     if p.into() > 2.0 {
         return [T::splat(0.0); 2];
@@ -316,7 +332,7 @@ impl<R: Real> Hyperelastic<R> {
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
         if request.modes || request.wave_modulus {
-            let decomposition = Decomposition::new(kinematics);
+            let decomposition = Decomposition::new(kinematics.stretch, kinematics.section, &kinematics.images[0]);
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {
@@ -395,118 +411,4 @@ fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
 #[inline(always)]
 pub(super) fn shear_components<R: Real>(d: &Decomposition<R>, factor: R) -> [R; 2] {
     [factor * d.f_a.mul_add(d.r11, d.f_b * d.r12), factor * d.f_b * d.r22]
-}
-
-/// What the law answers for one point, ready to store.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point<T> {
-    /// Cauchy stress 11 22 33 12 23 31.
-    pub stress: [T; 6],
-    /// The new state, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
-    pub state: [T; HYPERELASTIC_STATE],
-    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
-    pub modes: [[T; 6]; 4],
-    /// ρ0 c² for a bound c of the wave speed.
-    pub wave_modulus: T,
-    /// 0, or why the point could not be evaluated.
-    pub status: i32,
-}
-
-impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
-    /// Whether there is a longitudinal-shear stiffness; without one its terms need not be computed.
-    pub fn shears(&self) -> bool {
-        T::splat(0.0).lt(self.k_ld)
-    }
-
-    /// The law at one point, with the fibre direction of the properties.
-    ///
-    /// `f` is the deformation gradient, `state` the old state: all 0 at the start. A point that cannot be evaluated (F
-    /// inverted, not finite, …) says so in `status`, carries no stress and keeps its state.
-    pub fn point(&self, f: &Matrix3<T>, state: &[T; HYPERELASTIC_STATE], request: Request) -> Point<T>
-    where
-        T: nalgebra::Scalar,
-    {
-        let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
-        self.point_along(&columns, None, state, request)
-    }
-
-    /// The law at one point: columns of F; a fibre direction of any length, or that of the properties.
-    #[inline(always)]
-    pub fn point_along(
-        &self,
-        f: &[[T; 3]; 3],
-        fibre: Option<[T; 3]>,
-        state: &[T; HYPERELASTIC_STATE],
-        request: Request,
-    ) -> Point<T> {
-        self.point_with::<[T; 0]>(f, fibre, state, request, |_, _, _| []).0
-    }
-
-    /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
-    /// and where the point cannot be evaluated, which it cannot where the tangent is not finite.
-    #[inline(always)]
-    pub(super) fn point_with<X: AsMut<[T]>>(
-        &self,
-        f: &[[T; 3]; 3],
-        fibre: Option<[T; 3]>,
-        state: &[T; HYPERELASTIC_STATE],
-        request: Request,
-        tangent: impl FnOnce(Kinematics<'_, T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
-    ) -> (Point<T>, X) {
-        match fibre {
-            Some(direction) => {
-                let (frame, usable) = FibreFrame::new(direction);
-                self.point_in(f, &frame, &frame, usable, state, request, tangent)
-            }
-            None if self.aligned => self.point_in(f, &FirstAxis, &self.frame, true, state, request, tangent),
-            None => self.point_in(f, &self.frame, &self.frame, true, state, request, tangent),
-        }
-    }
-
-    /// The law at one point, in these axes; `frame` the same ones as vectors.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn point_in<A: Axes<T>, X: AsMut<[T]>>(
-        &self,
-        f: &[[T; 3]; 3],
-        axes: &A,
-        frame: &FibreFrame<T>,
-        usable: bool,
-        state: &[T; HYPERELASTIC_STATE],
-        request: Request,
-        tangent: impl FnOnce(Kinematics<'_, T>, &Kirchhoff<T>, &FibreFrame<T>) -> X,
-    ) -> (Point<T>, X) {
-        let (stretch, images) = Stretch::new(f, axes);
-        let (section, images) = Section::new(&stretch, images, axes);
-        let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-        let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
-        let k = self.kirchhoff_of(kinematics);
-        let mut tangent = tangent(kinematics, &k, frame);
-        let (latch, shear) = (state[FAILED], self.shears());
-        let zero = T::splat(0.0);
-        let doubt = T::select(usable, strain.doubt, T::splat(f64::NAN)) + unrepresentable(tangent.as_mut());
-        let r = self.respond(kinematics, &k, frame, doubt, latch, request, shear);
-        let history = self.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
-        let (mut stress, mut status) = (r.stress, status::OK);
-        let mut new = [zero; HYPERELASTIC_STATE];
-        new[ENERGIES..INVARIANTS].copy_from_slice(&history.energies);
-        new[INVARIANTS..FAILURE_INDEX].copy_from_slice(&history.invariants);
-        new[FAILURE_INDEX] = history.failure_index;
-        if !r.new {
-            stress = [zero; 6];
-            tangent.as_mut().fill(zero);
-            status = Into::<f64>::into(self.verdict(f, &stretch, usable, latch)) as i32;
-            // The latch has been looked at, and alive is never read.
-            for (x, &old) in new.iter_mut().zip(state).take(FAILED) {
-                let finite = (old * zero).le(zero);
-                *x = T::select(finite, old, zero);
-                if !finite && status == status::OK {
-                    status = status::STATE_NOT_FINITE;
-                }
-            }
-        }
-        new[FAILED] = history.failed;
-        new[ALIVE] = T::splat(1.0) - history.failed;
-        (Point { stress, state: new, modes: r.modes, wave_modulus: r.wave_modulus, status }, tangent)
-    }
 }

@@ -322,12 +322,15 @@ impl<R: Real> Strain<R> {
         let half = R::splat(0.5);
         let l = logarithms;
         let [d_3, d_4] = l.distortion.denominators();
-        let over_4 = l.inverse * l.product_3;
-        let inverse_3 = l.inverse * d_4;
-        let over_3 = inverse_3 * l.product_2;
-        let inverse_2 = inverse_3 * d_3;
-        let over_2 = inverse_2 * l.stretch.denominator();
-        let over_1 = inverse_2 * l.area.denominator();
+        let [over_1, over_2, over_3, over_4] = if R::WAITS {
+            let (d_1, d_2) = (l.stretch.denominator(), l.area.denominator());
+            [d_1.reciprocal(), d_2.reciprocal(), d_3.reciprocal(), d_4.reciprocal()]
+        } else {
+            let inverse_3 = l.inverse * d_4;
+            let inverse_2 = inverse_3 * d_3;
+            let (over_1, over_2) = (inverse_2 * l.area.denominator(), inverse_2 * l.stretch.denominator());
+            [over_1, over_2, inverse_3 * l.product_2, l.inverse * l.product_3]
+        };
         let (asinh, distortion_ratio) = l.distortion.finish([over_3, over_4]);
         Strain {
             i_el: half * l.stretch.finish(over_1, d.lost, d.inverse_square),
@@ -384,8 +387,7 @@ pub struct Decomposition<R> {
 
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
-    pub fn new(kinematics: Kinematics<'_, R>) -> Self {
-        let Kinematics { stretch: d, section, images: [a, _], .. } = kinematics;
+    pub fn new(d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Self {
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();

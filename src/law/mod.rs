@@ -8,6 +8,7 @@ pub mod hyperelastic;
 pub mod kinematics;
 pub mod linear_elastic;
 pub mod parameters;
+pub mod point;
 pub mod real;
 pub mod state;
 pub mod status;

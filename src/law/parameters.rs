@@ -167,6 +167,30 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }
 
+/// The least and the greatest number that each property of a table may be.
+pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
+    let mut limits = [[f64::MIN; N], [f64::MAX; N]];
+    let mut k = 0;
+    while k < N {
+        let Property { minimum, minimum_excluded, maximum, .. } = table[k];
+        limits[0][k] = (if minimum_excluded { minimum.next_up() } else { minimum }).max(f64::MIN);
+        limits[1][k] = maximum.min(f64::MAX);
+        k += 1;
+    }
+    limits
+}
+
+/// Whether all values stand within their limits: what [`check`] finds, without a decision about each.
+#[inline(always)]
+pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
+    let mut all = true;
+    for ((&value, &least), &greatest) in values.iter().zip(least).zip(greatest) {
+        let value: f64 = value.into();
+        all &= (least <= value) & (value <= greatest);
+    }
+    all
+}
+
 /// Checks number, finiteness and bounds of `values` against a table; directions are the laws' own business.
 ///
 /// # Errors

@@ -25,6 +25,8 @@ pub trait Real:
     const SQUARES: (f64, f64);
     /// Whether this range is so wide that no stress, but for the longitudinal shear's, can leave it.
     const HEADROOM: bool;
+    /// Whether what costs is the chain of operations, each of which waits for the one before, and not their number.
+    const WAITS: bool = false;
     /// Coefficients of artanh, the logarithm and the exponential, see [`elementary`](super::elementary).
     const ARTANH: &'static [f64];
     const LN: &'static [f64];
@@ -61,6 +63,29 @@ pub trait Real:
     #[inline(always)]
     fn quotient(self, divisor: Self, _reciprocal: Self) -> Self {
         self / divisor
+    }
+}
+
+/// A number that stands for one point, whose own numbers are T.
+pub trait Single<T>: Real {
+    fn of(x: T) -> Self;
+    fn value(self) -> T;
+    /// Whether a mask holds for the point.
+    fn holds(mask: Self::Mask) -> bool;
+}
+
+impl<T: Real<Mask = bool>> Single<T> for T {
+    #[inline(always)]
+    fn of(x: T) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn value(self) -> T {
+        self
+    }
+    #[inline(always)]
+    fn holds(mask: bool) -> bool {
+        mask
     }
 }
 
@@ -116,6 +141,11 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
+
+#[cfg(target_arch = "x86_64")]
+use super::block::root;
+#[cfg(not(target_arch = "x86_64"))]
+use libm::sqrt as root;
 
 macro_rules! scalar {
     ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, headroom: $headroom:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
@@ -198,7 +228,7 @@ macro_rules! scalar {
 }
 
 scalar!(
-    f64, u64, libm::sqrt, f64::abs, squares: (1e-100, 1e100), headroom: true,
+    f64, u64, root, f64::abs, squares: (1e-100, 1e100), headroom: true,
     difference: |a, b, c, d| {
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)

@@ -15,8 +15,9 @@
 
 use nalgebra::Matrix3;
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff, Point, Request, shear_components};
-use super::kinematics::{Decomposition, FibreFrame, Strain};
+use super::hyperelastic::{Hyperelastic, Kirchhoff, Request, shear_components};
+use super::kinematics::{Decomposition, FibreFrame, Kinematics, Section, Strain, Stretch};
+use super::point::{Derivative, Point};
 use super::real::{Real, along, dot, scale};
 use super::state::HYPERELASTIC_STATE;
 use super::stress::{VOIGT, paired, paired_with_one, square, symmetric_product, upper_triangle};
@@ -101,10 +102,22 @@ struct Factors<R> {
 }
 
 /// The tensors that a modulus is made of, 11 22 33 12 23 31.
-struct Bases<R> {
+#[derive(Clone, Copy)]
+pub struct Bases<R> {
     e: [R; 6],
     p: [R; 6],
     d: [R; 6],
+}
+
+impl<R: Real> Bases<R> {
+    /// In space: e⊗e, P and D.
+    #[inline(always)]
+    fn new(d: &Decomposition<R>) -> Self {
+        let one = R::splat(1.0);
+        let e = square(one, d.e);
+        let p = [one - e[0], one - e[1], one - e[2], -e[3], -e[4], -e[5]];
+        Bases { e, p, d: deviator(d, d.q1, d.q2()) }
+    }
 }
 
 /// The sum of three dyads and a product ⊙; entry by entry.
@@ -139,6 +152,12 @@ fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
 #[inline(always)]
 fn coupled<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
     a[ROW].mul_add(b[COLUMN], a[COLUMN] * b[ROW])
+}
+
+/// a A.
+#[inline(always)]
+fn multiple<R: Real>(a: R, x: &[R; 6]) -> [R; 6] {
+    [a * x[0], a * x[1], a * x[2], a * x[3], a * x[4], a * x[5]]
 }
 
 /// a A + b B.
@@ -192,7 +211,7 @@ impl<R: Real> Hyperelastic<R> {
     /// The sum for given bases, with `first` as the metric (none: the spatial one), less the longitudinal shear's coupling.
     #[inline(always)]
     fn terms(&self, bases: Bases<R>, f: &Factors<R>, x: R, measure: Measure, pulled: bool) -> Terms<R> {
-        let (zero, half) = (R::splat(0.0), R::splat(0.5));
+        let half = R::splat(0.5);
         let Bases { e, p, d } = &bases;
         // G, and in space G − H.
         let (on_p, on_d) = (f.pressure, -f.distortion);
@@ -204,9 +223,9 @@ impl<R: Real> Hyperelastic<R> {
             combination(h_p, p, h_d, d)
         };
         Terms {
-            with_e: combination(f.elongation, e, zero, e),
-            with_p: combination(f.compaction - f.stiffness, p, zero, p),
-            with_d: combination(f.curvature, d, zero, d),
+            with_e: multiple(f.elongation, e),
+            with_p: multiple(f.compaction - f.stiffness, p),
+            with_d: multiple(f.curvature, d),
             paired: combination(f.shear.mul_add(x, g_p), p, g_d + f.shear, d),
             first: if pulled { Some(*p) } else { None },
             second,
@@ -224,12 +243,23 @@ impl<R: Real> Hyperelastic<R> {
         measure: Measure,
         shear: bool,
     ) -> Moduli<R> {
+        self.spatial_tangent_of(d, Bases::new(d), strain, k, measure, shear)
+    }
+
+    /// Likewise, given the tensors that it is made of.
+    #[inline(always)]
+    fn spatial_tangent_of(
+        &self,
+        d: &Decomposition<R>,
+        bases: Bases<R>,
+        strain: &Strain<R>,
+        k: &Kirchhoff<R>,
+        measure: Measure,
+        shear: bool,
+    ) -> Moduli<R> {
         let one = R::splat(1.0);
         let over = d.inverse_jacobian;
-        let (q1, q2) = (d.q1, d.q2());
-        let e = square(one, d.e);
-        let p = [one - e[0], one - e[1], one - e[2], -e[3], -e[4], -e[5]];
-        let bases = Bases { e, p, d: deviator(d, q1, q2) };
+        let (q1, q2, e) = (d.q1, d.q2(), bases.e);
         let f = self.factors(d, strain, k, over);
         let mut terms = self.terms(bases, &f, d.cosh, measure, false);
         if !shear {
@@ -354,11 +384,115 @@ fn add<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
 #[inline(always)]
 pub(super) fn unrepresentable<R: Real>(values: &[R]) -> R {
     let zero = R::splat(0.0);
-    let mut probe = zero;
-    for &x in values {
-        probe = x.mul_add(zero, probe);
+    // Four sums, which need not wait for one another.
+    let [mut a, mut b, mut c, mut d] = [zero; 4];
+    let mut fours = values.chunks_exact(4);
+    for four in &mut fours {
+        if let &[x, y, z, w] = four {
+            (a, b) = (x.mul_add(zero, a), y.mul_add(zero, b));
+            (c, d) = (z.mul_add(zero, c), w.mul_add(zero, d));
+        }
     }
-    probe
+    for &x in fours.remainder() {
+        a = x.mul_add(zero, a);
+    }
+    (a + b) + (c + d)
+}
+
+/// A tangent of six rows.
+#[derive(Clone, Copy)]
+pub struct Six(pub Request, pub Measure);
+
+impl Derivative<21> for Six {
+    type Early<R: Real> = Decomposition<R>;
+
+    #[inline(always)]
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
+        Decomposition::new(d, section, a)
+    }
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        self.0
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+        d: &Decomposition<R>,
+        shear: bool,
+    ) -> [R; 21] {
+        law.moduli(d, kinematics.strain, k, n, self.1, shear).0
+    }
+}
+
+/// DDSDDE beside stress and state, known to the compiler to be all that is wanted.
+#[derive(Clone, Copy)]
+pub struct Jaumann;
+
+impl Derivative<21> for Jaumann {
+    type Early<R: Real> = (Decomposition<R>, Bases<R>);
+
+    #[inline(always)]
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> (Decomposition<R>, Bases<R>) {
+        let d = Decomposition::new(d, section, a);
+        (d, Bases::new(&d))
+    }
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        Request::STRESS_AND_STATE
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        _: &FibreFrame<R>,
+        (d, bases): &(Decomposition<R>, Bases<R>),
+        shear: bool,
+    ) -> [R; 21] {
+        law.spatial_tangent_of(d, *bases, kinematics.strain, k, Measure::Jaumann, shear).0
+    }
+}
+
+/// dP/dF.
+#[derive(Clone, Copy)]
+pub struct Nine(pub Request);
+
+impl Derivative<81> for Nine {
+    type Early<R: Real> = Decomposition<R>;
+
+    #[inline(always)]
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
+        Decomposition::new(d, section, a)
+    }
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        self.0
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+        d: &Decomposition<R>,
+        shear: bool,
+    ) -> [R; 81] {
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
+        law.nominal_tangent(d, kinematics.strain, k, n, &stress, shear)
+    }
 }
 
 impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
@@ -366,7 +500,6 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     ///
     /// The call that detects failure gives the intact tangent; a point that has failed before, or cannot be evaluated, has
     /// none: zeros. A tangent that does not fit the number format makes the point one that cannot be evaluated.
-    #[inline(always)]
     pub fn point_with_moduli(
         &self,
         f: &[[T; 3]; 3],
@@ -375,15 +508,12 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         request: Request,
         measure: Measure,
     ) -> (Point<T>, Moduli<T>) {
-        let shear = self.shears();
-        self.point_with(f, fibre, state, request, |kinematics, k, n| {
-            self.moduli(&Decomposition::new(kinematics), kinematics.strain, k, n, measure, shear)
-        })
+        let (point, moduli) = self.point_with(f, fibre, state, Six(request, measure));
+        (point, Moduli(moduli))
     }
 
     /// The law at one point with dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; otherwise as
     /// [`point_with_moduli`](Self::point_with_moduli).
-    #[inline(always)]
     pub fn point_with_nominal(
         &self,
         f: &[[T; 3]; 3],
@@ -391,11 +521,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> (Point<T>, [T; 81]) {
-        let shear = self.shears();
-        self.point_with(f, fibre, state, request, |kinematics, k, n| {
-            let stress = self.cauchy(kinematics, k, true, shear);
-            self.nominal_tangent(&Decomposition::new(kinematics), kinematics.strain, k, n, &stress, shear)
-        })
+        self.point_with(f, fibre, state, Nine(request))
     }
 
     /// The law at one point with the fibre direction of the properties, and the full matrix of a measure with six rows.

@@ -19,6 +19,8 @@
 mod tests;
 #[cfg(target_arch = "x86_64")]
 mod x86;
+#[cfg(target_arch = "x86_64")]
+pub(super) use x86::root;
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
@@ -26,6 +28,7 @@ use core::mem::MaybeUninit;
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
+use super::point::{Call, Derivative, Sink};
 use super::real::Real;
 use super::status::{self, Error};
 use super::tangent::{Measure, unrepresentable};
@@ -376,10 +379,28 @@ pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed 
     /// # Safety
     /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
+
+    /// The law at one point for a host that hands over the properties with it, by the best instructions: within four roundings
+    /// of the input's sensitivity of what [`Hyperelastic::point_along`] gives, with the same status.
+    ///
+    /// # Errors
+    /// The first property that is wrong; nothing is handed to the sink.
+    #[inline(always)]
+    fn once<D: Derivative<N>, S: Sink<Self, N>, const N: usize>(call: Call<'_, Self, D, S, N>) -> Result<(), Error> {
+        plain(call)
+    }
+}
+
+/// A call in the instructions of every processor; out of line, so that the others need not keep room for it.
+#[inline(never)]
+fn plain<T: Precision, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
+    call: Call<'_, T, D, S, N>,
+) -> Result<(), Error> {
+    call.evaluate::<T>()
 }
 
 macro_rules! precision {
-    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty) => {
+    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty $(; one point $one:ty)?) => {
         impl Lanes<$t> for $t {
             const COUNT: usize = 1;
             #[inline(always)]
@@ -406,6 +427,25 @@ macro_rules! precision {
         }
 
         impl Precision for $t {
+            $(
+                #[inline(always)]
+                fn once<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
+                    call: Call<'_, $t, D, S, N>,
+                ) -> Result<(), Error> {
+                    #[target_feature(enable = "avx2,fma")]
+                    fn fused<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
+                        call: Call<'_, $t, D, S, N>,
+                    ) -> Result<(), Error> {
+                        call.evaluate::<$one>()
+                    }
+                    if Level::best() == Level::Baseline {
+                        return plain(call);
+                    }
+                    // SAFETY: every level above has the instructions.
+                    unsafe { fused(call) }
+                }
+            )?
+
             unsafe fn dispatch(level: Level, law: &Hyperelastic<$t>, block: &Pointers<$t>, request: Request) -> i32 {
                 #[cfg(target_arch = "x86_64")]
                 {
@@ -500,7 +540,7 @@ macro_rules! as_asked {
     };
 }
 #[cfg(target_arch = "x86_64")]
-precision!(f64: x86::F64x2, x86::F64x4, x86::F64x8);
+precision!(f64: x86::F64x2, x86::F64x4, x86::F64x8; one point x86::F64x1);
 #[cfg(target_arch = "x86_64")]
 precision!(f32: x86::F32x4, x86::F32x8, x86::F32x16);
 #[cfg(not(target_arch = "x86_64"))]
@@ -846,7 +886,7 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
     frame: &FibreFrame<R>,
     shear: bool,
 ) -> R {
-    let d = Decomposition::new(kinematics);
+    let d = Decomposition::new(kinematics.stretch, kinematics.section, &kinematics.images[0]);
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
             // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.

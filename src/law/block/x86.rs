@@ -12,7 +12,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::Lanes;
 use crate::law::elementary::{ARTANH_F32, ARTANH_F64, EXP_F32, EXP_F64, LN_F32, LN_F64};
-use crate::law::real::Real;
+use crate::law::real::{Real, Single};
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
 macro_rules! register {
@@ -33,7 +33,7 @@ macro_rules! register {
         scale ($px:ident, $pk:ident) $scale:expr;
         reciprocal ($rx:ident) $reciprocal:expr;
         quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
-        series $artanh:ident $ln:ident $exp:ident
+        series $artanh:ident $ln:ident $exp:ident $(; waits $waits:literal)?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -96,6 +96,7 @@ macro_rules! register {
             const EPSILON: f64 = <$t as Real>::EPSILON;
             const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
             const HEADROOM: bool = <$t as Real>::HEADROOM;
+            $(const WAITS: bool = $waits;)?
             const ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
@@ -491,4 +492,50 @@ register! {
     reciprocal (x) refined_reciprocal::<_, 1>(x, F32x16(unsafe { _mm512_rcp14_ps(x.0) }));
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series ARTANH_F32 LN_F32 EXP_F32
+}
+
+register! {
+    /// One number of double precision in both halves of a register, AVX2 with FMA: for the law at a single point. A select of
+    /// such is no branch, and the compiler does not rearrange what computes with them.
+    F64x1: f64 as u64 x 2 in __m128d / __m128i;
+    mask Mask64x2;
+    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
+    bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
+    memory _mm_loadu_pd _mm_storeu_pd;
+    integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
+    compare (a, b) Mask64x2(_mm_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x2(_mm_cmp_pd::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm_movemask_pd(mask.0) != 0;
+    select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
+    mul_add (a, b, c) _mm_fmadd_pd(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series ARTANH_F64 LN_F64 EXP_F64;
+    waits true
+}
+
+impl Single<f64> for F64x1 {
+    #[inline(always)]
+    fn of(x: f64) -> Self {
+        Self::splat(x)
+    }
+    #[inline(always)]
+    fn value(self) -> f64 {
+        // SAFETY: as for the registers.
+        unsafe { _mm_cvtsd_f64(self.0) }
+    }
+    #[inline(always)]
+    fn holds(mask: Mask64x2) -> bool {
+        Self::any(mask)
+    }
+}
+
+/// The root by the processor's own instruction, for scalars. libm's is written out for SSE2: among wider instructions it waits for
+/// the wide registers.
+#[inline(always)]
+pub fn root(x: f64) -> f64 {
+    // SAFETY: every x86-64 has SSE2.
+    unsafe { _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x))) }
 }
