@@ -12,13 +12,14 @@ use common::deformations::{Ranges, Sample, deformation, samples};
 use common::truth::{Answer, Score, cases};
 use nalgebra::Matrix3;
 use proptest::prelude::*;
-use toron::law::block::{Arrays, Level};
-use toron::law::hyperelastic::Hyperelastic;
+use toron::law::block::{Arrays, Level, Precision};
+use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::parameters::PRESETS;
+use toron::law::point::{self, Point, StressAndState};
 use toron::law::real::Real;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status::{self, Error};
-use toron::law::tangent::Measure;
+use toron::law::tangent::{Jaumann, Measure};
 
 /// Where the groups of an output stand, see `common/block.rs`.
 const STRESS: Range<usize> = 0..6;
@@ -248,6 +249,101 @@ fn lanes_stay_with_the_scalar_law_f64() {
 #[test]
 fn lanes_stay_with_the_scalar_law_f32() {
     lanes_stay_with_the_scalar_law::<f32>();
+}
+
+/// The law as a host calls it that hands over the properties with every point, and DDSDDE.
+fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
+    let f = std::array::from_fn(|j| std::array::from_fn(|i| input.f[3 * j + i]));
+    let (mut point, mut moduli) = (Point::nothing(), [f64::NAN; 21]);
+    let sink = (&mut point, &mut moduli);
+    let call = point::Call { properties, f: &f, fibre: None, state: &input.old, tangent: Jaumann, sink };
+    f64::once(call).expect("valid properties");
+    // Without the tangent the answer is the same.
+    let (mut alone, mut nothing) = (Point::nothing(), []);
+    let sink = (&mut alone, &mut nothing);
+    let call = point::Call { properties, f: &f, fibre: None, state: &input.old, tangent: StressAndState, sink };
+    f64::once(call).expect("valid properties");
+    assert_eq!(bits(&alone), bits(&point), "{input:?}");
+    (point, moduli)
+}
+
+/// Stress and state, whose zeros may differ in sign.
+fn bits(point: &Point<f64>) -> (Vec<u64>, i32) {
+    ([&point.stress[..], &point.state].concat().iter().map(|x| (x + 0.0).to_bits()).collect(), point.status)
+}
+
+/// The same of the scalar law.
+fn plain(law: &Hyperelastic<f64>, input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
+    let f = std::array::from_fn(|j| std::array::from_fn(|i| input.f[3 * j + i]));
+    let request = Request::STRESS_AND_STATE;
+    let (point, moduli) = law.point_with_moduli(&f, None, &input.old, request, Measure::Jaumann);
+    (point, moduli.0)
+}
+
+/// Stress, energies one by one, invariants one by one, index and DDSDDE.
+fn parts((point, moduli): &(Point<f64>, [f64; 21])) -> Vec<Vec<f64>> {
+    let single = point.state[..FAILED].iter().map(|&x| vec![x]);
+    [point.stress.to_vec()].into_iter().chain(single).chain([moduli.to_vec()]).collect()
+}
+
+/// A single point with fused multiply-add differs from the scalar law as lanes do.
+#[test]
+fn one_point_stays_with_the_scalar_law() {
+    const STEP: f64 = 1e-7;
+    let strained = |input: &Input<f64>| {
+        let f = input.deformation_gradient();
+        (f.transpose() * f - Matrix3::identity()).norm() > 1e-3
+    };
+    let inputs: Vec<Input<f64>> = ordinary(400).into_iter().filter(strained).collect();
+    assert!(inputs.len() > 200);
+    let mut worst = [0.0_f64; 11];
+    let differ = |a: &[f64], b: &[f64]| norm(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>());
+    for material in [materials([0.48, -0.6, 0.64]), materials(AXIS)].concat().into_iter().step_by(3) {
+        let law = law::<f64>(material);
+        for input in &inputs {
+            let (found, wanted) = (once(&material, input), plain(&law, input));
+            assert_eq!(found.0.status, wanted.0.status, "{input:?}");
+            let mut sensitivity = [0.0; 11];
+            for entry in 0..9 {
+                let moved = [1.0 + STEP, 1.0 - STEP].map(|factor| {
+                    let mut input = *input;
+                    input.f[entry] *= factor;
+                    parts(&plain(&law, &input))
+                });
+                for (g, wanted) in parts(&wanted).iter().enumerate() {
+                    sensitivity[g] += moved.iter().map(|moved| differ(&moved[g], wanted)).fold(0.0, f64::max) / STEP;
+                }
+            }
+            for (g, (found, wanted)) in parts(&found).iter().zip(parts(&wanted)).enumerate() {
+                let distance = differ(found, &wanted);
+                let allowed = f64::ROUNDING * (norm(&wanted) + sensitivity[g]);
+                worst[g] = worst[g].max(if distance == 0.0 { 0.0 } else { distance / allowed });
+            }
+        }
+    }
+    println!("roundings apart: stress, energies, invariants, index, DDSDDE: {worst:.2?}");
+    assert!(worst.iter().all(|&ratio| ratio <= APART), "{worst:?}");
+}
+
+/// Whatever comes in, a single point gives finite numbers and a code that the scalar law has nearby; no stiffness with an error
+/// or after a failure.
+#[test]
+fn one_point_gives_a_status_and_no_nan() {
+    let mut seen = std::collections::BTreeSet::new();
+    for material in [materials([0.48, -0.6, 0.64]), materials(AXIS)].concat().into_iter().step_by(5) {
+        let law = law::<f64>(material);
+        for input in [ordinary(50), extreme()].concat() {
+            let (point, moduli) = once(&material, &input);
+            seen.insert(point.status);
+            let numbers = [&point.stress[..], &point.state, &moduli].concat();
+            assert!(numbers.iter().all(|x| x.is_finite()), "{point:?} from {input:?}");
+            assert!(could_be(&law, &input, false, point.status), "{point:?} from {input:?}");
+            let carries = input.old[FAILED] < 0.5 && point.status == status::OK;
+            assert!(carries || point.stress.iter().chain(&moduli).all(|&x| x == 0.0), "{point:?} from {input:?}");
+        }
+    }
+    let all = [status::OK, status::INVERTED, status::NOT_FINITE, status::OVERFLOW, status::STATE_NOT_FINITE];
+    assert!(all.iter().all(|code| seen.contains(code)), "{seen:?}");
 }
 
 /// The truth's cases at every level, by their own measure.
