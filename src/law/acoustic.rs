@@ -56,7 +56,7 @@ impl Hyperelastic<f64> {
         let (section, images) = Section::new(&stretch, images, &frame);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
         let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
-        let d = Decomposition::new(kinematics.stretch, kinematics.section, &kinematics.images[0]);
+        let d = Decomposition::new(kinematics);
         let frame = [d.e, d.q1, d.q2()];
         Ok(Acoustic { modulus: moduli.matrix(), stress: point.stress, jacobian: d.jacobian, frame })
     }

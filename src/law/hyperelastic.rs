@@ -332,7 +332,7 @@ impl<R: Real> Hyperelastic<R> {
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
         if request.modes || request.wave_modulus {
-            let decomposition = Decomposition::new(kinematics.stretch, kinematics.section, &kinematics.images[0]);
+            let decomposition = Decomposition::new(kinematics);
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {

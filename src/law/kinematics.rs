@@ -387,7 +387,13 @@ pub struct Decomposition<R> {
 
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
-    pub fn new(d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Self {
+    pub fn new(kinematics: Kinematics<'_, R>) -> Self {
+        Decomposition::of(kinematics.stretch, kinematics.section, &kinematics.images[0])
+    }
+
+    /// Likewise, before the strains are known.
+    #[inline(always)]
+    pub fn of(d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Self {
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();

@@ -408,7 +408,7 @@ impl Derivative<21> for Six {
 
     #[inline(always)]
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
-        Decomposition::new(d, section, a)
+        Decomposition::of(d, section, a)
     }
 
     #[inline(always)]
@@ -439,7 +439,7 @@ impl Derivative<21> for Jaumann {
 
     #[inline(always)]
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> (Decomposition<R>, Bases<R>) {
-        let d = Decomposition::new(d, section, a);
+        let d = Decomposition::of(d, section, a);
         (d, Bases::new(&d))
     }
 
@@ -471,7 +471,7 @@ impl Derivative<81> for Nine {
 
     #[inline(always)]
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
-        Decomposition::new(d, section, a)
+        Decomposition::of(d, section, a)
     }
 
     #[inline(always)]

@@ -886,7 +886,7 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
     frame: &FibreFrame<R>,
     shear: bool,
 ) -> R {
-    let d = Decomposition::new(kinematics.stretch, kinematics.section, &kinematics.images[0]);
+    let d = Decomposition::new(kinematics);
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
             // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
