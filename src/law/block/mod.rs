@@ -953,13 +953,13 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
     let (zero, mut probe) = (R::splat(0.0), outcome.latch);
     let mut energies = [zero; 4];
     if request.energies {
-        for c in 0..4 {
-            energies[c] = keep(r.energies[c], block.energies_old, block.energies, c);
+        for (c, energy) in energies.iter_mut().enumerate() {
+            *energy = keep(r.energies[c], block.energies_old, block.energies, c);
         }
     }
     if request.invariants {
-        for c in 0..4 {
-            probe = keep(r.invariants[c], block.invariants_old, block.invariants, c).mul_add(energies[c], probe);
+        for (c, &energy) in energies.iter().enumerate() {
+            probe = keep(r.invariants[c], block.invariants_old, block.invariants, c).mul_add(energy, probe);
         }
     } else {
         probe = energies[0].mul_add(energies[1], energies[2].mul_add(energies[3], probe));
