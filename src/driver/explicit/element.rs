@@ -1,0 +1,334 @@
+//! The one-point hexahedron, many side by side: deformation gradient, nodal forces, hourglass control, bulk viscosity.
+//!
+//! Everything refers to the reference placement, so that nothing is computed anew in a step but what depends on the
+//! displacement. At an element's centre the gradient of a field is the sum of its nodal values, with the signs of ξ, η
+//! and ζ, times the inverse Jacobian. For the prisms that yarns are meshed with that is the mean over the element, which
+//! is what Flanagan and Belytschko take (Int. J. Numer. Meth. Eng. 17, 1981). Their four hourglass modes are the sums with
+//! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
+//! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use crate::host::calls::BlockPrecision;
+
+/// Elements side by side in an inner loop.
+pub const LANES: usize = 8;
+
+/// The number that a run is computed in: f64 or f32.
+pub trait Number:
+    BlockPrecision
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+}
+
+impl Number for f64 {}
+impl Number for f32 {}
+
+/// The modes that are sums with the signs of one coordinate.
+const LINEAR: [usize; 3] = [1, 2, 4];
+/// Those with the signs of a product: ξη, ηζ, ζξ, ξηζ.
+const HOURGLASS: [usize; 4] = [3, 6, 5, 7];
+
+type Lanes<T, const N: usize> = [[T; LANES]; N];
+
+/// Components that begin at `first`, of an array with this leading dimension.
+fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> Lanes<T, N> {
+    std::array::from_fn(|c| {
+        let mut lanes = [T::default(); LANES];
+        lanes.copy_from_slice(&array[c * stride + first..][..LANES]);
+        lanes
+    })
+}
+
+fn store<T: Number, const N: usize>(lanes: &Lanes<T, N>, array: &mut [T], stride: usize, first: usize) {
+    for (c, lane) in lanes.iter().enumerate() {
+        array[c * stride + first..][..LANES].copy_from_slice(lane);
+    }
+}
+
+/// The component of every lane.
+#[inline(always)]
+fn lane<T: Number, const N: usize>(lanes: &Lanes<T, N>, l: usize) -> [T; N] {
+    std::array::from_fn(|c| lanes[c][l])
+}
+
+/// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
+#[inline(always)]
+fn modes<T: Number>(mut values: [T; 8]) -> [T; 8] {
+    for bit in LINEAR {
+        for corner in (0..8).filter(|corner| corner & bit == 0) {
+            let (low, high) = (values[corner], values[corner | bit]);
+            values[corner] = low + high;
+            values[corner | bit] = high - low;
+        }
+    }
+    values
+}
+
+/// The transpose of [`modes`]: what every corner gets.
+#[inline(always)]
+fn corners<T: Number>(mut values: [T; 8]) -> [T; 8] {
+    for bit in LINEAR {
+        for corner in (0..8).filter(|corner| corner & bit == 0) {
+            let (even, odd) = (values[corner], values[corner | bit]);
+            values[corner] = even - odd;
+            values[corner | bit] = even + odd;
+        }
+    }
+    values
+}
+
+/// What does not change: nodes and reference shapes of a block of elements, component-major.
+#[derive(Clone, Debug)]
+pub struct Shapes<T> {
+    /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
+    pub n: usize,
+    pub stride: usize,
+    pub nodes: Vec<[u32; 8]>,
+    /// 9 components by columns: ⅛ ∂ξ_k/∂X_j, entry k + 3j.
+    inverse: Vec<T>,
+    /// 12: mode α of X_j, entry α + 4j.
+    hourglass: Vec<T>,
+    /// 1: reference volume.
+    pub volume: Vec<T>,
+    /// 1: stiffness against the hourglass modes.
+    stiffness: Vec<T>,
+    /// Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+    gradients: Vec<[f64; 6]>,
+}
+
+/// The reference shape of one element.
+struct Shape {
+    inverse: [[f64; 3]; 3],
+    hourglass: [[f64; 4]; 3],
+    volume: f64,
+    gradients: [f64; 6],
+}
+
+impl Shape {
+    fn new(corners: [[f64; 3]; 8]) -> Shape {
+        let sums: [[f64; 8]; 3] = [0, 1, 2].map(|j| modes(corners.map(|corner| corner[j])));
+        let jacobian = nalgebra::Matrix3::from_fn(|j, k| sums[j][LINEAR[k]] / 8.0);
+        let inverse = jacobian.try_inverse().unwrap_or_default();
+        // Σ_a ξ_ka ξ_la = 8 δ_kl, and each gradient has a factor ⅛.
+        let product = inverse.transpose() * inverse / 8.0;
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+        Shape {
+            inverse: std::array::from_fn(|j| std::array::from_fn(|k| inverse[(k, j)] / 8.0)),
+            hourglass: sums.map(|sum| HOURGLASS.map(|mode| sum[mode])),
+            volume: 8.0 * jacobian.determinant(),
+            gradients: pairs.map(|pair| product[pair]),
+        }
+    }
+}
+
+/// The cheap half of a material: what hourglass modes and shocks are held by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Fraction of the stiffness with which a mode of this modulus would resist, and the modulus.
+    pub hourglass: f64,
+    pub modulus: f64,
+    /// Coefficients of bulk viscosity: linear, quadratic.
+    pub linear: f64,
+    pub quadratic: f64,
+}
+
+impl<T: Number> Shapes<T> {
+    /// A block of elements. `coordinates` are the nodes in the reference placement.
+    pub fn new(elements: &[[u32; 8]], coordinates: &[[f64; 3]], control: &Control) -> Self {
+        let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
+        let array = |components: usize| vec![T::default(); components * stride];
+        let mut block = Shapes {
+            n,
+            stride,
+            nodes: elements.to_vec(),
+            inverse: array(9),
+            hourglass: array(12),
+            volume: array(1),
+            stiffness: array(1),
+            gradients: Vec::with_capacity(n),
+        };
+        block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
+        for (i, element) in elements.iter().enumerate() {
+            let shape = Shape::new(element.map(|node| coordinates[node as usize]));
+            for j in 0..3 {
+                for k in 0..3 {
+                    block.inverse[(k + 3 * j) * stride + i] = T::from_f64(shape.inverse[j][k]);
+                }
+                for mode in 0..4 {
+                    block.hourglass[(mode + 4 * j) * stride + i] = T::from_f64(shape.hourglass[j][mode]);
+                }
+            }
+            let trace: f64 = shape.gradients[..3].iter().sum();
+            block.volume[i] = T::from_f64(shape.volume);
+            // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
+            block.stiffness[i] = T::from_f64(control.hourglass * 0.5 * control.modulus * trace * shape.volume / 8.0);
+            block.gradients.push(shape.gradients);
+        }
+        block
+    }
+
+    /// An eighth of the element's mass rests on each corner.
+    pub fn corner_volume(&self, element: usize) -> f64 {
+        self.volume[element].into() / 8.0
+    }
+
+    /// F by columns and the hourglass modes of the displacement, all elements.
+    pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
+        let stride = self.stride;
+        for first in (0..stride).step_by(LANES) {
+            let u = self.gather(displacement, first);
+            let inverse: Lanes<T, 9> = load(&self.inverse, stride, first);
+            let reference: Lanes<T, 12> = load(&self.hourglass, stride, first);
+            let mut gradient = [[T::default(); LANES]; 9];
+            let mut amplitude = [[T::default(); LANES]; 12];
+            for l in 0..LANES {
+                let (b, r) = (lane(&inverse, l), lane(&reference, l));
+                for i in 0..3 {
+                    let m = modes(lane(&u[i], l));
+                    // The displacement's gradient, row i.
+                    let h: [T; 3] = std::array::from_fn(|j| {
+                        m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2]
+                    });
+                    for j in 0..3 {
+                        let identity = T::from_f64(if i == j { 1.0 } else { 0.0 });
+                        gradient[i + 3 * j][l] = identity + h[j];
+                    }
+                    for (mode, &k) in HOURGLASS.iter().enumerate() {
+                        let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
+                        amplitude[mode + 4 * i][l] = m[k] - linear;
+                    }
+                }
+            }
+            store(&gradient, f, stride, first);
+            store(&amplitude, modal, stride, first);
+        }
+    }
+
+    fn gather(&self, displacement: &[[T; 3]], first: usize) -> [Lanes<T, 8>; 3] {
+        let mut u = [[[T::default(); LANES]; 8]; 3];
+        for (l, nodes) in self.nodes[first..first + LANES].iter().enumerate() {
+            for (corner, &node) in nodes.iter().enumerate() {
+                let value = displacement[node as usize];
+                for i in 0..3 {
+                    u[i][corner][l] = value[i];
+                }
+            }
+        }
+        u
+    }
+
+    /// Adds the elements' forces to the nodes'. `stress` is the Cauchy stress, `pressure` the bulk viscosity's, `intact` 1
+    /// or 0: whether hourglass modes are held.
+    pub fn forces(&self, f: &[T], stress: &[T], pressure: &[T], intact: &[T], modal: &[T], forces: &mut [[T; 3]]) {
+        let stride = self.stride;
+        for first in (0..stride).step_by(LANES) {
+            let gradient: Lanes<T, 9> = load(f, stride, first);
+            let cauchy: Lanes<T, 6> = load(stress, stride, first);
+            let amplitude: Lanes<T, 12> = load(modal, stride, first);
+            let inverse: Lanes<T, 9> = load(&self.inverse, stride, first);
+            let reference: Lanes<T, 12> = load(&self.hourglass, stride, first);
+            let [volume] = load(&self.volume, stride, first);
+            let [stiffness] = load(&self.stiffness, stride, first);
+            let [q] = load(pressure, stride, first);
+            let [held] = load(intact, stride, first);
+            let mut nodal = [[[T::default(); LANES]; 8]; 3];
+            for l in 0..LANES {
+                let (b, r, h) = (lane(&inverse, l), lane(&reference, l), lane(&amplitude, l));
+                let mut p = first_piola_kirchhoff(&lane(&gradient, l), &lane(&cauchy, l), q[l]);
+                let k = stiffness[l] * held[l];
+                for i in 0..3 {
+                    let against: [T; 4] = std::array::from_fn(|mode| k * h[mode + 4 * i]);
+                    for j in 0..3 {
+                        let linear = against[0] * r[4 * j]
+                            + against[1] * r[4 * j + 1]
+                            + against[2] * r[4 * j + 2]
+                            + against[3] * r[4 * j + 3];
+                        p[i + 3 * j] = volume[l] * p[i + 3 * j] - linear;
+                    }
+                    let t: [T; 3] = std::array::from_fn(|m| p[i] * b[m] + p[i + 3] * b[3 + m] + p[i + 6] * b[6 + m]);
+                    let zero = T::default();
+                    let [xy, yz, zx, xyz] = against;
+                    let force = corners([zero, t[0], t[1], xy, t[2], zx, yz, xyz]);
+                    for corner in 0..8 {
+                        nodal[i][corner][l] = force[corner];
+                    }
+                }
+            }
+            self.scatter(&nodal, first, forces);
+        }
+    }
+
+    /// In the order of the elements, so that a run repeats bit by bit.
+    fn scatter(&self, nodal: &[Lanes<T, 8>; 3], first: usize, forces: &mut [[T; 3]]) {
+        let count = LANES.min(self.n.saturating_sub(first));
+        for (l, nodes) in self.nodes[first..first + count].iter().enumerate() {
+            for (corner, &node) in nodes.iter().enumerate() {
+                let force = &mut forces[node as usize];
+                for i in 0..3 {
+                    force[i] -= nodal[i][corner][l];
+                }
+            }
+        }
+    }
+
+    /// The square of the highest frequency of an element, over its wave speed's: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in
+    /// the current placement is no larger than its trace.
+    pub fn spread(&self, element: usize, f: &[T]) -> f64 {
+        let f = nalgebra::Matrix3::from_fn(|i, j| f[(i + 3 * j) * self.stride + element].into());
+        let [a, b, c, d, e, g] = self.gradients[element];
+        let reference = nalgebra::Matrix3::new(a, d, g, d, b, e, g, e, c);
+        match f.try_inverse() {
+            Some(inverse) => 8.0 * (inverse.transpose() * reference * inverse).trace(),
+            None => 0.0, // it is deleted
+        }
+    }
+
+    /// The energy in the hourglass modes of an element.
+    pub fn hourglass_energy(&self, element: usize, modal: &[T]) -> f64 {
+        let square = |c: usize| modal[c * self.stride + element].into().powi(2);
+        0.5 * self.stiffness[element].into() * (0..12).map(square).sum::<f64>()
+    }
+}
+
+/// P = (σ − q 1) cof F by columns.
+#[inline(always)]
+fn first_piola_kirchhoff<T: Number>(f: &[T; 9], stress: &[T; 6], q: T) -> [T; 9] {
+    let [s11, s22, s33, s12, s23, s31] = *stress;
+    let (s11, s22, s33) = (s11 - q, s22 - q, s33 - q);
+    let cofactor = |j: usize| {
+        let (a, b) = (
+            [f[(3 * j + 3) % 9], f[(3 * j + 4) % 9], f[(3 * j + 5) % 9]],
+            [f[(3 * j + 6) % 9], f[(3 * j + 7) % 9], f[(3 * j + 8) % 9]],
+        );
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let mut p = [T::default(); 9];
+    for j in 0..3 {
+        let [x, y, z] = cofactor(j);
+        p[3 * j] = s11 * x + s12 * y + s31 * z;
+        p[3 * j + 1] = s12 * x + s22 * y + s23 * z;
+        p[3 * j + 2] = s31 * x + s23 * y + s33 * z;
+    }
+    p
+}
+
+/// det F of every element.
+pub fn volume_ratios<T: Number>(f: &[T], stride: usize, ratios: &mut [T]) {
+    for first in (0..stride).step_by(LANES) {
+        let gradient: Lanes<T, 9> = load(f, stride, first);
+        let mut ratio = [[T::default(); LANES]];
+        for l in 0..LANES {
+            let [a, b, c, d, e, g, h, i, j] = lane(&gradient, l);
+            ratio[0][l] = a * (e * j - g * i) + b * (g * h - d * j) + c * (d * i - e * h);
+        }
+        store(&ratio, ratios, stride, first);
+    }
+}
