@@ -341,12 +341,14 @@ pub trait FromF64 {
 }
 
 impl FromF64 for f64 {
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x
     }
 }
 
 impl FromF64 for f32 {
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x as f32
     }

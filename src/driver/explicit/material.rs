@@ -106,8 +106,10 @@ impl<T: Number> Scratch<T> {
 /// What a turn asks for beside the forces.
 #[derive(Clone, Copy, Debug)]
 pub struct Wanted {
-    /// Energies and invariants of the law, energies of the host.
-    pub energies: bool,
+    /// Energies and invariants of the law.
+    pub law: bool,
+    /// What else the balance of energies needs.
+    pub balance: bool,
     /// The square of the highest frequency.
     pub frequency: bool,
     /// Length of the step that led here.
@@ -190,7 +192,7 @@ impl<T: Number> ElementBlock<T> {
         self.add_viscosity(medium, scratch, wanted, sums);
         let Scratch { deformation_gradient: f, modal, stress, pressure, .. } = &*scratch;
         self.shapes.forces(f, stress, pressure, &self.intact, modal, forces);
-        if wanted.energies {
+        if wanted.balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, modal)).sum::<f64>();
         }
@@ -213,7 +215,7 @@ impl<T: Number> ElementBlock<T> {
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
             state: &mut self.state,
-            energies: wanted.energies,
+            energies: wanted.law,
             failure: medium.fails,
             stress: &mut scratch.stress,
             wave_speed: wanted.frequency.then(|| (T::from_f64(medium.density), wave_speed)),

@@ -99,6 +99,8 @@ pub struct Solver<T> {
     pub media: Vec<Medium<T>>,
     pub blocks: Vec<ElementBlock<T>>,
     pub projectile: Option<Projectile>,
+    /// Whether the laws give energies and invariants in every step, or only where they are measured.
+    pub all_outputs: bool,
     pub displacement: Vec<[T; 3]>,
     pub velocity: Vec<[T; 3]>,
     forces: Vec<[T; 3]>,
@@ -126,6 +128,7 @@ impl<T: Number> Solver<T> {
         let mut solver = Solver {
             blocks: Vec::new(),
             projectile: None,
+            all_outputs: true,
             displacement: vec![[T::default(); 3]; count],
             velocity: vec![[T::default(); 3]; count],
             forces: vec![[T::default(); 3]; count],
@@ -192,11 +195,13 @@ impl<T: Number> Solver<T> {
         }
     }
 
-    /// One step. With `measured`, the energies and the laws' outputs are those at its start.
+    /// One step, `longest` at most. With `measured`, the energies are afterwards those at its start.
     pub fn advance(&mut self, measured: bool, longest: f64) {
         let started = Instant::now();
         let bounded = self.cost.steps.is_multiple_of(STEPS_PER_BOUND);
-        let sums = self.compute_forces(Wanted { energies: measured, frequency: bounded, step: self.step });
+        let wanted =
+            Wanted { law: measured || self.all_outputs, balance: measured, frequency: bounded, step: self.step };
+        let sums = self.compute_forces(wanted);
         let computed = Instant::now();
         self.meet_projectile();
         let met = Instant::now();

@@ -130,6 +130,7 @@ impl<'a, T: Number> Run<'a, T> {
             Zones::Two(materials, _) => &materials[0],
         };
         let smith = Tension::of(material).smith(case.speed, material.density.unwrap_or_default());
+        solver.all_outputs = case.outputs == Outputs::Full;
         let start = set_up(case, &mut solver);
         Ok(Run {
             case,
@@ -155,9 +156,8 @@ impl<'a, T: Number> Run<'a, T> {
             let sampled = time >= next_sample || time >= self.case.end;
             let drawn = pictures.last().is_some_and(|&picture| time >= picture);
             let framed = self.case.frames > 0 && time >= next_frame;
-            let full = sampled || drawn || framed || self.case.outputs == Outputs::Full;
             let state = (drawn || framed).then(|| self.positions());
-            self.solver.advance(full, self.case.end);
+            self.solver.advance(sampled || drawn || framed, self.case.end);
             if sampled {
                 self.sample(time);
                 next_sample += self.case.sample;
