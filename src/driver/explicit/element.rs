@@ -31,39 +31,85 @@ pub trait Number:
 impl Number for f64 {}
 impl Number for f32 {}
 
+/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+struct Lanes<T>([T; LANES]);
+
+impl<T: Number> Lanes<T> {
+    #[inline(always)]
+    fn splat(value: T) -> Self {
+        Lanes([value; LANES])
+    }
+
+    #[inline(always)]
+    fn at(array: &[T], first: usize) -> Self {
+        let mut lanes = Lanes::splat(T::default());
+        lanes.0.copy_from_slice(&array[first..][..LANES]);
+        lanes
+    }
+
+    #[inline(always)]
+    fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
+        let mut result = self;
+        for (a, b) in result.0.iter_mut().zip(other.0) {
+            *a = of(*a, b);
+        }
+        result
+    }
+}
+
+impl<T: Number> Add for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, T::add)
+    }
+}
+
+impl<T: Number> Sub for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, T::sub)
+    }
+}
+
+impl<T: Number> Mul for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, T::mul)
+    }
+}
+
+/// Components that begin at `first`, of an array with this leading dimension.
+#[inline(always)]
+fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
+    let mut components = [Lanes::splat(T::default()); N];
+    for (c, lanes) in components.iter_mut().enumerate() {
+        *lanes = Lanes::at(array, c * stride + first);
+    }
+    components
+}
+
+#[inline(always)]
+fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
+    array[first..][..LANES].copy_from_slice(&lanes.0);
+}
+
 /// The modes that are sums with the signs of one coordinate.
 const LINEAR: [usize; 3] = [1, 2, 4];
 /// Those with the signs of a product: ξη, ηζ, ζξ, ξηζ.
 const HOURGLASS: [usize; 4] = [3, 6, 5, 7];
-
-type Lanes<T, const N: usize> = [[T; LANES]; N];
-
-/// Components that begin at `first`, of an array with this leading dimension.
-fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> Lanes<T, N> {
-    std::array::from_fn(|c| {
-        let mut lanes = [T::default(); LANES];
-        lanes.copy_from_slice(&array[c * stride + first..][..LANES]);
-        lanes
-    })
-}
-
-fn store<T: Number, const N: usize>(lanes: &Lanes<T, N>, array: &mut [T], stride: usize, first: usize) {
-    for (c, lane) in lanes.iter().enumerate() {
-        array[c * stride + first..][..LANES].copy_from_slice(lane);
-    }
-}
-
-/// The component of every lane.
-#[inline(always)]
-fn lane<T: Number, const N: usize>(lanes: &Lanes<T, N>, l: usize) -> [T; N] {
-    std::array::from_fn(|c| lanes[c][l])
-}
+/// The lower corners of the four edges along each coordinate.
+const EDGES: [(usize, [usize; 4]); 3] = [(1, [0, 2, 4, 6]), (2, [0, 1, 4, 5]), (4, [0, 1, 2, 3])];
 
 /// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
 #[inline(always)]
-fn modes<T: Number>(mut values: [T; 8]) -> [T; 8] {
-    for bit in LINEAR {
-        for corner in (0..8).filter(|corner| corner & bit == 0) {
+fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for (bit, corners) in EDGES {
+        for corner in corners {
             let (low, high) = (values[corner], values[corner | bit]);
             values[corner] = low + high;
             values[corner | bit] = high - low;
@@ -74,9 +120,9 @@ fn modes<T: Number>(mut values: [T; 8]) -> [T; 8] {
 
 /// The transpose of [`modes`]: what every corner gets.
 #[inline(always)]
-fn corners<T: Number>(mut values: [T; 8]) -> [T; 8] {
-    for bit in LINEAR {
-        for corner in (0..8).filter(|corner| corner & bit == 0) {
+fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for (bit, corners) in EDGES {
+        for corner in corners {
             let (even, odd) = (values[corner], values[corner | bit]);
             values[corner] = even - odd;
             values[corner | bit] = even + odd;
@@ -181,99 +227,92 @@ impl<T: Number> Shapes<T> {
     }
 
     /// F by columns and the hourglass modes of the displacement, all elements.
+    #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
         for first in (0..stride).step_by(LANES) {
             let u = self.gather(displacement, first);
-            let inverse: Lanes<T, 9> = load(&self.inverse, stride, first);
-            let reference: Lanes<T, 12> = load(&self.hourglass, stride, first);
-            let mut gradient = [[T::default(); LANES]; 9];
-            let mut amplitude = [[T::default(); LANES]; 12];
-            for l in 0..LANES {
-                let (b, r) = (lane(&inverse, l), lane(&reference, l));
-                for i in 0..3 {
-                    let m = modes(lane(&u[i], l));
-                    // The displacement's gradient, row i.
-                    let h: [T; 3] = std::array::from_fn(|j| {
-                        m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2]
-                    });
-                    for j in 0..3 {
-                        let identity = T::from_f64(if i == j { 1.0 } else { 0.0 });
-                        gradient[i + 3 * j][l] = identity + h[j];
-                    }
-                    for (mode, &k) in HOURGLASS.iter().enumerate() {
-                        let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
-                        amplitude[mode + 4 * i][l] = m[k] - linear;
-                    }
+            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
+            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
+            for i in 0..3 {
+                let m = modes(u[i]);
+                // The displacement's gradient, row i.
+                let mut h = [Lanes::splat(T::default()); 3];
+                for j in 0..3 {
+                    h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
+                    let identity = Lanes::splat(T::from_f64(if i == j { 1.0 } else { 0.0 }));
+                    store(identity + h[j], f, (i + 3 * j) * stride + first);
+                }
+                for (mode, k) in HOURGLASS.into_iter().enumerate() {
+                    let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
+                    store(m[k] - linear, modal, (mode + 4 * i) * stride + first);
                 }
             }
-            store(&gradient, f, stride, first);
-            store(&amplitude, modal, stride, first);
         }
     }
 
-    fn gather(&self, displacement: &[[T; 3]], first: usize) -> [Lanes<T, 8>; 3] {
-        let mut u = [[[T::default(); LANES]; 8]; 3];
+    #[inline(always)]
+    fn gather(&self, displacement: &[[T; 3]], first: usize) -> [[Lanes<T>; 8]; 3] {
+        let mut u = [[Lanes::splat(T::default()); 8]; 3];
         for (l, nodes) in self.nodes[first..first + LANES].iter().enumerate() {
             for (corner, &node) in nodes.iter().enumerate() {
                 let value = displacement[node as usize];
                 for i in 0..3 {
-                    u[i][corner][l] = value[i];
+                    u[i][corner].0[l] = value[i];
                 }
             }
         }
         u
     }
 
-    /// Adds the elements' forces to the nodes'. `stress` is the Cauchy stress, `pressure` the bulk viscosity's, `intact` 1
-    /// or 0: whether hourglass modes are held.
-    pub fn forces(&self, f: &[T], stress: &[T], pressure: &[T], intact: &[T], modal: &[T], forces: &mut [[T; 3]]) {
+    /// Adds the elements' forces to the nodes'.
+    #[inline(always)]
+    pub fn forces(&self, point: &Points<'_, T>, forces: &mut [[T; 3]]) {
         let stride = self.stride;
         for first in (0..stride).step_by(LANES) {
-            let gradient: Lanes<T, 9> = load(f, stride, first);
-            let cauchy: Lanes<T, 6> = load(stress, stride, first);
-            let amplitude: Lanes<T, 12> = load(modal, stride, first);
-            let inverse: Lanes<T, 9> = load(&self.inverse, stride, first);
-            let reference: Lanes<T, 12> = load(&self.hourglass, stride, first);
+            let f: [Lanes<T>; 9] = load(point.deformation_gradient, stride, first);
+            let stress: [Lanes<T>; 6] = load(point.stress, stride, first);
+            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
+            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
             let [volume] = load(&self.volume, stride, first);
             let [stiffness] = load(&self.stiffness, stride, first);
-            let [q] = load(pressure, stride, first);
-            let [held] = load(intact, stride, first);
-            let mut nodal = [[[T::default(); LANES]; 8]; 3];
-            for l in 0..LANES {
-                let (b, r, h) = (lane(&inverse, l), lane(&reference, l), lane(&amplitude, l));
-                let mut p = first_piola_kirchhoff(&lane(&gradient, l), &lane(&cauchy, l), q[l]);
-                let k = stiffness[l] * held[l];
-                for i in 0..3 {
-                    let against: [T; 4] = std::array::from_fn(|mode| k * h[mode + 4 * i]);
-                    for j in 0..3 {
-                        let linear = against[0] * r[4 * j]
-                            + against[1] * r[4 * j + 1]
-                            + against[2] * r[4 * j + 2]
-                            + against[3] * r[4 * j + 3];
-                        p[i + 3 * j] = volume[l] * p[i + 3 * j] - linear;
-                    }
-                    let t: [T; 3] = std::array::from_fn(|m| p[i] * b[m] + p[i + 3] * b[3 + m] + p[i + 6] * b[6 + m]);
-                    let zero = T::default();
-                    let [xy, yz, zx, xyz] = against;
-                    let force = corners([zero, t[0], t[1], xy, t[2], zx, yz, xyz]);
-                    for corner in 0..8 {
-                        nodal[i][corner][l] = force[corner];
+            let [pressure] = load(point.pressure, stride, first);
+            let [intact] = load(point.intact, stride, first);
+            let k = stiffness * intact;
+            let p = first_piola_kirchhoff(&f, &stress, pressure);
+            let zero = Lanes::splat(T::default());
+            let mut nodal = [[zero; 8]; 3];
+            for i in 0..3 {
+                let mut held = [zero; 4];
+                for (mode, held) in held.iter_mut().enumerate() {
+                    *held = k * Lanes::at(point.modal, (mode + 4 * i) * stride + first);
+                }
+                let mut force = [zero; 3];
+                for j in 0..3 {
+                    // The linear field in the hourglass modes is none of theirs.
+                    let [xy, yz, zx, xyz] = held;
+                    let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
+                    let nominal = volume * p[j][i] - linear;
+                    for m in 0..3 {
+                        force[m] = force[m] + nominal * b[3 * j + m];
                     }
                 }
+                let ([xy, yz, zx, xyz], [x, y, z]) = (held, force);
+                nodal[i] = corners([zero, x, y, xy, z, zx, yz, xyz]);
             }
             self.scatter(&nodal, first, forces);
         }
     }
 
     /// In the order of the elements, so that a run repeats bit by bit.
-    fn scatter(&self, nodal: &[Lanes<T, 8>; 3], first: usize, forces: &mut [[T; 3]]) {
+    #[inline(always)]
+    fn scatter(&self, nodal: &[[Lanes<T>; 8]; 3], first: usize, forces: &mut [[T; 3]]) {
         let count = LANES.min(self.n.saturating_sub(first));
         for (l, nodes) in self.nodes[first..first + count].iter().enumerate() {
             for (corner, &node) in nodes.iter().enumerate() {
                 let force = &mut forces[node as usize];
                 for i in 0..3 {
-                    force[i] -= nodal[i][corner][l];
+                    force[i] -= nodal[i][corner].0[l];
                 }
             }
         }
@@ -298,37 +337,43 @@ impl<T: Number> Shapes<T> {
     }
 }
 
-/// P = (σ − q 1) cof F by columns.
+/// What the forces of a block follow from, component-major.
+pub struct Points<'a, T> {
+    pub deformation_gradient: &'a [T],
+    /// Amplitudes of the hourglass modes.
+    pub modal: &'a [T],
+    /// Cauchy stress, and the pressure of bulk viscosity.
+    pub stress: &'a [T],
+    pub pressure: &'a [T],
+    /// 1 or 0: whether hourglass modes are held.
+    pub intact: &'a [T],
+}
+
+/// The columns of P = (σ − q 1) cof F.
 #[inline(always)]
-fn first_piola_kirchhoff<T: Number>(f: &[T; 9], stress: &[T; 6], q: T) -> [T; 9] {
+fn first_piola_kirchhoff<T: Number>(f: &[Lanes<T>; 9], stress: &[Lanes<T>; 6], q: Lanes<T>) -> [[Lanes<T>; 3]; 3] {
     let [s11, s22, s33, s12, s23, s31] = *stress;
     let (s11, s22, s33) = (s11 - q, s22 - q, s33 - q);
-    let cofactor = |j: usize| {
-        let (a, b) = (
-            [f[(3 * j + 3) % 9], f[(3 * j + 4) % 9], f[(3 * j + 5) % 9]],
-            [f[(3 * j + 6) % 9], f[(3 * j + 7) % 9], f[(3 * j + 8) % 9]],
-        );
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    };
-    let mut p = [T::default(); 9];
-    for j in 0..3 {
-        let [x, y, z] = cofactor(j);
-        p[3 * j] = s11 * x + s12 * y + s31 * z;
-        p[3 * j + 1] = s12 * x + s22 * y + s23 * z;
-        p[3 * j + 2] = s31 * x + s23 * y + s33 * z;
+    let [a, b, c] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]];
+    let mut p = [cross(b, c), cross(c, a), cross(a, b)];
+    for column in &mut p {
+        let [x, y, z] = *column;
+        *column = [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z];
     }
     p
 }
 
+#[inline(always)]
+fn cross<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 /// det F of every element.
+#[inline(always)]
 pub fn volume_ratios<T: Number>(f: &[T], stride: usize, ratios: &mut [T]) {
     for first in (0..stride).step_by(LANES) {
-        let gradient: Lanes<T, 9> = load(f, stride, first);
-        let mut ratio = [[T::default(); LANES]];
-        for l in 0..LANES {
-            let [a, b, c, d, e, g, h, i, j] = lane(&gradient, l);
-            ratio[0][l] = a * (e * j - g * i) + b * (g * h - d * j) + c * (d * i - e * h);
-        }
-        store(&ratio, ratios, stride, first);
+        let [a, b, c, d, e, g, h, i, j] = load(f, stride, first);
+        let [x, y, z] = cross([d, e, g], [h, i, j]);
+        store(a * x + b * y + c * z, ratios, first);
     }
 }

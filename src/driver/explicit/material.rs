@@ -2,7 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use super::element::{Control, Number, Shapes, volume_ratios};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::element::{Control, LANES, Number, Points, Shapes, volume_ratios};
 use crate::driver::Error;
 use crate::driver::material::{Law, Material};
 use crate::host::c_api::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
@@ -130,6 +132,50 @@ pub struct Sums {
     pub law: Duration,
 }
 
+/// What is done with the processor's widest instructions: before the law's turn, and after it.
+struct Deform<'a, T> {
+    shapes: &'a Shapes<T>,
+    displacement: &'a [[T; 3]],
+    scratch: &'a mut Scratch<T>,
+}
+
+struct Forces<'a, T> {
+    block: &'a mut ElementBlock<T>,
+    medium: &'a Medium<T>,
+    scratch: &'a mut Scratch<T>,
+    step: f64,
+    sums: &'a mut Sums,
+    forces: &'a mut [[T; 3]],
+}
+
+impl<T: Number> WithSimd for Deform<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Scratch { deformation_gradient, modal, .. } = self.scratch;
+        self.shapes.deform(self.displacement, deformation_gradient, modal);
+    }
+}
+
+impl<T: Number> WithSimd for Forces<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Forces { block, medium, scratch, step, sums, forces } = self;
+        block.add_viscosity(medium, scratch, step, sums);
+        let point = Points {
+            deformation_gradient: &scratch.deformation_gradient,
+            modal: &scratch.modal,
+            stress: &scratch.stress,
+            pressure: &scratch.pressure,
+            intact: &block.intact,
+        };
+        block.shapes.forces(&point, forces);
+    }
+}
+
 /// Elements of one medium, with their history.
 #[derive(Clone, Debug)]
 pub struct ElementBlock<T> {
@@ -180,7 +226,8 @@ impl<T: Number> ElementBlock<T> {
         wanted: Wanted,
         sums: &mut Sums,
     ) {
-        self.shapes.deform(displacement, &mut scratch.deformation_gradient, &mut scratch.modal);
+        let wide = Arch::new();
+        wide.dispatch(Deform { shapes: &self.shapes, displacement, scratch });
         let start = Instant::now();
         match &medium.entry {
             Entry::Hyperelastic(properties) => self.call_hyperelastic(properties, medium, scratch, wanted),
@@ -189,10 +236,9 @@ impl<T: Number> ElementBlock<T> {
             }
         }
         sums.law += start.elapsed();
-        self.add_viscosity(medium, scratch, wanted, sums);
-        let Scratch { deformation_gradient: f, modal, stress, pressure, .. } = &*scratch;
-        self.shapes.forces(f, stress, pressure, &self.intact, modal, forces);
+        wide.dispatch(Forces { block: self, medium, scratch, step: wanted.step, sums, forces });
         if wanted.balance {
+            let modal = &scratch.modal;
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, modal)).sum::<f64>();
         }
@@ -251,28 +297,33 @@ impl<T: Number> ElementBlock<T> {
     }
 
     /// von Neumann's and Landshoff's pressure, in compression only: q = ρ l (c2 l ε̇² + c1 c |ε̇|), ε̇ = J̇/J.
-    fn add_viscosity(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, wanted: Wanted, sums: &mut Sums) {
+    #[inline(always)]
+    fn add_viscosity(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, step: f64, sums: &mut Sums) {
         let stride = self.shapes.stride;
         let Control { linear, quadratic, .. } = medium.control;
         volume_ratios(&scratch.deformation_gradient, stride, &mut scratch.pressure);
         let (zero, half) = (T::default(), T::from_f64(0.5));
-        let per_step = if wanted.step > 0.0 { 1.0 / wanted.step } else { 0.0 };
+        let per_step = if step > 0.0 { 1.0 / step } else { 0.0 };
         let first = T::from_f64(linear * medium.density * medium.wave_speed * per_step);
         let second = T::from_f64(quadratic * medium.density * per_step * per_step);
-        let mut dissipated = zero;
-        for i in 0..stride {
-            let (ratio, old, side) = (scratch.pressure[i], self.volume_ratio[i], self.side[i]);
-            let closing = old - ratio;
+        // As many sums as lanes, so that the loop need not wait for one.
+        let mut dissipated = [zero; LANES];
+        let history = self.volume_ratio[..stride].iter_mut().zip(&mut self.pressure[..stride]);
+        let constant = self.side[..stride].iter().zip(&self.intact[..stride]).zip(&self.shapes.volume[..stride]);
+        let elements = history.zip(constant).zip(&mut scratch.pressure[..stride]).enumerate();
+        for (i, (((old, q_old), ((&side, &intact), &volume)), ratio)) in elements {
+            let closing = *old - *ratio;
             let closing = if closing > zero { closing } else { zero };
             // Over the mean volume ratio for the rate, and over the current one for the density.
-            let rate = side * closing / (half * (old + ratio));
-            let q = self.intact[i] * rate * (second * rate + first) / ratio;
-            dissipated += half * (q + self.pressure[i]) * closing * self.shapes.volume[i];
-            scratch.pressure[i] = q;
-            self.pressure[i] = q;
-            self.volume_ratio[i] = ratio;
+            let rate = side * closing / (half * (*old + *ratio));
+            let q = intact * rate * (second * rate + first) / *ratio;
+            dissipated[i % LANES] += half * (q + *q_old) * closing * volume;
+            *old = *ratio;
+            *q_old = q;
+            *ratio = q;
         }
-        sums.viscosity += dissipated.into();
+        let dissipated: f64 = dissipated.into_iter().map(Into::into).sum();
+        sums.viscosity += dissipated;
     }
 
     /// Irons: no frequency of the body exceeds the highest one of its elements.
