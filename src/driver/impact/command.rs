@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::run::{self, Outcome};
 use super::scene::{Case, Scene};
-use super::summary;
+use super::{plot, summary, yarn_picture};
 use crate::driver::explicit::vtu;
 use crate::driver::{Error, print};
 
@@ -31,6 +31,10 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     for (case, result) in scene.cases.iter().zip(&results) {
         write_case(&scene, case, result, output)?;
     }
+    if let Some(abscissa) = scene.abscissa {
+        let [svg, png] = ["residual-speed.svg", "residual-speed.png"].map(|name| output.join(name));
+        plot::write_comparison(&svg, &png, &scene, abscissa, &results)?;
+    }
     summary::write(&output.join("summary.csv"), &scene, &results)?;
     print(&format!("{}\n\n{}", scene.title, summary::table(&scene, &results)));
     Ok(())
@@ -44,9 +48,14 @@ fn run_case(case: &Case, bar: &ProgressBar) -> Result<Outcome, Error> {
     })
 }
 
-fn write_case(_scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
+fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
     let file = |ending: &str| output.join(format!("{}{ending}", case.name));
     summary::write_history(&file(".csv"), result)?;
+    plot::write_history(&file(".svg"), &file(".png"), scene, case, result)?;
+    for (number, snapshot) in result.snapshots.iter().enumerate() {
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("-yarn-{}.{ending}", number + 1)));
+        yarn_picture::write(&svg, &png, scene, case, result, snapshot)?;
+    }
     let mut collection = Vec::new();
     for (number, (time, text)) in result.frames.iter().enumerate() {
         let name = format!("{}-{number:04}.vtu", case.name);

@@ -16,8 +16,10 @@ use crate::driver::material::Material;
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 /// So many radii from mid-span nothing touches the yarn any more.
 pub const OUTSIDE: f64 = 2.0;
-/// The part of half the span over which the speed of a front is fitted: away from the projectile and from the clamp.
-const FITTED: [f64; 2] = [0.2, 0.8];
+/// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
+const FITTED: [f64; 2] = [0.4, 0.85];
+/// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
+const PLATEAU: [f64; 2] = [0.3, 0.7];
 /// A transverse front this near the clamp has reached it but for what its own length adds.
 const AT_CLAMP: [f64; 2] = [0.75, 0.95];
 
@@ -43,7 +45,7 @@ pub struct Sample {
     pub transverse: f64,
     /// Of the section, at the stations.
     pub widths: [f64; 4],
-    /// Strain halfway to the front of the elongation.
+    /// Mean strain behind the front of the elongation.
     pub strain: f64,
 }
 
@@ -293,8 +295,9 @@ impl<'a, T: Number> Run<'a, T> {
         let strains: Vec<f64> = (0..layers).map(|layer| self.elongation(layer)).collect();
         // Layers are measured in their middles.
         sample.longitudinal = front(&strains, threshold).map_or(0.0, |place| (place + 0.5) * length);
-        let halfway = (0.5 * sample.longitudinal / length) as usize;
-        sample.strain = strains[halfway.min(layers - 1)].exp_m1();
+        let [from, to] = PLATEAU.map(|fraction| (fraction * sample.longitudinal / length) as usize);
+        let plateau = &strains[from..to.max(from + 1).min(layers)];
+        sample.strain = (plateau.iter().sum::<f64>() / plateau.len() as f64).exp_m1();
         let velocities: Vec<f64> = (0..=layers).map(|section| -self.section_mean(section).1).collect();
         if let Some(place) = front(&velocities, 0.5 * self.speed()) {
             let (section, part) = (place as usize, place.fract());
@@ -384,21 +387,30 @@ impl Outcome {
         self.samples.iter().map(|sample| (sample.energies.total() - first).abs() / scale).fold(0.0, f64::max)
     }
 
-    /// Speed of a front, fitted over the middle of half the span; `None` where it has not passed there.
-    pub fn front_speed(&self, half_length: f64, place: impl Fn(&Sample) -> f64) -> Option<f64> {
+    /// The samples in which the wave of elongation passes the middle of half the span.
+    fn passing(&self, half_length: f64) -> &[Sample] {
         let [from, to] = FITTED.map(|fraction| fraction * half_length);
-        let arrived = self.samples.iter().position(|sample| place(sample) >= to)?;
-        let inside: Vec<(f64, f64)> = self.samples[..arrived]
-            .iter()
-            .map(|sample| (sample.time, place(sample)))
-            .skip_while(|&(_, x)| x < from)
-            .collect();
-        let n = inside.len() as f64;
-        let (t, x) = inside.iter().fold((0.0, 0.0), |(t, x), point| (t + point.0 / n, x + point.1 / n));
-        let (above, below) = inside.iter().fold((0.0, 0.0), |(above, below), point| {
-            (above + (point.0 - t) * (point.1 - x), below + (point.0 - t).powi(2))
-        });
+        let Some(end) = self.samples.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
+        let start = self.samples[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
+        &self.samples[start..end]
+    }
+
+    /// Speed of a front while the wave of elongation passes the middle of half the span: the slope of a fitted line.
+    pub fn front_speed(&self, half_length: f64, place: impl Fn(&Sample) -> f64) -> Option<f64> {
+        let passing = self.passing(half_length);
+        let n = passing.len() as f64;
+        let mean = |of: &dyn Fn(&Sample) -> f64| passing.iter().map(of).sum::<f64>() / n;
+        let (t, x) = (mean(&|sample| sample.time), mean(&|sample| place(sample)));
+        let above = mean(&|sample| (sample.time - t) * (place(sample) - x));
+        let below = mean(&|sample| (sample.time - t).powi(2));
         (below > 0.0).then(|| above / below)
+    }
+
+    /// Mean strain behind the wave of elongation meanwhile.
+    pub fn plateau(&self, half_length: f64) -> Option<f64> {
+        let passing = self.passing(half_length);
+        let sum: f64 = passing.iter().map(|sample| sample.strain).sum();
+        (!passing.is_empty()).then(|| sum / passing.len() as f64)
     }
 
     /// When the transverse wave is at the clamp: from its last stretch before it.
