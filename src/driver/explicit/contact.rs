@@ -22,6 +22,8 @@ struct Node {
     /// The friction force on it, at the end of the last step.
     friction: [f64; 3],
     displacement: [f64; 3],
+    /// Energy in its penetration and its sticking.
+    stored: f64,
 }
 
 /// The surface, and what the contact has done so far.
@@ -29,9 +31,10 @@ struct Node {
 pub struct Contact {
     cylinder: Cylinder,
     nodes: Vec<Node>,
-    /// Stored in penetrations and in sticking; dissipated by slipping.
+    /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
     pub dissipated: f64,
+    left_with: f64,
     /// The square of the highest frequency that it adds to a node's.
     pub frequency: f64,
 }
@@ -46,14 +49,17 @@ impl Contact {
             reference: reference[i],
             friction: [0.0; 3],
             displacement: [0.0; 3],
+            stored: 0.0,
         };
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, frequency }
+        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, left_with: 0.0, frequency }
     }
 
     /// Nodes that belong to no element any more leave.
     pub fn remove(&mut self, gone: impl Fn(usize) -> bool) {
+        let leaving = self.nodes.iter().filter(|node| gone(node.number as usize));
+        self.left_with += leaving.map(|node| node.stored).sum::<f64>();
         self.nodes.retain(|node| !gone(node.number as usize));
     }
 
@@ -61,7 +67,7 @@ impl Contact {
     /// the cylinder's axis, `moved` how far it has moved in the step that led here.
     pub fn apply<T: Number>(&mut self, axis: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
         let Cylinder { radius, friction, .. } = self.cylinder;
-        let (mut total, mut stored, mut dissipated) = (0.0, 0.0, 0.0);
+        let (mut total, mut stored, mut dissipated) = (0.0, self.left_with, 0.0);
         for node in &mut self.nodes {
             let u = displacement[node.number as usize].map(Into::into);
             let [x, y] = [node.reference[0] + u[0], node.reference[1] + u[1] - axis];
@@ -69,7 +75,7 @@ impl Contact {
             let step: [f64; 3] = std::array::from_fn(|i| u[i] - node.displacement[i] - [0.0, moved, 0.0][i]);
             node.displacement = u;
             if square >= radius * radius {
-                node.friction = [0.0; 3];
+                (node.friction, node.stored) = ([0.0; 3], 0.0);
                 continue;
             }
             let distance = square.sqrt();
@@ -86,7 +92,8 @@ impl Contact {
                 dissipated += limit * (size - limit) / node.stiffness;
             }
             let held = size.min(limit);
-            stored += 0.5 * (pressing * depth + held * held / node.stiffness);
+            node.stored = 0.5 * (pressing * depth + held * held / node.stiffness);
+            stored += node.stored;
             let force: [f64; 3] = std::array::from_fn(|i| pressing * normal[i] + node.friction[i]);
             for (to, from) in forces[node.number as usize].iter_mut().zip(force) {
                 *to += T::from_f64(from);

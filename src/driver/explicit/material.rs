@@ -123,7 +123,9 @@ pub struct Wanted {
 pub struct Sums {
     /// Energy that bulk viscosity has dissipated.
     pub viscosity: f64,
+    /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
     pub hourglass: f64,
+    pub released: f64,
     /// Squares of the highest frequency of an element.
     pub frequency: f64,
     /// Elements deleted in this step.
@@ -245,7 +247,7 @@ impl<T: Number> ElementBlock<T> {
         if wanted.frequency {
             self.bound_frequency(medium, scratch, sums);
         }
-        self.delete(medium, &scratch.status, sums);
+        self.delete(medium, scratch, sums);
     }
 
     fn call_hyperelastic(
@@ -339,14 +341,15 @@ impl<T: Number> ElementBlock<T> {
     }
 
     /// Deletes what has failed or cannot be evaluated.
-    fn delete(&mut self, medium: &Medium<T>, status: &[i32], sums: &mut Sums) {
+    fn delete(&mut self, medium: &Medium<T>, scratch: &Scratch<T>, sums: &mut Sums) {
         let (stride, latch) = (self.shapes.stride, medium.state().1);
         let zero = T::default();
         for i in 0..self.shapes.n {
-            let failed = self.state[latch * stride + i] != zero || status[i] != status::OK;
+            let failed = self.state[latch * stride + i] != zero || scratch.status[i] != status::OK;
             if failed && self.is_intact(i) {
                 self.intact[i] = zero;
                 self.pressure[i] = zero;
+                sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
                 sums.deleted.push(self.first + i);
             }
         }

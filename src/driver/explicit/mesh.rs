@@ -153,19 +153,23 @@ mod tests {
             columns: 6,
         };
         let mesh = yarn.mesh();
-        // Shoelace formula around the polygon: the top from left to right, then the bottom back.
-        let mut outline: Vec<[f64; 3]> = Vec::new();
-        for (corner, rows) in [(3, [0, 1]), (1, [0, 1])] {
-            let _ = (corner, rows);
-        }
-        outline.extend(mesh.nodes[..mesh.nodes_per_section].iter().filter(|node| node[1] >= 0.0 && on_outline(node)));
+        // The upper half of the outline from tip to tip.
+        let mut outline: Vec<[f64; 3]> =
+            mesh.nodes[..mesh.nodes_per_section].iter().copied().filter(|node| node[1] > 0.0 || is_tip(node)).collect();
         outline.sort_by(|a, b| a[2].total_cmp(&b[2]));
         let half: f64 = outline.windows(2).map(|w| 0.5 * (w[0][1] + w[1][1]) * (w[1][2] - w[0][2])).sum();
         assert!((2.0 * half / yarn.area() - 1.0).abs() < 1e-12);
     }
 
-    /// Not on the middle line, but for its two ends.
-    fn on_outline(node: &[f64; 3]) -> bool {
-        node[1].abs() > 1e-9 || node[2].abs() > 0.25
+    /// The middle line ends at the tips, half the width and more from the centre.
+    fn is_tip(node: &[f64; 3]) -> bool {
+        node[2].abs() > 0.5337 / 2.0
+    }
+
+    #[test]
+    fn the_surface_is_the_outline_times_the_length() {
+        let yarn =
+            Yarn { section: Section::Rectangle, length: 3.0, height: 1.0, width: 2.0, layers: 4, rows: 2, columns: 3 };
+        assert!((yarn.mesh().surface.iter().sum::<f64>() - 3.0 * 6.0).abs() < 1e-12);
     }
 }

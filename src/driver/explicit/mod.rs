@@ -57,22 +57,26 @@ impl Projectile {
 pub struct Energies {
     pub projectile: f64,
     pub kinetic: f64,
-    /// What the laws report, deleted elements' included.
+    /// What the laws report, and what hourglass modes hold, deleted elements' included.
     pub internal: f64,
     pub hourglass: f64,
     pub viscosity: f64,
     pub friction: f64,
-    /// Stored in the penalty.
+    /// Stored in the penalty, that of nodes that have left included.
     pub contact: f64,
     /// Work done from outside, through supports that move and a projectile that is held.
     pub external: f64,
 }
 
 impl Energies {
+    /// What is neither of the projectile nor kinetic nor the laws'.
+    pub fn other(&self) -> f64 {
+        self.hourglass + self.viscosity + self.friction + self.contact
+    }
+
     /// What stays as it is.
     pub fn total(&self) -> f64 {
-        let Energies { projectile, kinetic, internal, hourglass, viscosity, friction, contact, external } = self;
-        projectile + kinetic + internal + hourglass + viscosity + friction + contact - external
+        self.projectile + self.kinetic + self.internal + self.other() - self.external
     }
 }
 
@@ -115,6 +119,8 @@ pub struct Solver<T> {
     step: f64,
     frequency: f64,
     friction_and_viscosity: [f64; 2],
+    /// Hourglass energy of deleted elements.
+    released: f64,
     external: f64,
     pub energies: Energies,
     pub deleted: Vec<usize>,
@@ -141,6 +147,7 @@ impl<T: Number> Solver<T> {
             step: 0.0,
             frequency: 0.0,
             friction_and_viscosity: [0.0; 2],
+            released: 0.0,
             external: 0.0,
             energies: Energies::default(),
             deleted: Vec::new(),
@@ -252,6 +259,7 @@ impl<T: Number> Solver<T> {
                 self.holding[node as usize] -= 1;
             }
         }
+        self.released += sums.released;
         self.deleted.extend(&sums.deleted);
         if let Some(projectile) = &mut self.projectile {
             projectile.contact.remove(|node| self.holding[node] == 0);
@@ -315,7 +323,8 @@ impl<T: Number> Solver<T> {
         let [friction, viscosity] = self.friction_and_viscosity;
         Energies {
             internal,
-            hourglass: sums.hourglass,
+            // Those of this step still stand in the first sum.
+            hourglass: sums.hourglass + self.released - sums.released,
             friction,
             viscosity,
             contact: self.projectile.as_ref().map_or(0.0, |projectile| projectile.contact.stored),

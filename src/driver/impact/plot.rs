@@ -4,17 +4,16 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::run::{End, Outcome, Sample};
+use super::run::{End, Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::driver::Error;
 use crate::driver::picture::{self, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 use crate::driver::plot::{self, Panel, Series, tidy};
-use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
-use crate::law::parameters::{Dimension, ENERGY_DENSITY};
+use crate::driver::unit_names::{ENERGY, SPEED, TIME, number, unit};
+use crate::law::parameters::ENERGY_DENSITY;
 
 const SIZE: [u32; 2] = [1280, 840];
 const COMPARISON: [u32; 2] = [760, 480];
-const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0, name: "length" };
 
 /// Speed, energies, largest energy densities and widths of a case over time.
 ///
@@ -30,17 +29,17 @@ pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result:
             values: result.samples.iter().map(|sample| sample.time).collect(),
             failure: result.broken.map(|(time, _)| time),
         };
-        for (panel, area) in panels(scene, result).iter().zip(body.split_evenly((2, 2))) {
+        for (panel, area) in panels(scene, case, result).iter().zip(body.split_evenly((2, 2))) {
             panel.draw(&area, &abscissa)?;
         }
         Ok(())
     })
 }
 
-fn panels(scene: &Scene, result: &Outcome) -> [Panel; 4] {
-    let line = |number: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
+fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_string(),
-        colour: COLOURS[number % COLOURS.len()],
+        colour: COLOURS[colour % COLOURS.len()],
         values: result.samples.iter().map(of).collect(),
     };
     let panel = |title, dimension, series: Vec<Series>| Panel {
@@ -49,19 +48,21 @@ fn panels(scene: &Scene, result: &Outcome) -> [Panel; 4] {
         series: tidy(series),
         limit: None,
     };
-    let mut total = line(0, "total", &|s| s.energies.total());
-    total.colour = INK;
-    let energies = vec![
-        line(0, "projectile", &|s| s.energies.projectile),
+    let mut energies = vec![
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
-        line(3, "viscosity", &|s| s.energies.viscosity),
-        line(4, "hourglass", &|s| s.energies.hourglass),
-        line(5, "friction", &|s| s.energies.friction),
-        total,
+        line(3, "all other", &|s| s.energies.other()),
     ];
+    // A projectile that is held has its energy from outside.
+    if result.last().energies.external == 0.0 {
+        energies.insert(0, line(0, "projectile", &|s| s.energies.projectile));
+        energies.push(Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) });
+    } else {
+        energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
+    }
     let modes = ["elongation", "compaction", "distortion"];
-    let widths = ["1", "2", "3", "4"];
+    let length = scene.units.names()[0];
+    let station = |i: usize| format!("at {} {length}", number(STATIONS[i] * case.yarn.length));
     [
         panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
         panel("Energies", ENERGY, energies),
@@ -70,11 +71,12 @@ fn panels(scene: &Scene, result: &Outcome) -> [Panel; 4] {
             ENERGY_DENSITY,
             (0..3).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
         ),
-        panel(
-            "Width of the section at the stations",
-            LENGTH,
-            (0..4).map(|i| line(i, widths[i], &|s| s.widths[i])).collect(),
-        ),
+        Panel {
+            title: "Width of the section",
+            unit: length.to_string(),
+            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.widths[i])).collect(),
+            limit: None,
+        },
     ]
 }
 

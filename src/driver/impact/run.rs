@@ -8,7 +8,7 @@ use crate::driver::Error;
 use crate::driver::explicit::contact::Contact;
 use crate::driver::explicit::element::Number;
 use crate::driver::explicit::material::Medium;
-use crate::driver::explicit::mesh::{Mesh, Section};
+use crate::driver::explicit::mesh::Mesh;
 use crate::driver::explicit::{Cost, Energies, Projectile, Solver, Support, vtu};
 use crate::driver::material::Material;
 
@@ -426,13 +426,5 @@ impl Outcome {
     /// Number of steps times elements.
     pub fn zone_cycles(&self) -> f64 {
         self.cost.steps as f64 * self.mesh.elements.len() as f64
-    }
-}
-
-/// The half model's section is an ellipse or a rectangle; both are named in tables.
-pub fn section_name(section: Section) -> &'static str {
-    match section {
-        Section::Ellipse => "ellipse",
-        Section::Rectangle => "rectangle",
     }
 }
