@@ -377,3 +377,115 @@ pub fn volume_ratios<T: Number>(f: &[T], stride: usize, ratios: &mut [T]) {
         store(a * x + b * y + c * z, ratios, first);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONTROL: Control = Control { hourglass: 0.3, modulus: 2.0, linear: 0.0, quadratic: 0.0 };
+    /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
+    const NODES: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.1, 0.0],
+        [0.1, 1.0, 0.1],
+        [2.1, 1.2, 0.0],
+        [0.0, 0.1, 1.5],
+        [2.0, 0.0, 1.4],
+        [0.2, 1.0, 1.5],
+        [2.0, 1.1, 1.6],
+    ];
+    const ELEMENTS: [[u32; 8]; 2] = [[0, 1, 2, 3, 4, 5, 6, 7], [0, 1, 2, 3, 4, 5, 4, 5]];
+
+    struct State {
+        f: Vec<f64>,
+        modal: Vec<f64>,
+    }
+
+    fn deform(shapes: &Shapes<f64>, displacement: &[[f64; 3]]) -> State {
+        let mut state = State { f: vec![0.0; 9 * shapes.stride], modal: vec![0.0; 12 * shapes.stride] };
+        shapes.deform(displacement, &mut state.f, &mut state.modal);
+        state
+    }
+
+    /// Displacements that are no linear field.
+    fn crooked() -> Vec<[f64; 3]> {
+        (0..8).map(|i| [0.1, 0.7, 1.3].map(|phase| 0.05 * (phase + 2.3 * f64::from(i)).sin())).collect()
+    }
+
+    fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
+        let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
+        let (pressure, intact) = (vec![0.0; shapes.stride], vec![1.0; shapes.stride]);
+        let point = Points {
+            deformation_gradient: &state.f,
+            modal: &state.modal,
+            stress: &stress,
+            pressure: &pressure,
+            intact: &intact,
+        };
+        let mut forces = vec![[0.0; 3]; NODES.len()];
+        shapes.forces(&point, &mut forces);
+        forces
+    }
+
+    #[test]
+    fn a_linear_field_has_its_gradient_and_no_hourglass() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, &CONTROL);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let field: Vec<[f64; 3]> = NODES.iter().map(|&x| (h * nalgebra::Vector3::from(x)).into()).collect();
+        let state = deform(&shapes, &field);
+        for element in 0..shapes.n {
+            for (c, expected) in (h + nalgebra::Matrix3::identity()).iter().enumerate() {
+                assert!((state.f[c * shapes.stride + element] - expected).abs() < 1e-14);
+            }
+            assert!((0..12).all(|c| state.modal[c * shapes.stride + element].abs() < 1e-14));
+        }
+    }
+
+    #[test]
+    fn forces_are_in_balance() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, &CONTROL);
+        let displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let forces = forces(&shapes, &state, [3.0, -1.0, 2.0, 0.5, -0.7, 0.2]);
+        let sum = forces.iter().fold(nalgebra::Vector3::zeros(), |sum, &f| sum + nalgebra::Vector3::from(f));
+        assert!(sum.norm() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn hourglass_forces_are_the_slope_of_their_energy() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, &CONTROL);
+        let mut displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let force = forces(&shapes, &state, [0.0; 6]);
+        assert!(force.iter().flatten().any(|f| f.abs() > 1e-4), "there is something to compare");
+        let step = 1e-6;
+        for (node, i) in [(0, 0), (3, 1), (6, 2), (7, 0)] {
+            let [low, high] = [-step, step].map(|change| {
+                displacement[node][i] += change;
+                let energy = shapes.hourglass_energy(0, &deform(&shapes, &displacement).modal);
+                displacement[node][i] -= change;
+                energy
+            });
+            let slope = (high - low) / (2.0 * step);
+            assert!((slope + force[node][i]).abs() < 1e-8, "{slope} {}", force[node][i]);
+        }
+    }
+
+    #[test]
+    fn nodal_forces_do_the_work_of_the_stress() {
+        // δW = V P:δF for a displacement that is a linear field; the hourglass does none.
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, &CONTROL);
+        let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
+        let state = deform(&shapes, &crooked());
+        let force = forces(&shapes, &state, stress);
+        let f = nalgebra::Matrix3::from_fn(|i, j| state.f[(i + 3 * j) * shapes.stride]);
+        let p = crate::law::stress::first_piola_kirchhoff(&stress, &f);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let work: f64 = NODES
+            .iter()
+            .zip(&force)
+            .map(|(&x, &f)| -(h * nalgebra::Vector3::from(x)).dot(&nalgebra::Vector3::from(f)))
+            .sum();
+        assert!((work - shapes.volume[0] * p.dot(&h)).abs() < 1e-13 * work.abs().max(1.0), "{work}");
+    }
+}

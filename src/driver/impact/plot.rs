@@ -9,7 +9,7 @@ use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::driver::Error;
 use crate::driver::picture::{self, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 use crate::driver::plot::{self, Panel, Series, tidy};
-use crate::driver::unit_names::{ENERGY, SPEED, TIME, number, unit};
+use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
 use crate::law::parameters::ENERGY_DENSITY;
 
 const SIZE: [u32; 2] = [1280, 840];
@@ -62,7 +62,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
     }
     let modes = ["elongation", "compaction", "distortion"];
     let length = scene.units.names()[0];
-    let station = |i: usize| format!("at {} {length}", number(STATIONS[i] * case.yarn.length));
+    let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
     [
         panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
         panel("Energies", ENERGY, energies),
@@ -72,7 +72,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
             (0..3).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
         ),
         Panel {
-            title: "Width of the section",
+            title: "Width of the section by place",
             unit: length.to_string(),
             series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.widths[i])).collect(),
             limit: None,

@@ -80,7 +80,7 @@ pub struct Outcome {
     pub frames: Vec<(f64, String)>,
     pub mesh: Mesh,
     pub end: End,
-    /// When a section had lost all its elements, and the projectile's speed then.
+    /// When nothing intact joined the clamp to mid-span any more, and the projectile's speed then.
     pub broken: Option<(f64, f64)>,
     pub cost: Cost,
     pub wall: Duration,
@@ -107,6 +107,8 @@ struct Run<'a, T> {
     snapshots: Vec<Snapshot>,
     frames: Vec<(f64, String)>,
     broken: Option<(f64, f64)>,
+    /// Deleted elements when the yarn was last found to hold.
+    looked_at: usize,
     /// Since when nothing has touched the projectile.
     untouched: f64,
     start: f64,
@@ -142,6 +144,7 @@ impl<'a, T: Number> Run<'a, T> {
             snapshots: Vec::new(),
             frames: Vec::new(),
             broken: None,
+            looked_at: 0,
             untouched: 0.0,
             start,
         })
@@ -221,8 +224,11 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.solver.deleted.len() >= self.solver.mesh.elements_per_layer && self.severed() {
-            self.broken = Some((time, self.speed()));
+        if self.broken.is_none() && self.solver.deleted.len() > self.looked_at {
+            self.looked_at = self.solver.deleted.len();
+            if self.severed() {
+                self.broken = Some((time, self.speed()));
+            }
         }
         if let Some(projectile) = &self.solver.projectile {
             if projectile.force != 0.0 {
@@ -240,12 +246,33 @@ impl<'a, T: Number> Run<'a, T> {
         (time >= self.case.end).then_some(End::Time)
     }
 
-    /// Whether a section has lost all its elements.
+    /// Whether no way leads from the clamp to mid-span through faces that intact elements share.
     fn severed(&self) -> bool {
-        let per_layer = self.solver.mesh.elements_per_layer;
-        let mut lost = vec![0; self.case.yarn.layers];
-        self.solver.deleted.iter().for_each(|&element| lost[element / per_layer] += 1);
-        lost.contains(&per_layer)
+        let yarn = &self.case.yarn;
+        let number = |[layer, column, row]: [usize; 3]| (layer * yarn.columns + column) * yarn.rows + row;
+        let counts = [yarn.layers, yarn.columns, yarn.rows];
+        let mut seen = vec![false; counts.iter().product()];
+        let last = yarn.layers - 1;
+        let mut open: Vec<[usize; 3]> =
+            (0..yarn.columns).flat_map(|column| (0..yarn.rows).map(move |row| [last, column, row])).collect();
+        while let Some(place) = open.pop() {
+            if std::mem::replace(&mut seen[number(place)], true) || !self.solver.is_intact(number(place)) {
+                continue;
+            }
+            if place[0] == 0 {
+                return false;
+            }
+            for axis in 0..3 {
+                let mut neighbour = place;
+                for step in [place[axis].wrapping_sub(1), place[axis] + 1] {
+                    neighbour[axis] = step;
+                    if step < counts[axis] {
+                        open.push(neighbour);
+                    }
+                }
+            }
+        }
+        true
     }
 
     fn sample(&mut self, time: f64) {
@@ -380,10 +407,12 @@ impl Outcome {
         found.copied().unwrap_or_else(|| self.last())
     }
 
-    /// The largest difference of the total energy from what it was, over the energy that was there or came in.
+    /// The largest difference of the total energy from what it was, over the work from outside or, without any, over the
+    /// energy that was there.
     pub fn imbalance(&self) -> f64 {
         let Some(first) = self.samples.first().map(|sample| sample.energies.total()) else { return 0.0 };
-        let scale = self.samples.iter().map(|sample| sample.energies.external).fold(first, f64::max);
+        let work = self.samples.iter().map(|sample| sample.energies.external).fold(0.0, f64::max);
+        let scale = if work > 0.0 { work } else { first };
         self.samples.iter().map(|sample| (sample.energies.total() - first).abs() / scale).fold(0.0, f64::max)
     }
 

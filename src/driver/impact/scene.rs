@@ -446,7 +446,7 @@ impl Reader<'_> {
     }
 }
 
-/// Coefficients where the file gives none: half of what holds the modes' own stiffness; bulk viscosity as explicit solvers
-/// have it (linear, quadratic).
+/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and bulk viscosity
+/// (linear, quadratic), as explicit solvers have them.
 const HOURGLASS: f64 = 0.1;
 const VISCOSITY: (f64, f64) = (0.06, 1.5);
