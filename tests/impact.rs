@@ -17,10 +17,10 @@ fn case(scene: &str, name: &str) -> Case {
     scene.cases.into_iter().find(|case| case.name == name).expect("the case exists")
 }
 
-/// With half the elements along the yarn: 600 in all.
+/// On 480 elements.
 fn coarse(scene: &str, name: &str) -> Case {
     let mut case = case(scene, name);
-    case.yarn.layers = 50;
+    (case.yarn.layers, case.yarn.columns) = (60, 4);
     case
 }
 
@@ -53,7 +53,7 @@ fn every_scene_is_valid() {
 fn multiaxial_failure_lets_the_projectile_through() {
     let result = run(&coarse("table_4_5.toml", "mf-120"));
     assert_eq!(result.end, End::Left);
-    assert_between(result.last().speed, 57.0, 70.0);
+    assert_between(result.last().speed, 58.0, 70.0);
     assert_balanced(&result);
 }
 
@@ -61,7 +61,7 @@ fn multiaxial_failure_lets_the_projectile_through() {
 #[test]
 fn uniaxial_failure_holds_it() {
     let mut case = coarse("table_4_5.toml", "uf-120");
-    (case.yarn.rows, case.yarn.columns) = (1, 4);
+    case.yarn.rows = 1;
     let result = run(&case);
     assert_eq!((result.end, result.broken), (End::Stopped, None));
     assert_balanced(&result);
@@ -72,7 +72,7 @@ fn uniaxial_failure_holds_it() {
 #[test]
 fn waves_spread_the_section_outside_the_contact() {
     let mut case = coarse("no_failure.toml", "hyperelastic");
-    (case.yarn.rows, case.yarn.columns) = (1, 4);
+    case.yarn.rows = 1;
     let result = run(&case);
     assert_eq!(result.end, End::Time);
     for (time, speed) in [(0.01, 109.7), (0.02, 96.2), (0.03, 72.8)] {
@@ -108,7 +108,7 @@ fn the_linear_law_keeps_the_section() {
 /// Fig. 4.27: compaction and distortion come first, then compaction vanishes and elongation has come.
 #[test]
 fn events_of_the_short_period_are_in_order() {
-    let mut case = coarse("short_period.toml", "hyperelastic");
+    let mut case = case("short_period.toml", "hyperelastic");
     case.end = 0.001;
     let result = run(&case);
     let peak = |mode: usize, until: f64| {
