@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use super::run::{End, Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::driver::Error;
-use crate::driver::picture::{self, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, text};
 use crate::driver::plot::{self, Panel, Series, tidy};
 use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
 use crate::law::parameters::ENERGY_DENSITY;
@@ -107,14 +107,16 @@ pub fn write_comparison(
 
 fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(f64, f64)]) -> Drawn<()> {
     root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-    let (_, body) = root.split_vertically(fine(56));
+    let ordinate = format!("Residual speed ({})", unit(&scene.units, SPEED));
+    root.draw_text(&ordinate, &text(HEADING, &INK), (fine(24), fine(56)))?;
+    let (_, body) = root.split_vertically(fine(88));
     let (left, right) = points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.0), r.max(point.0)));
     let top = points.iter().map(|point| point.1).fold(0.0, f64::max);
     let mut chart = ChartBuilder::on(&body)
         .margin_right(fine(30))
         .margin_bottom(fine(12))
         .x_label_area_size(fine(50))
-        .y_label_area_size(fine(90))
+        .y_label_area_size(fine(70))
         .build_cartesian_2d((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0))?;
     chart
         .configure_mesh()
@@ -126,15 +128,17 @@ fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(
         .y_labels(6)
         .label_style(text(TEXT, &INK))
         .axis_desc_style(text(TEXT, &INK))
-        .x_label_formatter(&|x| format!("{x:.0}"))
+        .x_label_formatter(&|x| if *x < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
+        .y_label_formatter(&|y| format!("{y:.0}"))
         .x_desc(label)
-        .y_desc(format!("residual speed ({})", unit(&scene.units, SPEED)))
         .draw()?;
     for (case, &point) in scene.cases.iter().zip(points) {
         chart.draw_series([Circle::new(point, fine(5), COLOURS[0].filled())])?;
         let (x, y) = chart.backend_coord(&point);
+        let style = text(TEXT, &INK);
+        let (width, _) = body.estimate_text_size(&case.name, &style)?;
         let (_, above) = body.get_base_pixel();
-        body.draw_text(&case.name, &text(TEXT, &INK), (x - fine(20), y - above - fine(28)))?;
+        body.draw_text(&case.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
     }
     Ok(())
 }
