@@ -178,3 +178,33 @@ fn errors_say_what_is_wrong() {
     );
     assert_eq!(spin, "scene.toml:15: frame is \"spin\"; allowed here: fibre, polar");
 }
+
+/// The program's files: histories, plots, pictures, a series for ParaView, the table.
+#[test]
+fn the_program_writes_what_came_of_a_scene() {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("impact");
+    std::fs::create_dir_all(&directory).expect("a directory can be made");
+    let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.0\nheight = 0.115\nwidth = 0.5337\n\
+                layers = 8\nrows = 2\ncolumns = 4\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\n\
+                end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n";
+    std::fs::write(directory.join("scene.toml"), text).expect("the scene can be written");
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_toron"));
+    program.args(["impact", "scene.toml", "-o", "out"]).current_dir(&directory);
+    let output = program.output().expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("| a ") && said.contains("| b ") && said.contains("unbroken"), "{said}");
+    let read = |name: &str| std::fs::read_to_string(directory.join("out").join(name)).expect(name);
+    let grid = read("a-0001.vtu");
+    assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
+    assert_eq!(read("a.pvd").matches("<DataSet").count(), 2);
+    let history = read("b.csv");
+    assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
+    for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {
+        assert!(read(picture).starts_with("<svg"), "{picture}");
+    }
+    for picture in ["b.png", "b-yarn-1.png", "residual-speed.png"] {
+        let bytes = std::fs::read(directory.join("out").join(picture)).expect(picture);
+        assert!(bytes.starts_with(b"\x89PNG"), "{picture}");
+    }
+}
