@@ -234,8 +234,8 @@ impl<T: Number> Shapes<T> {
             let u = self.gather(displacement, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
-            for i in 0..3 {
-                let m = modes(u[i]);
+            for (i, u) in u.into_iter().enumerate() {
+                let m = modes(u);
                 // The displacement's gradient, row i.
                 let mut h = [Lanes::splat(T::default()); 3];
                 for j in 0..3 {

@@ -91,8 +91,8 @@ pub struct Scratch<T> {
     status: Vec<i32>,
 }
 
-impl<T: Number> Scratch<T> {
-    pub fn new() -> Self {
+impl<T: Number> Default for Scratch<T> {
+    fn default() -> Self {
         let array = |components: usize| vec![T::default(); components * BLOCK];
         Scratch {
             deformation_gradient: array(9),

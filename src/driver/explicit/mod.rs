@@ -142,7 +142,7 @@ impl<T: Number> Solver<T> {
             mass: vec![0.0; count],
             supports: Vec::new(),
             holding: vec![0; count],
-            scratch: Scratch::new(),
+            scratch: Scratch::default(),
             time: 0.0,
             step: 0.0,
             frequency: 0.0,

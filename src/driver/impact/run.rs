@@ -297,10 +297,10 @@ impl<'a, T: Number> Run<'a, T> {
         for i in (0..elements).filter(|&i| self.solver.is_intact(i)) {
             let densities = self.solver.energy_densities(i);
             let beyond = self.solver.mesh.layer(i) as f64 >= outside;
-            for mode in 0..3 {
-                sample.largest[mode] = sample.largest[mode].max(densities[mode]);
+            for (mode, &density) in densities[..3].iter().enumerate() {
+                sample.largest[mode] = sample.largest[mode].max(density);
                 if beyond {
-                    sample.outside[mode] = sample.outside[mode].max(densities[mode]);
+                    sample.outside[mode] = sample.outside[mode].max(density);
                 }
             }
             sample.least = sample.least.min(densities[0]);

@@ -61,7 +61,7 @@ pub struct Case {
 /// What the yarn is made of, from mid-span outwards.
 #[derive(Clone, Debug)]
 pub enum Zones {
-    One(Material),
+    One(Box<Material>),
     /// The first material up to this distance from mid-span.
     Two(Box<[Material; 2]>, f64),
 }
@@ -281,7 +281,7 @@ impl Reader<'_> {
     }
 
     /// A number from 0 on, or the default.
-    fn from_zero(&self, key: &str, value: &Option<Spanned<f64>>, default: f64) -> Result<f64, Error> {
+    fn zero_or_more(&self, key: &str, value: &Option<Spanned<f64>>, default: f64) -> Result<f64, Error> {
         match value {
             None => Ok(default),
             Some(value) if value.get_ref().is_finite() && *value.get_ref() >= 0.0 => Ok(*value.get_ref()),
@@ -359,7 +359,7 @@ impl Reader<'_> {
         let cylinder = Cylinder {
             radius: self.positive("radius", &file.radius)?,
             stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
-            friction: self.from_zero("friction", &file.friction, 0.0)?,
+            friction: self.zero_or_more("friction", &file.friction, 0.0)?,
         };
         let held = file.held.unwrap_or(false);
         Ok(Striker::Cylinder { cylinder, mass: self.positive("mass", &file.mass)?, held })
@@ -379,7 +379,7 @@ impl Reader<'_> {
             Some(pair) => {
                 for &value in pair.get_ref() {
                     let single = Some(Spanned::new(pair.span(), value));
-                    self.from_zero("a coefficient of viscosity", &single, 0.0)?;
+                    self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
                 }
                 *pair.get_ref()
             }
@@ -391,7 +391,7 @@ impl Reader<'_> {
         // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
         let modulus = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
         Ok(Control {
-            hourglass: self.from_zero("hourglass", &self.file.hourglass, HOURGLASS)?,
+            hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?,
             modulus,
             linear,
             quadratic,
@@ -403,8 +403,8 @@ impl Reader<'_> {
         let hyperelastic = || self.material(&file.hyperelastic, "kevlar-km2-600");
         let linear = || self.material(&file.linear_elastic, "kevlar-km2-600-linear");
         Ok(match file.law {
-            None | Some(LawName::Hyperelastic) => Zones::One(hyperelastic()?),
-            Some(LawName::LinearElastic) => Zones::One(linear()?),
+            None | Some(LawName::Hyperelastic) => Zones::One(Box::new(hyperelastic()?)),
+            Some(LawName::LinearElastic) => Zones::One(Box::new(linear()?)),
             Some(LawName::Hybrid) => {
                 let length = self.positive("hyperelastic-length", &file.hyperelastic_length)?;
                 Zones::Two(Box::new([hyperelastic()?, linear()?]), length)
