@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use toron::driver::eval::Entry;
-use toron::driver::{Error, bench, command, eval, params};
+use toron::driver::{Error, bench, command, eval, impact, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -44,6 +44,14 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
+    /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
+    Impact {
+        /// The scene (see docs/impact.md and examples/yarn_impact/).
+        scene: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
     /// Measure what a point costs on this machine; takes a few seconds.
     Bench {
         /// Where to write the figures as bench.json.
@@ -57,6 +65,7 @@ fn main() -> ExitCode {
         Command::Run { path, output } => command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
         Command::Eval { via, tangent } => eval::lines(via, tangent),
+        Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Bench { output } => bench::run(output.as_deref()),
     };
     match answer {

@@ -1,4 +1,5 @@
-//! One element taken along a load path, and what there is to see of it: tables, plots, a summary, decks.
+//! One element taken along a load path, a yarn under impact, and what there is to see of them: tables, plots, a summary,
+//! decks.
 //!
 //! The driver calls the laws as a host does; nothing below knows of it.
 
@@ -6,6 +7,8 @@ pub mod bench;
 pub mod command;
 pub mod element;
 pub mod eval;
+pub mod explicit;
+pub mod impact;
 pub mod material;
 pub mod newton;
 pub mod parallel;

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use nalgebra::{Unit, Vector3};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 
 use super::element::Hexahedron;
@@ -91,9 +92,10 @@ struct PlotFile {
     abscissa: Option<Spanned<String>>,
 }
 
+/// A table that describes a material.
 #[derive(Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct MaterialFile {
+pub(super) struct MaterialFile {
     preset: Option<Spanned<String>>,
     law: Option<Spanned<LawName>>,
     fibre: Option<Spanned<[f64; 3]>>,
@@ -188,12 +190,8 @@ impl LoadPath {
     /// An input error that names file, line and what was expected.
     pub fn parse(name: &str, text: &str) -> Result<LoadPath, Error> {
         let source = Source { name, text };
-        let file: PathFile = toml::from_str(text)
-            .map_err(|error| source.error(error.span().unwrap_or(0..0), error.message().trim_end()))?;
-        let units = UnitSystem::parse(file.units.get_ref()).ok_or_else(|| {
-            let message = format!("unit system \"{}\"; allowed: {}", file.units.get_ref(), UnitSystem::ALLOWED);
-            source.error(file.units.span(), &message)
-        })?;
+        let file: PathFile = source.parse()?;
+        let units = source.units(&file.units)?;
         let points = source.points(&file, &units)?;
         Ok(LoadPath {
             title: file.title.clone().unwrap_or_else(|| name.to_string()),
@@ -225,27 +223,39 @@ impl fmt::Display for Step {
 }
 
 /// The text and its name, for messages.
-struct Source<'a> {
-    name: &'a str,
-    text: &'a str,
+pub(super) struct Source<'a> {
+    pub name: &'a str,
+    pub text: &'a str,
 }
 
 impl Source<'_> {
-    fn error(&self, span: Range<usize>, message: &str) -> Error {
+    /// The file's tables.
+    pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
+        toml::from_str(self.text).map_err(|error| self.error(error.span().unwrap_or(0..0), error.message().trim_end()))
+    }
+
+    pub fn units(&self, name: &Spanned<String>) -> Result<UnitSystem, Error> {
+        UnitSystem::parse(name.get_ref()).ok_or_else(|| {
+            let message = format!("unit system \"{}\"; allowed: {}", name.get_ref(), UnitSystem::ALLOWED);
+            self.error(name.span(), &message)
+        })
+    }
+
+    pub fn error(&self, span: Range<usize>, message: &str) -> Error {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
         Error::Input(format!("{}:{line}: {message}", self.name))
     }
 
     /// The number, where it is finite and above 0.
-    fn positive(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
+    pub fn positive(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
         if value.is_finite() && value > 0.0 {
             return Ok(value);
         }
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
     }
 
-    fn finite(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
+    pub fn finite(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
         if value.is_finite() {
             return Ok(value);
         }
@@ -297,7 +307,7 @@ impl Source<'_> {
     }
 
     /// The material of a table; `span` is what to blame for what is missing from it.
-    fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
+    pub fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
         let preset = file.preset.as_ref().map(|name| self.preset(name)).transpose()?;
         let table = self.property_table(file, preset, span.clone())?;
         let (values, spans) = self.values(file, preset, table, units, &span)?;
@@ -532,8 +542,13 @@ impl StepFile {
 }
 
 impl MaterialFile {
+    /// The table that names a preset and nothing else.
+    pub fn of_preset(name: &str, span: Range<usize>) -> MaterialFile {
+        MaterialFile { preset: Some(Spanned::new(span, name.to_string())), ..MaterialFile::default() }
+    }
+
     /// This table completed by `base`; one that names its own preset or law starts afresh.
-    fn over(&self, base: &MaterialFile) -> MaterialFile {
+    pub fn over(&self, base: &MaterialFile) -> MaterialFile {
         if self.preset.is_some() || self.law.is_some() {
             return self.clone();
         }

@@ -26,25 +26,25 @@ const MARGIN: i32 = 70;
 const MOST_POINTS: usize = 4000;
 
 /// A line in a panel.
-struct Series {
-    name: String,
-    colour: RGBColor,
-    values: Vec<f64>,
+pub(super) struct Series {
+    pub name: String,
+    pub colour: RGBColor,
+    pub values: Vec<f64>,
 }
 
-struct Panel {
-    title: &'static str,
-    unit: String,
-    series: Vec<Series>,
+pub(super) struct Panel {
+    pub title: &'static str,
+    pub unit: String,
+    pub series: Vec<Series>,
     /// A level of its own, drawn dashed.
-    limit: Option<f64>,
+    pub limit: Option<f64>,
 }
 
 /// What the panels have in common.
-struct Abscissa {
-    label: String,
-    values: Vec<f64>,
-    failure: Option<f64>,
+pub(super) struct Abscissa {
+    pub label: String,
+    pub values: Vec<f64>,
+    pub failure: Option<f64>,
 }
 
 /// Writes the plot of a history to two files.
@@ -158,7 +158,7 @@ fn index(history: &History) -> Vec<Series> {
 }
 
 /// Drops lines that stay at 0 beside others that do not, and joins lines that the eye cannot tell apart.
-fn tidy(series: Vec<Series>) -> Vec<Series> {
+pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
     let size = |values: &[f64]| values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let largest = series.iter().map(|one| size(&one.values)).fold(0.0, f64::max);
     let mut kept: Vec<Series> = Vec::new();
@@ -177,7 +177,7 @@ fn tidy(series: Vec<Series>) -> Vec<Series> {
 }
 
 impl Panel {
-    fn draw(&self, area: &Area, abscissa: &Abscissa) -> Drawn<()> {
+    pub fn draw(&self, area: &Area, abscissa: &Abscissa) -> Drawn<()> {
         let (head, body) = area.split_vertically(fine(62));
         let ([low, high], power) = self.range();
         self.draw_head(&head, power)?;

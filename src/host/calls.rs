@@ -1,11 +1,12 @@
-//! The C entries as their hosts call them, behind safe functions: for the program's `eval` and `bench`.
+//! The C entries as their hosts call them, behind safe functions: for the program's `eval` and `bench` and for the explicit
+//! host.
 
 use std::ptr::{null, null_mut};
 
 use super::c_api::{self, Block};
 use super::{abaqus, lsdyna};
-use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
-use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 use crate::law::stress::truesdell_of_jaumann;
 
@@ -363,13 +364,129 @@ pub trait FromF64 {
 }
 
 impl FromF64 for f64 {
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x
     }
 }
 
 impl FromF64 for f32 {
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         x as f32
     }
+}
+
+/// A precision of the block entry.
+pub trait BlockPrecision: Copy + Default + Into<f64> + FromF64 + Send + Sync + 'static {
+    const ENTRY: unsafe extern "C" fn(*const Self, usize, *const Block<Self>) -> i32;
+}
+
+impl BlockPrecision for f64 {
+    const ENTRY: unsafe extern "C" fn(*const f64, usize, *const Block<f64>) -> i32 =
+        c_api::toron_hyperelastic_block_f64;
+}
+
+impl BlockPrecision for f32 {
+    const ENTRY: unsafe extern "C" fn(*const f32, usize, *const Block<f32>) -> i32 =
+        c_api::toron_hyperelastic_block_f32;
+}
+
+/// The arrays of an explicit solver, component-major with one leading dimension; the history is replaced in place.
+#[derive(Debug)]
+pub struct SolverBlock<'a, T> {
+    /// Number of points, and the distance from one component to the next.
+    pub n: usize,
+    pub leading_dimension: usize,
+    /// In, 9 components: F by columns.
+    pub deformation_gradient: &'a [T],
+    /// In and out, 11: the state variables; only the groups that are wanted are read and written.
+    pub state: &'a mut [T],
+    /// Whether energies and invariants are wanted, and whether points may fail.
+    pub energies: bool,
+    pub failure: bool,
+    /// Out, 6: Cauchy stress 11 22 33 12 23 31.
+    pub stress: &'a mut [T],
+    /// The reference density, and out, 1: a bound of the wave speed.
+    pub wave_speed: Option<(T, &'a mut [T])>,
+    /// Out: a status code for each point.
+    pub status: &'a mut [i32],
+}
+
+/// The hyperelastic law at a block of points through `toron_hyperelastic_block_f64` or `_f32`, as an explicit solver calls
+/// it; returns the entry's code.
+///
+/// # Panics
+/// An array is shorter than its components need.
+pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBlock<'_, T>) -> i32 {
+    let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, .. } = block;
+    let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
+    let (density, wave_speed) = block.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
+    assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), HYPERELASTIC_STATE));
+    assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
+    let state = state.as_mut_ptr();
+    // SAFETY: the array holds all rows, as has just been seen.
+    let part = |wanted: bool, row: usize| if wanted { unsafe { state.add(row * stride) } } else { null_mut() };
+    let (energies, invariants) = (part(block.energies, ENERGIES), part(block.energies, INVARIANTS));
+    let failure = part(block.failure, FAILURE_INDEX);
+    let arrays = Block {
+        n,
+        leading_dimension: stride,
+        deformation_gradient: deformation_gradient.as_ptr(),
+        fibre: null(),
+        energies_old: energies,
+        invariants_old: invariants,
+        failure_old: failure,
+        density,
+        stress: stress.as_mut_ptr(),
+        energies,
+        invariants,
+        failure,
+        modes: null_mut(),
+        wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
+        status: status.as_mut_ptr(),
+    };
+    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly.
+    unsafe { T::ENTRY(properties.as_ptr(), properties.len(), &arrays) }
+}
+
+/// The linear elastic law over a step, as an explicit solver calls `toron_linear_elastic_step_f64`: the deformation
+/// gradients at both ends by columns, the state in place; returns the code and the Cauchy stress. The frame is the
+/// fibre's or the polar one.
+pub fn linear_elastic_step(
+    properties: &[f64; LINEAR_ELASTIC_PROPERTIES],
+    f_old: &[f64; 9],
+    f_new: &[f64; 9],
+    state: &mut [f64; LINEAR_ELASTIC_STATE],
+    frame: LinearFrame,
+    criterion: i32,
+) -> (i32, [f64; 6]) {
+    let mut stress = [0.0; 6];
+    let state = state.as_mut_ptr();
+    // SAFETY: the arrays have the sizes that the entry asks for; neither frame reads axes.
+    let code = unsafe {
+        c_api::toron_linear_elastic_step_f64(
+            properties.as_ptr(),
+            properties.len(),
+            f_old.as_ptr(),
+            f_new.as_ptr(),
+            state,
+            state,
+            stress.as_mut_ptr(),
+            match frame {
+                LinearFrame::Fibre => c_api::TORON_ROTATION_FIBRE,
+                LinearFrame::Polar => c_api::TORON_ROTATION_POLAR,
+            },
+            criterion,
+            null_mut(),
+        )
+    };
+    (code, stress)
+}
+
+/// The frames of the linear elastic law that follow from the deformation gradient alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearFrame {
+    Fibre,
+    Polar,
 }

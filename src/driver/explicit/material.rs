@@ -1,0 +1,381 @@
+//! Blocks of elements of one law: the history arrays, and the call of the law through its C entry.
+
+use std::time::{Duration, Instant};
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::element::{Control, LANES, Number, Points, Shapes, volume_ratios};
+use crate::driver::Error;
+use crate::driver::material::{Law, Material};
+use crate::host::c_api::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use crate::host::calls::{self, LinearFrame, SolverBlock};
+use crate::law::linear_elastic::{Criterion, Rotation};
+use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use crate::law::state::{
+    FAILED, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_STRESS, LINEAR_WORK,
+};
+use crate::law::status;
+
+/// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
+/// first cache (vector lengths of explicit solvers are of this order).
+pub const BLOCK: usize = 128;
+
+/// A law as a solver holds it.
+#[derive(Clone, Debug)]
+pub enum Entry<T> {
+    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
+    LinearElastic { properties: [f64; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
+}
+
+/// A material as the host uses it.
+#[derive(Clone, Debug)]
+pub struct Medium<T> {
+    pub entry: Entry<T>,
+    pub density: f64,
+    pub control: Control,
+    /// Whether elements may fail.
+    pub fails: bool,
+    /// Wave speed at rest, for the bulk viscosity.
+    pub wave_speed: f64,
+}
+
+impl<T: Number> Medium<T> {
+    /// # Errors
+    /// The frame is the spin's, which needs axes of its own.
+    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
+        let (entry, modulus) = match &material.law {
+            Law::Hyperelastic(_) => {
+                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
+                (Entry::Hyperelastic(properties), material.property("k_el").unwrap_or_default())
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut properties = [0.0; LINEAR_ELASTIC_PROPERTIES];
+                properties.copy_from_slice(&material.values);
+                let frame = match frame {
+                    Rotation::Fibre => LinearFrame::Fibre,
+                    Rotation::Polar => LinearFrame::Polar,
+                    Rotation::Spin => {
+                        return Err(Error::Input("frame is \"spin\"; allowed here: fibre, polar".to_string()));
+                    }
+                };
+                let criterion = match criterion {
+                    Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
+                    Criterion::FibreStress => TORON_CRITERION_FIBRE,
+                };
+                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus())
+            }
+        };
+        Ok(Medium { entry, density, control, fails: material.can_fail(), wave_speed: (modulus / density).sqrt() })
+    }
+
+    /// The law's number of state variables, and where the latch stands among them.
+    fn state(&self) -> (usize, usize) {
+        match self.entry {
+            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
+            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
+        }
+    }
+}
+
+/// What every block needs during its turn and none keeps.
+#[derive(Debug)]
+pub struct Scratch<T> {
+    deformation_gradient: Vec<T>,
+    modal: Vec<T>,
+    stress: Vec<T>,
+    pressure: Vec<T>,
+    wave_speed: Vec<T>,
+    status: Vec<i32>,
+}
+
+impl<T: Number> Default for Scratch<T> {
+    fn default() -> Self {
+        let array = |components: usize| vec![T::default(); components * BLOCK];
+        Scratch {
+            deformation_gradient: array(9),
+            modal: array(12),
+            stress: array(6),
+            pressure: array(1),
+            wave_speed: array(1),
+            status: vec![0; BLOCK],
+        }
+    }
+}
+
+/// What a turn asks for beside the forces.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Energies and invariants of the law.
+    pub law: bool,
+    /// What else the balance of energies needs.
+    pub balance: bool,
+    /// The square of the highest frequency.
+    pub frequency: bool,
+    /// Length of the step that led here.
+    pub step: f64,
+}
+
+/// What a turn adds to the sums of a step.
+#[derive(Clone, Debug, Default)]
+pub struct Sums {
+    /// Energy that bulk viscosity has dissipated.
+    pub viscosity: f64,
+    /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
+    pub hourglass: f64,
+    pub released: f64,
+    /// Squares of the highest frequency of an element.
+    pub frequency: f64,
+    /// Elements deleted in this step.
+    pub deleted: Vec<usize>,
+    /// Time spent inside the law's entries.
+    pub law: Duration,
+}
+
+/// What is done with the processor's widest instructions: before the law's turn, and after it.
+struct Deform<'a, T> {
+    shapes: &'a Shapes<T>,
+    displacement: &'a [[T; 3]],
+    scratch: &'a mut Scratch<T>,
+}
+
+struct Forces<'a, T> {
+    block: &'a mut ElementBlock<T>,
+    medium: &'a Medium<T>,
+    scratch: &'a mut Scratch<T>,
+    step: f64,
+    sums: &'a mut Sums,
+    forces: &'a mut [[T; 3]],
+}
+
+impl<T: Number> WithSimd for Deform<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Scratch { deformation_gradient, modal, .. } = self.scratch;
+        self.shapes.deform(self.displacement, deformation_gradient, modal);
+    }
+}
+
+impl<T: Number> WithSimd for Forces<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Forces { block, medium, scratch, step, sums, forces } = self;
+        block.add_viscosity(medium, scratch, step, sums);
+        let point = Points {
+            deformation_gradient: &scratch.deformation_gradient,
+            modal: &scratch.modal,
+            stress: &scratch.stress,
+            pressure: &scratch.pressure,
+            intact: &block.intact,
+        };
+        block.shapes.forces(&point, forces);
+    }
+}
+
+/// Elements of one medium, with their history.
+#[derive(Clone, Debug)]
+pub struct ElementBlock<T> {
+    pub shapes: Shapes<T>,
+    /// The body's number of the first element, and the number of the medium.
+    pub first: usize,
+    pub medium: usize,
+    /// State variables, component-major.
+    pub state: Vec<T>,
+    /// 1, or 0 once the element is deleted.
+    pub intact: Vec<T>,
+    volume_ratio: Vec<T>,
+    pressure: Vec<T>,
+    /// The linear elastic law's deformation gradient at the start of the step.
+    f_old: Vec<T>,
+    /// The side of a cube as large, for the bulk viscosity.
+    side: Vec<T>,
+}
+
+impl<T: Number> ElementBlock<T> {
+    pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
+        let shapes = Shapes::<T>::new(elements, coordinates, &of.control);
+        let (stride, one) = (shapes.stride, T::from_f64(1.0));
+        let mut f_old = vec![T::default(); 9 * stride];
+        for diagonal in [0, 4, 8] {
+            f_old[diagonal * stride..(diagonal + 1) * stride].fill(one);
+        }
+        ElementBlock {
+            first,
+            medium,
+            state: vec![T::default(); of.state().0 * stride],
+            intact: vec![one; stride],
+            volume_ratio: vec![one; stride],
+            pressure: vec![T::default(); stride],
+            f_old,
+            side: shapes.volume.iter().map(|&volume| T::from_f64(volume.into().cbrt())).collect(),
+            shapes,
+        }
+    }
+
+    /// From the nodes' displacements to their forces, the history moved on.
+    pub fn advance(
+        &mut self,
+        medium: &Medium<T>,
+        displacement: &[[T; 3]],
+        forces: &mut [[T; 3]],
+        scratch: &mut Scratch<T>,
+        wanted: Wanted,
+        sums: &mut Sums,
+    ) {
+        let wide = Arch::new();
+        wide.dispatch(Deform { shapes: &self.shapes, displacement, scratch });
+        let start = Instant::now();
+        match &medium.entry {
+            Entry::Hyperelastic(properties) => self.call_hyperelastic(properties, medium, scratch, wanted),
+            Entry::LinearElastic { properties, frame, criterion } => {
+                self.call_linear_elastic(properties, *frame, *criterion, scratch);
+            }
+        }
+        sums.law += start.elapsed();
+        wide.dispatch(Forces { block: self, medium, scratch, step: wanted.step, sums, forces });
+        if wanted.balance {
+            let modal = &scratch.modal;
+            let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
+            sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, modal)).sum::<f64>();
+        }
+        if wanted.frequency {
+            self.bound_frequency(medium, scratch, sums);
+        }
+        self.delete(medium, scratch, sums);
+    }
+
+    fn call_hyperelastic(
+        &mut self,
+        properties: &[T; HYPERELASTIC_PROPERTIES],
+        medium: &Medium<T>,
+        scratch: &mut Scratch<T>,
+        wanted: Wanted,
+    ) {
+        let wave_speed = &mut scratch.wave_speed[..];
+        let arrays = SolverBlock {
+            n: self.shapes.n,
+            leading_dimension: self.shapes.stride,
+            deformation_gradient: &scratch.deformation_gradient,
+            state: &mut self.state,
+            energies: wanted.law,
+            failure: medium.fails,
+            stress: &mut scratch.stress,
+            wave_speed: wanted.frequency.then(|| (T::from_f64(medium.density), wave_speed)),
+            status: &mut scratch.status,
+        };
+        // The code is the worst of the points': each has its own in `status`.
+        calls::hyperelastic_block(properties, arrays);
+    }
+
+    fn call_linear_elastic(
+        &mut self,
+        properties: &[f64; LINEAR_ELASTIC_PROPERTIES],
+        frame: LinearFrame,
+        criterion: i32,
+        scratch: &mut Scratch<T>,
+    ) {
+        let stride = self.shapes.stride;
+        for i in 0..self.shapes.n {
+            let wide = |array: &[T], c: usize| -> f64 { array[c * stride + i].into() };
+            let f_new = std::array::from_fn(|c| wide(&scratch.deformation_gradient, c));
+            let f_old = std::array::from_fn(|c| wide(&self.f_old, c));
+            let mut state = std::array::from_fn(|c| wide(&self.state, c));
+            let (code, stress) = calls::linear_elastic_step(properties, &f_old, &f_new, &mut state, frame, criterion);
+            scratch.status[i] = code;
+            for (c, value) in stress.into_iter().enumerate() {
+                scratch.stress[c * stride + i] = T::from_f64(value);
+            }
+            for (c, value) in state.into_iter().enumerate() {
+                self.state[c * stride + i] = T::from_f64(value);
+            }
+        }
+        self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
+    }
+
+    /// von Neumann's and Landshoff's pressure, in compression only: q = ρ l (c2 l ε̇² + c1 c |ε̇|), ε̇ = J̇/J.
+    #[inline(always)]
+    fn add_viscosity(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, step: f64, sums: &mut Sums) {
+        let stride = self.shapes.stride;
+        let Control { linear, quadratic, .. } = medium.control;
+        volume_ratios(&scratch.deformation_gradient, stride, &mut scratch.pressure);
+        let (zero, half) = (T::default(), T::from_f64(0.5));
+        let per_step = if step > 0.0 { 1.0 / step } else { 0.0 };
+        let first = T::from_f64(linear * medium.density * medium.wave_speed * per_step);
+        let second = T::from_f64(quadratic * medium.density * per_step * per_step);
+        // As many sums as lanes, so that the loop need not wait for one.
+        let mut dissipated = [zero; LANES];
+        let history = self.volume_ratio[..stride].iter_mut().zip(&mut self.pressure[..stride]);
+        let constant = self.side[..stride].iter().zip(&self.intact[..stride]).zip(&self.shapes.volume[..stride]);
+        let elements = history.zip(constant).zip(&mut scratch.pressure[..stride]).enumerate();
+        for (i, (((old, q_old), ((&side, &intact), &volume)), ratio)) in elements {
+            let closing = *old - *ratio;
+            let closing = if closing > zero { closing } else { zero };
+            // Over the mean volume ratio for the rate, and over the current one for the density.
+            let rate = side * closing / (half * (*old + *ratio));
+            let q = intact * rate * (second * rate + first) / *ratio;
+            dissipated[i % LANES] += half * (q + *q_old) * closing * volume;
+            *old = *ratio;
+            *q_old = q;
+            *ratio = q;
+        }
+        let dissipated: f64 = dissipated.into_iter().map(Into::into).sum();
+        sums.viscosity += dissipated;
+    }
+
+    /// Irons: no frequency of the body exceeds the highest one of its elements.
+    fn bound_frequency(&self, medium: &Medium<T>, scratch: &Scratch<T>, sums: &mut Sums) {
+        for i in (0..self.shapes.n).filter(|&i| self.is_intact(i)) {
+            let speed = match medium.entry {
+                Entry::Hyperelastic(_) => scratch.wave_speed[i].into(),
+                Entry::LinearElastic { .. } => medium.wave_speed,
+            };
+            let square = speed * speed * self.shapes.spread(i, &scratch.deformation_gradient);
+            sums.frequency = sums.frequency.max(square);
+        }
+    }
+
+    /// Deletes what has failed or cannot be evaluated.
+    fn delete(&mut self, medium: &Medium<T>, scratch: &Scratch<T>, sums: &mut Sums) {
+        let (stride, latch) = (self.shapes.stride, medium.state().1);
+        let zero = T::default();
+        for i in 0..self.shapes.n {
+            let failed = self.state[latch * stride + i] != zero || scratch.status[i] != status::OK;
+            if failed && self.is_intact(i) {
+                self.intact[i] = zero;
+                self.pressure[i] = zero;
+                sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
+                sums.deleted.push(self.first + i);
+            }
+        }
+    }
+
+    pub fn is_intact(&self, i: usize) -> bool {
+        self.intact[i] != T::default()
+    }
+
+    fn variable(&self, row: usize, i: usize) -> f64 {
+        self.state[row * self.shapes.stride + i].into()
+    }
+
+    /// Energy densities of the four modes; the linear elastic law's are not defined: its work stands first.
+    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
+        match medium.entry {
+            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(mode, i)),
+            Entry::LinearElastic { .. } => [self.variable(LINEAR_WORK, i), 0.0, 0.0, 0.0],
+        }
+    }
+
+    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1.
+    pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match &medium.entry {
+            Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
+            Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0],
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! The yarn under impact: the thesis's single-yarn scenes (sections 3.3, 3.4, 4.6, 4.7) in the explicit host.
+
+pub mod command;
+pub mod plot;
+pub mod run;
+pub mod scene;
+pub mod smith;
+pub mod summary;
+pub mod yarn_picture;

@@ -1,0 +1,144 @@
+//! Plots of a case's history, and of the residual speed over what the cases differ in.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+
+use super::run::{End, Outcome, STATIONS, Sample};
+use super::scene::{Abscissa, Case, Scene, Striker};
+use crate::driver::Error;
+use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use crate::driver::plot::{self, Panel, Series, tidy};
+use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
+use crate::law::parameters::ENERGY_DENSITY;
+
+const SIZE: [u32; 2] = [1280, 840];
+const COMPARISON: [u32; 2] = [760, 480];
+
+/// Speed, energies, largest energy densities and widths of a case over time.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
+    picture::write(svg, png, SIZE, |root| {
+        root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+        root.draw_text(&case.name, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+        let (_, body) = root.split_vertically(fine(84));
+        let abscissa = plot::Abscissa {
+            label: format!("time ({})", unit(&scene.units, TIME)),
+            values: result.samples.iter().map(|sample| sample.time).collect(),
+            failure: result.broken.map(|(time, _)| time),
+        };
+        for (panel, area) in panels(scene, case, result).iter().zip(body.split_evenly((2, 2))) {
+            panel.draw(&area, &abscissa)?;
+        }
+        Ok(())
+    })
+}
+
+fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
+        name: name.to_string(),
+        colour: COLOURS[colour % COLOURS.len()],
+        values: result.samples.iter().map(of).collect(),
+    };
+    let panel = |title, dimension, series: Vec<Series>| Panel {
+        title,
+        unit: unit(&scene.units, dimension),
+        series: tidy(series),
+        limit: None,
+    };
+    let mut energies = vec![
+        line(1, "kinetic", &|s| s.energies.kinetic),
+        line(2, "internal", &|s| s.energies.internal),
+        line(3, "all other", &|s| s.energies.other()),
+    ];
+    // A projectile that is held has its energy from outside.
+    if result.last().energies.external == 0.0 {
+        energies.insert(0, line(0, "projectile", &|s| s.energies.projectile));
+        energies.push(Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) });
+    } else {
+        energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
+    }
+    let modes = ["elongation", "compaction", "distortion"];
+    let length = scene.units.names()[0];
+    let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
+    [
+        panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        panel("Energies", ENERGY, energies),
+        panel(
+            "Largest energy per reference volume",
+            ENERGY_DENSITY,
+            (0..3).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
+        ),
+        Panel {
+            title: "Width of the section by place",
+            unit: length.to_string(),
+            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.widths[i])).collect(),
+            limit: None,
+        },
+    ]
+}
+
+/// The residual speeds of all cases over the scene's abscissa, which is logarithmic.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_comparison(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    abscissa: Abscissa,
+    results: &[Outcome],
+) -> Result<(), Error> {
+    let place = |case: &Case, result: &Outcome| match (abscissa, case.striker) {
+        (Abscissa::ContactStiffness, Striker::Cylinder { cylinder, .. }) => cylinder.stiffness,
+        _ => result.mesh.elements.len() as f64,
+    };
+    let residual = |result: &Outcome| if result.end == End::Stopped { 0.0 } else { result.last().speed };
+    let points = scene.cases.iter().zip(results).map(|(case, result)| (place(case, result), residual(result)));
+    let points: Vec<(f64, f64)> = points.collect();
+    let label = match abscissa {
+        Abscissa::Elements => "elements",
+        Abscissa::ContactStiffness => "contact stiffness, pressure by depth",
+    };
+    picture::write(svg, png, COMPARISON, |root| draw_comparison(root, scene, label, &points))
+}
+
+fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(f64, f64)]) -> Drawn<()> {
+    root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+    let ordinate = format!("Residual speed ({})", unit(&scene.units, SPEED));
+    root.draw_text(&ordinate, &text(HEADING, &INK), (fine(24), fine(56)))?;
+    let (_, body) = root.split_vertically(fine(88));
+    let (left, right) = points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.0), r.max(point.0)));
+    let top = points.iter().map(|point| point.1).fold(0.0, f64::max);
+    let mut chart = ChartBuilder::on(&body)
+        .margin_right(fine(30))
+        .margin_bottom(fine(12))
+        .x_label_area_size(fine(50))
+        .y_label_area_size(fine(70))
+        .build_cartesian_2d((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0))?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(stroke(RULE, 1))
+        .axis_style(stroke(GREY, 1))
+        .set_all_tick_mark_size(fine(5))
+        .y_labels(6)
+        .label_style(text(TEXT, &INK))
+        .axis_desc_style(text(TEXT, &INK))
+        .x_label_formatter(&|x| if *x < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
+        .y_label_formatter(&|y| format!("{y:.0}"))
+        .x_desc(label)
+        .draw()?;
+    for (case, &point) in scene.cases.iter().zip(points) {
+        chart.draw_series([Circle::new(point, fine(5), COLOURS[0].filled())])?;
+        let (x, y) = chart.backend_coord(&point);
+        let style = text(TEXT, &INK);
+        let (width, _) = body.estimate_text_size(&case.name, &style)?;
+        let (_, above) = body.get_base_pixel();
+        body.draw_text(&case.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,452 @@
+//! A scene from its TOML file: a yarn, what strikes it, and the cases that differ from one another. The format is
+//! described in `docs/impact.md`.
+
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::driver::Error;
+use crate::driver::explicit::contact::Cylinder;
+use crate::driver::explicit::element::Control;
+use crate::driver::explicit::mesh::{Section, Yarn};
+use crate::driver::material::{Law, Material};
+use crate::driver::path::{MaterialFile, Source};
+use crate::host::units::UnitSystem;
+use crate::law::linear_elastic::{Criterion, Rotation};
+
+/// Sums of rows, columns and layers beyond this do not fit the numbers of the nodes.
+const MOST_ELEMENTS: usize = 100_000_000;
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 600.0;
+
+/// What is run.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub title: String,
+    pub units: UnitSystem,
+    pub cases: Vec<Case>,
+    /// The quantity that the cases' residual speeds are plotted over.
+    pub abscissa: Option<Abscissa>,
+}
+
+/// A quantity that cases are told apart by.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Abscissa {
+    Elements,
+    ContactStiffness,
+}
+
+/// One run.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub name: String,
+    pub yarn: Yarn,
+    pub zones: Zones,
+    pub striker: Striker,
+    /// Speed of the projectile, or of the section that is driven.
+    pub speed: f64,
+    pub end: f64,
+    /// Time between two samples of the history.
+    pub sample: f64,
+    /// When the yarn is drawn, and how many files ParaView gets.
+    pub pictures: Vec<f64>,
+    pub frames: usize,
+    pub control: Control,
+    pub precision: Precision,
+    pub outputs: Outputs,
+}
+
+/// What the yarn is made of, from mid-span outwards.
+#[derive(Clone, Debug)]
+pub enum Zones {
+    One(Box<Material>),
+    /// The first material up to this distance from mid-span.
+    Two(Box<[Material; 2]>, f64),
+}
+
+/// What sets the yarn in motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Striker {
+    /// A rigid cylinder: its whole mass, and whether its speed is held.
+    Cylinder { cylinder: Cylinder, mass: f64, held: bool },
+    /// The section at mid-span is driven itself.
+    Driven,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Precision {
+    F64,
+    F32,
+}
+
+/// What the law is asked for in every step.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outputs {
+    /// Stress, energies, invariants.
+    Full,
+    /// Stress; the rest for the samples only.
+    Stress,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum LawName {
+    Hyperelastic,
+    LinearElastic,
+    Hybrid,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum FailureName {
+    None,
+    Uniaxial,
+    Multiaxial,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum SectionName {
+    Ellipse,
+    Rectangle,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum StrikerName {
+    Cylinder,
+    Driven,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    title: Option<String>,
+    units: Spanned<String>,
+    abscissa: Option<Abscissa>,
+    scene: Spanned<CaseFile>,
+    #[serde(default)]
+    case: Vec<Spanned<CaseFile>>,
+}
+
+/// The scene's table, and what a case has otherwise.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct CaseFile {
+    name: Option<Spanned<String>>,
+    law: Option<LawName>,
+    failure: Option<FailureName>,
+    hyperelastic: Option<Spanned<MaterialFile>>,
+    linear_elastic: Option<Spanned<MaterialFile>>,
+    hyperelastic_length: Option<Spanned<f64>>,
+    section: Option<SectionName>,
+    half_length: Option<Spanned<f64>>,
+    height: Option<Spanned<f64>>,
+    width: Option<Spanned<f64>>,
+    layers: Option<Spanned<usize>>,
+    rows: Option<Spanned<usize>>,
+    columns: Option<Spanned<usize>>,
+    striker: Option<StrikerName>,
+    speed: Option<Spanned<f64>>,
+    held: Option<bool>,
+    mass: Option<Spanned<f64>>,
+    radius: Option<Spanned<f64>>,
+    friction: Option<Spanned<f64>>,
+    contact_stiffness: Option<Spanned<f64>>,
+    hourglass: Option<Spanned<f64>>,
+    viscosity: Option<Spanned<[f64; 2]>>,
+    end: Option<Spanned<f64>>,
+    sample: Option<Spanned<f64>>,
+    pictures: Option<Spanned<Vec<f64>>>,
+    frames: Option<usize>,
+    precision: Option<Precision>,
+    outputs: Option<Outputs>,
+}
+
+impl CaseFile {
+    /// This table completed by `base`.
+    fn over(&self, base: &CaseFile) -> CaseFile {
+        let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
+            (Some(own), Some(base)) => Some(Spanned::new(own.span(), own.get_ref().over(base.get_ref()))),
+            (own, base) => own.clone().or(base.clone()),
+        };
+        let own = self.clone();
+        let base = base.clone();
+        CaseFile {
+            name: own.name,
+            law: own.law.or(base.law),
+            failure: own.failure.or(base.failure),
+            hyperelastic: material(&own.hyperelastic, &base.hyperelastic),
+            linear_elastic: material(&own.linear_elastic, &base.linear_elastic),
+            hyperelastic_length: own.hyperelastic_length.or(base.hyperelastic_length),
+            section: own.section.or(base.section),
+            half_length: own.half_length.or(base.half_length),
+            height: own.height.or(base.height),
+            width: own.width.or(base.width),
+            layers: own.layers.or(base.layers),
+            rows: own.rows.or(base.rows),
+            columns: own.columns.or(base.columns),
+            striker: own.striker.or(base.striker),
+            speed: own.speed.or(base.speed),
+            held: own.held.or(base.held),
+            mass: own.mass.or(base.mass),
+            radius: own.radius.or(base.radius),
+            friction: own.friction.or(base.friction),
+            contact_stiffness: own.contact_stiffness.or(base.contact_stiffness),
+            hourglass: own.hourglass.or(base.hourglass),
+            viscosity: own.viscosity.or(base.viscosity),
+            end: own.end.or(base.end),
+            sample: own.sample.or(base.sample),
+            pictures: own.pictures.or(base.pictures),
+            frames: own.frames.or(base.frames),
+            precision: own.precision.or(base.precision),
+            outputs: own.outputs.or(base.outputs),
+        }
+    }
+}
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = source.units(&file.units)?;
+        let base = file.scene.get_ref();
+        let mut cases: Vec<Case> = Vec::new();
+        if file.case.is_empty() {
+            let reader = Reader { source: &source, units: &units, file: base, span: file.scene.span() };
+            cases.push(reader.case("scene".to_string())?);
+        }
+        for case in &file.case {
+            let name = source.case_name(case, &cases)?;
+            let merged = case.get_ref().over(base);
+            let reader = Reader { source: &source, units: &units, file: &merged, span: case.span() };
+            cases.push(reader.case(name)?);
+        }
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa: file.abscissa })
+    }
+}
+
+impl Source<'_> {
+    fn case_name(&self, case: &Spanned<CaseFile>, others: &[Case]) -> Result<String, Error> {
+        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
+        let Some(name) = &case.get_ref().name else {
+            return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
+        };
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        let taken = others.iter().any(|other| other.name == *name.get_ref());
+        if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
+            return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
+        }
+        Ok(name.get_ref().clone())
+    }
+}
+
+/// A case's table and what is needed to read it.
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    units: &'a UnitSystem,
+    file: &'a CaseFile,
+    /// What to blame for what is missing.
+    span: std::ops::Range<usize>,
+}
+
+impl Reader<'_> {
+    fn missing(&self, key: &str, allowed: &str) -> Error {
+        self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
+    }
+
+    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
+        match value {
+            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            None => Err(self.missing(key, "a finite number > 0")),
+        }
+    }
+
+    /// A number from 0 on, or the default.
+    fn zero_or_more(&self, key: &str, value: &Option<Spanned<f64>>, default: f64) -> Result<f64, Error> {
+        match value {
+            None => Ok(default),
+            Some(value) if value.get_ref().is_finite() && *value.get_ref() >= 0.0 => Ok(*value.get_ref()),
+            Some(value) => {
+                let message = format!("{key} is {}; allowed: a finite number >= 0", value.get_ref());
+                Err(self.source.error(value.span(), &message))
+            }
+        }
+    }
+
+    fn count(&self, key: &str, value: &Option<Spanned<usize>>, least: usize) -> Result<usize, Error> {
+        match value {
+            Some(count) if (least..=MOST_ELEMENTS).contains(count.get_ref()) => Ok(*count.get_ref()),
+            Some(count) => {
+                let message = format!("{key} is {}; allowed: a whole number from {least} on", count.get_ref());
+                Err(self.source.error(count.span(), &message))
+            }
+            None => Err(self.missing(key, &format!("a whole number from {least} on"))),
+        }
+    }
+
+    fn case(&self, name: String) -> Result<Case, Error> {
+        let file = self.file;
+        let end = self.positive("end", &file.end)?;
+        let sample = match &file.sample {
+            Some(_) => self.positive("sample", &file.sample)?,
+            None => end / SAMPLES,
+        };
+        let zones = self.zones()?;
+        Ok(Case {
+            name,
+            yarn: self.yarn()?,
+            striker: self.striker()?,
+            speed: self.positive("speed", &file.speed)?,
+            end,
+            sample,
+            pictures: self.pictures()?,
+            frames: file.frames.unwrap_or(0),
+            control: self.control(&zones)?,
+            zones,
+            precision: file.precision.unwrap_or(Precision::F64),
+            outputs: file.outputs.unwrap_or(Outputs::Full),
+        })
+    }
+
+    fn yarn(&self) -> Result<Yarn, Error> {
+        let file = self.file;
+        let section = match file.section {
+            None | Some(SectionName::Ellipse) => Section::Ellipse,
+            Some(SectionName::Rectangle) => Section::Rectangle,
+        };
+        let yarn = Yarn {
+            section,
+            length: self.positive("half-length", &file.half_length)?,
+            height: self.positive("height", &file.height)?,
+            width: self.positive("width", &file.width)?,
+            layers: self.count("layers", &file.layers, 1)?,
+            rows: self.count("rows", &file.rows, 1)?,
+            // An ellipse needs two: they meet between its tips.
+            columns: self.count("columns", &file.columns, if section == Section::Ellipse { 2 } else { 1 })?,
+        };
+        let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
+        if elements > MOST_ELEMENTS {
+            let message = format!("layers, rows and columns make {elements} elements; allowed: up to {MOST_ELEMENTS}");
+            return Err(self.source.error(self.span.clone(), &message));
+        }
+        Ok(yarn)
+    }
+
+    fn striker(&self) -> Result<Striker, Error> {
+        let file = self.file;
+        if file.striker == Some(StrikerName::Driven) {
+            return Ok(Striker::Driven);
+        }
+        let cylinder = Cylinder {
+            radius: self.positive("radius", &file.radius)?,
+            stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
+            friction: self.zero_or_more("friction", &file.friction, 0.0)?,
+        };
+        let held = file.held.unwrap_or(false);
+        Ok(Striker::Cylinder { cylinder, mass: self.positive("mass", &file.mass)?, held })
+    }
+
+    fn pictures(&self) -> Result<Vec<f64>, Error> {
+        let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
+        for &time in times.get_ref() {
+            self.source.positive("a time of pictures", time, times.span())?;
+        }
+        Ok(times.get_ref().clone())
+    }
+
+    fn control(&self, zones: &Zones) -> Result<Control, Error> {
+        let [linear, quadratic] = match &self.file.viscosity {
+            None => [VISCOSITY.0, VISCOSITY.1],
+            Some(pair) => {
+                for &value in pair.get_ref() {
+                    let single = Some(Spanned::new(pair.span(), value));
+                    self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
+                }
+                *pair.get_ref()
+            }
+        };
+        let material = match zones {
+            Zones::One(material) => material,
+            Zones::Two(materials, _) => &materials[0],
+        };
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let modulus = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        Ok(Control {
+            hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?,
+            modulus,
+            linear,
+            quadratic,
+        })
+    }
+
+    fn zones(&self) -> Result<Zones, Error> {
+        let file = self.file;
+        let hyperelastic = || self.material(&file.hyperelastic, "kevlar-km2-600");
+        let linear = || self.material(&file.linear_elastic, "kevlar-km2-600-linear");
+        Ok(match file.law {
+            None | Some(LawName::Hyperelastic) => Zones::One(Box::new(hyperelastic()?)),
+            Some(LawName::LinearElastic) => Zones::One(Box::new(linear()?)),
+            Some(LawName::Hybrid) => {
+                let length = self.positive("hyperelastic-length", &file.hyperelastic_length)?;
+                Zones::Two(Box::new([hyperelastic()?, linear()?]), length)
+            }
+        })
+    }
+
+    /// The material of a table or, without one, of the preset, with the failure that the case asks for.
+    fn material(&self, table: &Option<Spanned<MaterialFile>>, preset: &str) -> Result<Material, Error> {
+        let (file, span) = match table {
+            Some(table) => (table.get_ref().clone(), table.span()),
+            None => (MaterialFile::of_preset(preset, self.span.clone()), self.span.clone()),
+        };
+        let mut material = self.source.material(&file, self.units, span.clone())?;
+        let off: &[&str] = match self.file.failure {
+            None | Some(FailureName::None) => &["eps_lim", "sigma_lim"],
+            Some(FailureName::Uniaxial) => &["alpha", "beta"],
+            Some(FailureName::Multiaxial) => &[],
+        };
+        let table = material.table();
+        for (value, property) in material.values.iter_mut().zip(table) {
+            if off.contains(&property.name) {
+                *value = 0.0;
+            }
+        }
+        let (frame, criterion) = match material.law {
+            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
+            Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
+        };
+        material.law = Law::new(table, &material.values, frame, criterion)
+            .map_err(|error| self.source.error(span.clone(), &error.to_string()))?;
+        if frame == Rotation::Spin {
+            return Err(self.source.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
+        }
+        if material.density.is_none() {
+            return Err(self.source.error(span, "density is missing; allowed: a finite number > 0"));
+        }
+        Ok(material)
+    }
+}
+
+/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and bulk viscosity
+/// (linear, quadratic), as explicit solvers have them.
+const HOURGLASS: f64 = 0.1;
+const VISCOSITY: (f64, f64) = (0.06, 1.5);

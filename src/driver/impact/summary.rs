@@ -1,0 +1,205 @@
+//! A line for every case: how it ended, with what speed, energies and cost.
+
+use std::path::Path;
+
+use super::run::{End, Outcome};
+use super::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use super::smith::Smith;
+use crate::driver::Error;
+
+/// A column that has nothing to say about a case.
+const NONE: &str = "-";
+
+/// How a case ended, in words.
+pub fn outcome(result: &Outcome) -> &'static str {
+    match (result.end, result.broken) {
+        (End::Stopped, None) => "not penetrated",
+        (End::Stopped, Some(_)) => "broken, stopped",
+        (_, Some(_)) => "penetrated",
+        (_, None) => "unbroken",
+    }
+}
+
+fn law(case: &Case) -> String {
+    let mut name = match &case.zones {
+        Zones::One(material) => material.law_name().to_string(),
+        Zones::Two(_, length) => format!("hyperelastic to {length}"),
+    };
+    if case.precision == Precision::F32 {
+        name.push_str(", f32");
+    }
+    if case.outputs == Outputs::Stress {
+        name.push_str(", stress only");
+    }
+    name
+}
+
+/// Titles and entries of a case's line.
+fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
+    let length = case.yarn.length;
+    let mut cells = vec![
+        ("case", case.name.clone()),
+        ("law", law(case)),
+        ("elements", result.mesh.elements.len().to_string()),
+        ("speed", number(case.speed, 0)),
+        ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), 0)),
+    ];
+    match case.striker {
+        Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
+        Striker::Driven => smith_cells(length, result, &mut cells),
+    }
+    cells.extend([
+        ("imbalance", format!("{:.0e}", result.imbalance())),
+        ("steps", result.cost.steps.to_string()),
+        ("seconds", number(result.cost.total().as_secs_f64(), 2)),
+        ("ns_per_zone_cycle", number(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
+        ("law_share", number(result.cost.law.as_secs_f64() / result.cost.total().as_secs_f64(), 2)),
+    ]);
+    cells
+}
+
+fn number(value: f64, digits: usize) -> String {
+    format!("{value:.digits$}")
+}
+
+fn maybe(value: Option<f64>, digits: usize) -> String {
+    value.map_or(NONE.to_string(), |value| number(value, digits))
+}
+
+/// What a projectile's case has to say.
+fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
+    let last = result.last();
+    let broken = |of: fn((f64, f64)) -> f64, digits| maybe(result.broken.map(of), digits);
+    let residual = if result.end == End::Stopped { 0.0 } else { last.speed };
+    cells.extend([
+        ("contact_stiffness", format!("{stiffness:.0e}")),
+        ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), 5)),
+        ("outcome", outcome(result).to_string()),
+        ("residual_speed", number(residual, 1)),
+        ("broken_at", broken(|(time, _)| time, 5)),
+        ("speed_then", broken(|(_, speed)| speed, 1)),
+        ("deleted", last.deleted.to_string()),
+        ("end", number(last.time, 5)),
+        ("w_el_max", number(last.largest[0], 2)),
+        ("w_tc_max", number(last.largest[1], 2)),
+        ("w_td_max", number(last.largest[2], 2)),
+    ]);
+}
+
+/// What Smith's theory can be held against.
+fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, String)>) {
+    let Smith { strain, fastest, slowest, transverse } = result.smith;
+    cells.extend([
+        ("longitudinal_theory", format!("{fastest:.0}-{slowest:.0}")),
+        ("strain_percent", maybe(result.plateau(length).map(|strain| 100.0 * strain), 3)),
+        ("strain_theory", number(100.0 * strain, 3)),
+        ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), 1)),
+        ("transverse_theory", number(transverse, 1)),
+    ]);
+}
+
+/// The titles of all cases' columns, and a line for each case.
+fn lines(scene: &Scene, results: &[Outcome]) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    let cells: Vec<_> = scene.cases.iter().zip(results).map(|(case, result)| cells(case, result)).collect();
+    let mut titles: Vec<&'static str> = Vec::new();
+    for &(title, _) in cells.iter().flatten() {
+        if !titles.contains(&title) {
+            titles.push(title);
+        }
+    }
+    let entry = |line: &[(&str, String)], title: &str| {
+        line.iter().find(|cell| cell.0 == title).map_or(NONE.to_string(), |cell| cell.1.clone())
+    };
+    let lines = cells.iter().map(|line| titles.iter().map(|title| entry(line, title)).collect()).collect();
+    (titles, lines)
+}
+
+/// The table of all cases as Markdown, columns that say nothing left out.
+pub fn table(scene: &Scene, results: &[Outcome]) -> String {
+    let (titles, lines) = lines(scene, results);
+    let kept: Vec<usize> = (0..titles.len()).filter(|&c| lines.iter().any(|line| line[c] != NONE)).collect();
+    let width = |c: usize| lines.iter().map(|line| line[c].chars().count()).fold(titles[c].len(), usize::max);
+    let mut text = String::new();
+    let mut row = |entry: &dyn Fn(usize) -> String| {
+        text.push('|');
+        for &c in &kept {
+            text.push_str(&format!(" {:<width$} |", entry(c), width = width(c)));
+        }
+        text.push('\n');
+    };
+    row(&|c| titles[c].to_string());
+    row(&|c| "-".repeat(width(c)));
+    for line in &lines {
+        row(&|c| line[c].clone());
+    }
+    text
+}
+
+/// Writes the table as CSV.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(file: &Path, scene: &Scene, results: &[Outcome]) -> Result<(), Error> {
+    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let (titles, lines) = lines(scene, results);
+    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    writer.write_record(titles).map_err(fault)?;
+    for line in lines {
+        writer.write_record(line).map_err(fault)?;
+    }
+    writer.flush().map_err(|error| fault(error.into()))
+}
+
+/// Writes the history of a case.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
+    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    writer
+        .write_record([
+            "time",
+            "speed",
+            "travel",
+            "force",
+            "projectile_energy",
+            "kinetic_energy",
+            "internal_energy",
+            "hourglass_energy",
+            "viscosity_energy",
+            "friction_energy",
+            "contact_energy",
+            "external_work",
+            "total_energy",
+            "w_el_max",
+            "w_tc_max",
+            "w_td_max",
+            "w_el_min",
+            "w_tc_outside",
+            "w_td_outside",
+            "deleted",
+            "longitudinal_front",
+            "transverse_front",
+            "strain",
+            "width_1",
+            "width_2",
+            "width_3",
+            "width_4",
+        ])
+        .map_err(fault)?;
+    for sample in &result.samples {
+        let e = sample.energies;
+        let line = (
+            [sample.time, sample.speed, sample.travel, sample.force],
+            [e.projectile, e.kinetic, e.internal, e.hourglass, e.viscosity, e.friction, e.contact, e.external],
+            [e.total(), sample.largest[0], sample.largest[1], sample.largest[2], sample.least],
+            [sample.outside[1], sample.outside[2]],
+            sample.deleted,
+            [sample.longitudinal, sample.transverse, sample.strain],
+            sample.widths,
+        );
+        writer.serialize(line).map_err(fault)?;
+    }
+    writer.flush().map_err(|error| fault(error.into()))
+}

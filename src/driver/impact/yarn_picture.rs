@@ -1,0 +1,176 @@
+//! The deformed yarn coloured by each mode's energy: from the side and above, and its section at mid-span.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+
+use super::run::{Outcome, Snapshot};
+use super::scene::{Case, Scene};
+use crate::driver::Error;
+use crate::driver::explicit::mesh::Mesh;
+use crate::driver::picture::{self, Area, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::driver::unit_names::{TIME, number, unit};
+use crate::law::parameters::ENERGY_DENSITY;
+
+const SIZE: [u32; 2] = [1280, 900];
+/// The part of the width that the view of the whole yarn gets; the rest is the section's.
+const SIDE: i32 = 960;
+const ROW: i32 = 272;
+/// Heights of a row's heading, and of the scale in it.
+const HEAD: i32 = 38;
+/// Looking down by so much, the top is seen: a length across is drawn upwards in this proportion.
+const TILT: f64 = 1.0;
+const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
+/// Anchors of viridis (van der Walt and Smith, 2015), from nothing to the largest.
+const SCALE: [[f64; 3]; 6] = [
+    [68.0, 1.0, 84.0],
+    [65.0, 68.0, 135.0],
+    [42.0, 120.0, 142.0],
+    [34.0, 168.0, 132.0],
+    [122.0, 209.0, 81.0],
+    [253.0, 231.0, 37.0],
+];
+
+/// Draws the yarn as it stood at an instant.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    case: &Case,
+    result: &Outcome,
+    snapshot: &Snapshot,
+) -> Result<(), Error> {
+    picture::write(svg, png, SIZE, |root| {
+        let title = format!("{}: {}", scene.title, case.name);
+        root.draw_text(&title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+        let time = format!("at {} {}", number(snapshot.time), unit(&scene.units, TIME));
+        root.draw_text(&time, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+        let drawing = Drawing { mesh: &result.mesh, case, snapshot };
+        for mode in 0..MODES.len() {
+            let top = 80 + ROW * mode as i32;
+            let row = root.margin(fine(top), 0, 0, 0);
+            drawing.draw_row(&row, mode, &unit(&scene.units, ENERGY_DENSITY))?;
+        }
+        Ok(())
+    })
+}
+
+struct Drawing<'a> {
+    mesh: &'a Mesh,
+    case: &'a Case,
+    snapshot: &'a Snapshot,
+}
+
+/// From lengths to the picture: a scale and the place of the origin.
+struct View {
+    scale: f64,
+    origin: [f64; 2],
+}
+
+impl View {
+    fn place(&self, [x, y]: [f64; 2]) -> (i32, i32) {
+        let [a, b] = [self.origin[0] + self.scale * x, self.origin[1] - self.scale * y];
+        ((a * f64::from(fine(1))) as i32, (b * f64::from(fine(1))) as i32)
+    }
+}
+
+/// A colour between nothing and the largest value.
+fn colour(share: f64) -> RGBColor {
+    let place = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+    let low = (place as usize).min(SCALE.len() - 2);
+    let part = place - low as f64;
+    let [red, green, blue] =
+        [0, 1, 2].map(|c| (SCALE[low][c] + part * (SCALE[low + 1][c] - SCALE[low][c])).round() as u8);
+    RGBColor(red, green, blue)
+}
+
+impl Drawing<'_> {
+    fn draw_row(&self, area: &Area, mode: usize, unit: &str) -> Drawn<()> {
+        let values = self.snapshot.densities.iter().zip(&self.snapshot.intact);
+        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| w[mode]).fold(0.0, f64::max);
+        draw_head(area, MODES[mode], largest, unit)?;
+        let shade =
+            |element: usize| colour(if largest > 0.0 { self.snapshot.densities[element][mode] / largest } else { 0.0 });
+        self.draw_side(area, &shade)?;
+        self.draw_section(area, &shade)
+    }
+
+    /// The whole yarn: the half that was computed, and its mirror image.
+    fn draw_side(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
+        let span = 2.0 * self.case.yarn.length;
+        let scale = f64::from(SIDE - 60) / span;
+        let view = View { scale, origin: [f64::from(SIDE) / 2.0, f64::from(HEAD) + 78.0] };
+        // The far side first.
+        for column in (0..self.case.yarn.columns).rev() {
+            for layer in 0..self.case.yarn.layers {
+                let element = self.element(layer, column, self.case.yarn.rows - 1);
+                if !self.snapshot.intact[element] {
+                    continue;
+                }
+                // The corners of the upper face, around it.
+                let face = [2, 3, 7, 6].map(|corner| self.mesh.elements[element][corner] as usize);
+                for side in [1.0, -1.0] {
+                    let points = face.map(|node| {
+                        let [x, y, z] = self.snapshot.positions[node];
+                        view.place([side * x, y + TILT * z])
+                    });
+                    area.draw(&Polygon::new(points.to_vec(), shade(element).filled()))?;
+                }
+            }
+        }
+        if let Some((height, radius)) = self.snapshot.projectile {
+            let turn = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / 72.0;
+            let circle = (0..=72)
+                .map(|i| view.place([radius * turn(i).cos(), height + radius * turn(i).sin()]))
+                .collect::<Vec<_>>();
+            area.draw(&PathElement::new(circle, stroke(GREY, 2)))?;
+        }
+        Ok(())
+    }
+
+    /// The elements beside mid-span, seen along the yarn.
+    fn draw_section(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
+        let yarn = &self.case.yarn;
+        let nodes = 0..self.mesh.nodes_per_section;
+        let centre = nodes.clone().map(|node| self.snapshot.positions[node][1]).sum::<f64>() / nodes.len() as f64;
+        // Twice the section's width has room.
+        let scale = f64::from(SIZE[0] as i32 - SIDE - 40) / (2.0 * yarn.width);
+        let origin = [f64::from(SIDE) + f64::from(SIZE[0] as i32 - SIDE) / 2.0, f64::from(HEAD + ROW) / 2.0];
+        let view = View { scale, origin };
+        for element in (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]) {
+            let face = [0, 2, 6, 4].map(|corner| self.mesh.elements[element][corner] as usize);
+            let mut points: Vec<(i32, i32)> = face
+                .iter()
+                .map(|&node| {
+                    let [_, y, z] = self.snapshot.positions[node];
+                    view.place([z, y - centre])
+                })
+                .collect();
+            area.draw(&Polygon::new(points.clone(), shade(element).filled()))?;
+            points.push(points[0]);
+            area.draw(&PathElement::new(points, stroke(WHITE, 1)))?;
+        }
+        Ok(())
+    }
+
+    fn element(&self, layer: usize, column: usize, row: usize) -> usize {
+        layer * self.mesh.elements_per_layer + column * self.case.yarn.rows + row
+    }
+}
+
+/// The mode's name, and what its colours mean.
+fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
+    area.draw_text(name, &text(HEADING, &INK), (fine(24), fine(8)))?;
+    let (left, width, steps) = (180, 200, 40);
+    for step in 0..steps {
+        let x = |i: i32| fine(left) + fine(width) * i / steps;
+        let corners = [(x(step), fine(12)), (x(step + 1), fine(26))];
+        area.draw(&Rectangle::new(corners, colour(f64::from(step) / f64::from(steps - 1)).filled()))?;
+    }
+    let label = format!("0 to {} {unit}", number(largest));
+    area.draw_text(&label, &text(TEXT, &INK), (fine(left + width + 12), fine(10)))?;
+    Ok(())
+}
