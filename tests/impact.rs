@@ -197,7 +197,7 @@ fn the_program_writes_what_came_of_a_scene() {
     let read = |name: &str| std::fs::read_to_string(directory.join("out").join(name)).expect(name);
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
-    assert_eq!(read("a.pvd").matches("<DataSet").count(), 2);
+    assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
     let history = read("b.csv");
     assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
     for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {

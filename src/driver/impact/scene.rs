@@ -50,7 +50,7 @@ pub struct Case {
     pub end: f64,
     /// Time between two samples of the history.
     pub sample: f64,
-    /// When the yarn is drawn, and how many files ParaView gets.
+    /// When the yarn is drawn, and how many files ParaView gets after the first.
     pub pictures: Vec<f64>,
     pub frames: usize,
     pub control: Control,
