@@ -59,12 +59,10 @@ fn draw(root: &Area, report: &Report) -> Drawn<()> {
     if let Some(copy) = copy.map(|row| report.time(row, CACHED)) {
         let line = [(LEAST, copy), (MOST, copy)];
         chart.draw_series(DashedLineSeries::new(line, fine(7), fine(5), stroke(GREY, 2)))?;
-        let (x, y) = chart.backend_coord(&line[1]);
+        let (x, y) = chart.backend_coord(&line[0]);
         let (left, top) = root.get_base_pixel();
         let label = "reading and writing the same numbers, f64";
-        let style = text(TEXT, &GREY);
-        let (width, _) = root.estimate_text_size(label, &style)?;
-        root.draw_text(label, &style, (x - left - width as i32 - fine(6), y - top - fine(24)))?;
+        root.draw_text(label, &text(TEXT, &GREY), (x - left + fine(6), y - top - fine(24)))?;
     }
     for (row, accuracy) in laws() {
         let place = (accuracy.worst().clamp(LEAST, MOST), report.time(row, CACHED));
