@@ -271,12 +271,12 @@ impl<R: Real + Into<f64>> Exponent<R> {
     }
 }
 
-/// 2^x for x ≤ 0 to four digits, all that the end of a range needs: a cubic of the fraction. Below the range of normal
-/// numbers, some small number.
+/// 2^x for x ≤ 0 to four digits, all that the end of a range needs: a cubic of the fraction. 0 from the least normal
+/// number down.
 #[inline(always)]
 fn rough_power_of_two(x: f64) -> f64 {
     const CUBIC: [f64; 4] = [1.0, 0.69512, 0.22764, 0.07707];
-    let x = x.max(f64::MIN_EXP.into());
+    let x = x.max(f64::from(f64::MIN_EXP) - 1.0);
     let octave = x as i32 - 1;
     polynomial(&CUBIC, x - f64::from(octave)).times_power_of_two(octave.into())
 }
