@@ -128,7 +128,7 @@ fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(
         .y_labels(6)
         .label_style(text(TEXT, &INK))
         .axis_desc_style(text(TEXT, &INK))
-        .x_label_formatter(&|x| if *x < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
+        .x_label_formatter(&|x| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
         .y_label_formatter(&|y| format!("{y:.0}"))
         .x_desc(label)
         .draw()?;
