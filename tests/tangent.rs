@@ -131,9 +131,9 @@ fn dual_stresses(law: &Hyperelastic<f64>, f: &Matrix3<f64>, df: &Matrix3<f64>, s
     let columns = std::array::from_fn(|j| std::array::from_fn(|i| Dual::new(f[(i, j)], df[(i, j)])));
     let frame: FibreFrame<Dual> = law.frame();
     let (stretch, images) = Stretch::new(&columns, &frame);
-    let (section, images) = Section::new(&stretch, images, &frame);
+    let (section, [a, b]) = Section::new(&stretch, images, &frame);
     let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-    let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+    let kinematics = Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain };
     let k = law.kirchhoff_of(kinematics);
     let modes = law.modes(&Decomposition::new(kinematics), &k, &frame);
     let second = std::array::from_fn(|c| modes[0][c] + modes[1][c] + modes[2][c] + modes[3][c]);

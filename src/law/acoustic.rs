@@ -53,9 +53,10 @@ impl Hyperelastic<f64> {
         }
         let frame = fibre.map_or(self.frame, |fibre| FibreFrame::new(fibre).0);
         let (stretch, images) = Stretch::new(f, &frame);
-        let (section, images) = Section::new(&stretch, images, &frame);
+        let (section, [a, b]) = Section::new(&stretch, images, &frame);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-        let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+        let kinematics =
+            Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain };
         let d = Decomposition::new(kinematics);
         let frame = [d.e, d.q1, d.q2()];
         Ok(Acoustic { modulus: moduli.matrix(), stress: point.stress, jacobian: d.jacobian, frame })

@@ -18,8 +18,8 @@ use core::f64::consts::{LN_2, LOG2_E};
 
 use super::real::Real;
 
-/// (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
-pub(super) const ARTANH_F64: [f64; 7] = halved([
+/// ½ (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
+pub(super) const HALF_ARTANH_F64: [f64; 7] = quartered([
     0.6666666666667272,
     0.39999999996156954,
     0.28571429396138265,
@@ -28,23 +28,23 @@ pub(super) const ARTANH_F64: [f64; 7] = halved([
     0.15250131648093396,
     0.153686343008258,
 ]);
-pub(super) const ARTANH_F32: [f64; 3] = halved([0.6666694752001328, 0.39957808364879166, 0.3036093709608493]);
+pub(super) const HALF_ARTANH_F32: [f64; 3] = quartered([0.6666694752001328, 0.39957808364879166, 0.3036093709608493]);
 
-/// The same for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
-pub(super) const LN_F64: [f64; 7] = of_twice(ARTANH_F64);
-pub(super) const LN_F32: [f64; 3] = of_twice(ARTANH_F32);
+/// Likewise for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
+pub(super) const LN_F64: [f64; 7] = of_twice(HALF_ARTANH_F64);
+pub(super) const LN_F32: [f64; 3] = of_twice(HALF_ARTANH_F32);
 
-const fn halved<const N: usize>(mut c: [f64; N]) -> [f64; N] {
+const fn quartered<const N: usize>(mut c: [f64; N]) -> [f64; N] {
     let mut j = 0;
     while j < N {
-        c[j] *= 0.5;
+        c[j] *= 0.25;
         j += 1;
     }
     c
 }
 
 const fn of_twice<const N: usize>(mut c: [f64; N]) -> [f64; N] {
-    let (mut j, mut factor) = (0, 0.25);
+    let (mut j, mut factor) = (0, 0.5);
     while j < N {
         c[j] *= factor;
         factor *= 0.25;
@@ -193,7 +193,7 @@ impl<R: Real> Asinh<R> {
         let three = R::splat(3.0);
         let middle = k.lt(R::splat(1.5));
         let asinh = Asinh {
-            k: R::select(small, R::splat(0.0), R::select(middle, one, k)),
+            k: R::select(small, R::splat(0.0), k.max(one)),
             numerator: R::select(small, s, R::select(middle, three.mul_add(s, -t), z - one)),
             denominator: R::select(small, t, R::select(middle, three.mul_add(t, -s), z + one)),
             divisor: R::select(small, one, s),
@@ -208,14 +208,14 @@ impl<R: Real> Asinh<R> {
         [self.denominator, self.divisor]
     }
 
-    /// a, and a/s.
+    /// ½a, and ½a/s.
     #[inline(always)]
     pub fn finish(&self, [reciprocal, over_s]: [R; 2]) -> (R, R) {
         let w = self.numerator * reciprocal;
         let square = w * w;
-        // artanh w = w series.
-        let series = square.mul_add(polynomial(R::ARTANH, square), R::splat(1.0));
-        let a = self.k.mul_add(R::splat(0.5 * LN_2), w * series);
+        // ½ artanh w = w series.
+        let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
+        let a = self.k.mul_add(R::splat(0.25 * LN_2), w * series);
         (a, R::select(self.small, reciprocal * series, a * over_s))
     }
 }
@@ -225,7 +225,8 @@ impl<R: Real> Asinh<R> {
 pub fn asinh<R: Real>(s: R) -> (R, R) {
     let one = R::splat(1.0);
     let (asinh, _) = Asinh::new(s, s.mul_add(s, one).sqrt(), one);
-    asinh.finish(asinh.denominators().map(R::reciprocal))
+    let (a, ratio) = asinh.finish(asinh.denominators().map(R::reciprocal));
+    (a + a, ratio + ratio)
 }
 
 /// The exponent of a power, prepared once: q = high + low, where an integer up to 2^11 times `high` is exact.

@@ -55,7 +55,7 @@ impl<R: Real> Failure<R> {
         let zero = R::splat(0.0);
         // A quotient, not a product with 1/I_lim: it is exactly 1 where I_el = I_lim.
         let quotient = strain.i_el.quotient(self.limit, self.inverse_limit);
-        let index = quotient + self.alpha.mul_add((-strain.i_tc).max(zero), self.beta * strain.i_td);
+        let index = quotient + (-self.alpha).mul_add(strain.i_tc.min(zero), self.beta * strain.i_td);
         R::select(self.threshold.lt(strain.i_el), index, zero)
     }
 

@@ -63,17 +63,17 @@ impl Request {
 /// What the law answers at once, for one point or for several side by side.
 #[derive(Clone, Copy)]
 pub struct Response<R: Real> {
-    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards. Where `flawed` holds it
+    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards. Where `standing` is NaN it
     /// means nothing.
     pub stress: [R; 6],
     /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
     pub modes: [[R; 6]; 4],
     /// ρ0 c² for a bound c of the wave speed, at least k_el.
     pub wave_modulus: R,
-    /// Where the point is neither failed before nor flawed, so that its state is a new one.
+    /// The latch, or NaN where the point cannot be evaluated; why is the [`verdict`](Hyperelastic::verdict).
+    pub standing: R,
+    /// Where the point has neither failed before nor is flawed, so that its state is a new one.
     pub new: R::Mask,
-    /// Where it cannot be evaluated; why is the [`verdict`](Hyperelastic::verdict).
-    pub flawed: R::Mask,
 }
 
 /// What a point remembers. Where its state is not new the energies, invariants and the index mean nothing: the old ones stand.
@@ -154,7 +154,7 @@ fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) ->
 /// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
 #[derive(Clone, Copy, Debug)]
 pub struct Kirchhoff<R> {
-    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/4)(2 I_td/ŝ), k_ld/λ²: the factors of the four modes in τ.
+    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/2)(I_td/ŝ), k_ld/λ²: the factors of the four modes in τ.
     pub tension: R,
     pub pressure: R,
     pub distortion: R,
@@ -208,13 +208,13 @@ impl<R: Real> Hyperelastic<R> {
     #[inline(always)]
     pub fn kirchhoff(&self, d: &Stretch<R>, strain: &Strain<R>, power: R) -> Kirchhoff<R> {
         let zero = R::splat(0.0);
-        let powered = self.k_tc * power;
         Kirchhoff {
             tension: self.k_el * strain.i_el.max(zero),
-            pressure: R::splat(0.5) * self.p * powered,
-            distortion: R::splat(0.25) * self.k_td * strain.distortion_ratio,
+            pressure: R::splat(0.5) * self.p * self.k_tc * power,
+            distortion: R::splat(0.5) * self.k_td * strain.distortion_ratio,
             shear: self.k_ld * d.inverse_square,
-            compaction_energy: powered * (-strain.i_tc).max(zero),
+            // The power is 0 where there is no compaction; the sum with +0 is never −0.
+            compaction_energy: (-(self.k_tc * power)).mul_add(strain.i_tc, zero),
         }
     }
 
@@ -229,8 +229,9 @@ impl<R: Real> Hyperelastic<R> {
     #[inline(always)]
     pub fn energies(&self, strain: &Strain<R>, i_ld: R, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
+        let elongation = strain.i_el.max(zero);
         [
-            half * k.tension * strain.i_el.max(zero),
+            half * self.k_el * elongation * elongation,
             k.compaction_energy,
             half * self.k_td * strain.i_td * strain.i_td,
             if shear { half * self.k_ld * i_ld * i_ld } else { zero },
@@ -244,7 +245,7 @@ impl<R: Real> Hyperelastic<R> {
     /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
     pub fn cauchy(&self, kinematics: Kinematics<'_, R>, k: &Kirchhoff<R>, intact: R::Mask, shear: bool) -> [R; 6] {
-        let Kinematics { stretch: d, section, images: [image_a, image_b], strain } = kinematics;
+        let Kinematics { stretch: d, section, images: [c, a, b], strain } = kinematics;
         let zero = R::splat(0.0);
         let distortion = k.distortion * d.inverse_jacobian;
         let deviator = section.x23_square.mul_add(strain.inverse_a_square, section.delta);
@@ -254,10 +255,9 @@ impl<R: Real> Hyperelastic<R> {
         // Where all three factors are zero, so is the stress: the sum with +0 is never −0.
         let factor = |x: R| R::select(intact, x, zero);
         let (across, along_fibre) = (factor(across), factor(along_fibre));
-        let (c, w) = (d.c1, scale(along_fibre, d.c1));
+        let w = scale(along_fibre, c);
         let share = factor(distortion * strain.inverse_a_square);
-        let a = *image_a;
-        let v = along(scale(share * section.delta, a), share * section.x23, *image_b);
+        let v = along(scale(share * section.delta, a), share * section.x23, b);
         let mut stress = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),
@@ -268,7 +268,7 @@ impl<R: Real> Hyperelastic<R> {
         ];
         if shear {
             let factor = factor(k.shear * d.inverse_square * d.inverse_jacobian);
-            let u = along(scale(factor * d.h[0], *image_a), factor * d.h[1], *image_b);
+            let u = along(scale(factor * d.h[0], a), factor * d.h[1], b);
             for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
                 stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
             }
@@ -298,7 +298,7 @@ impl<R: Real> Hyperelastic<R> {
     /// NaN) and the latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be
     /// computed.
     ///
-    /// No NaN or infinity leaves in the wave modulus, and none in the rest but where the point is flawed.
+    /// No NaN or infinity leaves in the wave modulus, and none in the rest but where the point cannot be evaluated.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub fn respond(
@@ -313,21 +313,23 @@ impl<R: Real> Hyperelastic<R> {
     ) -> Response<R> {
         let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
-        let intact = Failure::intact(latch);
+        // A latch that is NaN, or made so, is not intact.
+        let mut standing = latch + doubt;
+        let intact = Failure::intact(standing);
         let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
 
-        // Whether all that was asked for is a finite number: their sum times zero is zero. With the bounds of the properties
+        // Whether all that was asked for is a finite number: zero times that is zero. With the bounds of the properties
         // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
         // A compaction energy that does not fit shows in the stress, if that is asked for.
-        let mut probe = doubt;
         if !R::HEADROOM || shear {
-            probe = probe + ((stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]));
+            let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
+            standing = sum.mul_add(zero, standing);
             if request.energies && !request.stress {
-                probe = probe + k.compaction_energy;
+                standing = k.compaction_energy.mul_add(zero, standing);
             }
         }
         if request.energies && shear {
-            probe = probe + self.energies(strain, d.shear_invariant(), k, shear)[3];
+            standing = self.energies(strain, d.shear_invariant(), k, shear)[3].mul_add(zero, standing);
         }
         let mut modes = [[zero; 6]; 4];
         let mut wave = self.k_el;
@@ -336,22 +338,21 @@ impl<R: Real> Hyperelastic<R> {
             if request.modes {
                 modes = self.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {
-                    probe = x.mul_add(zero, probe);
+                    standing = x.mul_add(zero, standing);
                 }
             }
             if request.wave_modulus {
                 wave = self.wave_modulus(&decomposition, strain, k);
-                probe = wave.mul_add(zero, probe);
+                standing = wave.mul_add(zero, standing);
             }
         }
-        let regular = (probe * zero).le(zero);
-        let new = intact & regular;
+        let new = Failure::intact(standing);
         if request.modes {
             for x in modes.iter_mut().flatten() {
                 *x = R::select(new, *x, zero);
             }
         }
-        Response { stress, modes, wave_modulus: R::select(new, wave, self.k_el), new, flawed: !regular }
+        Response { stress, modes, wave_modulus: R::select(new, wave, self.k_el), standing, new }
     }
 
     /// What a point remembers, given where its state is a new one. No NaN or infinity leaves in the latch.
@@ -373,7 +374,7 @@ impl<R: Real> Hyperelastic<R> {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
             invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
             failure_index: index,
-            failed: R::select(Failure::intact(latch), R::select(new & Failure::reached(index), one, zero), one),
+            failed: R::select(!Failure::intact(latch) | (new & Failure::reached(index)), one, zero),
         }
     }
 

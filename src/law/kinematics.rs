@@ -34,6 +34,11 @@ const NEAR_REFERENCE: f64 = 0.16;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
 pub trait Axes<R: Real>: Copy {
+    /// What of the axes' images is worth keeping where F itself is at hand.
+    type Kept: Copy;
+    fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept;
+    /// What [`Stretch::new`] has said of the images, from what was kept or from F.
+    fn recall(&self, kept: &Self::Kept, f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3];
     /// The images of the axes under the matrix of these columns.
     fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3];
     /// `v + s n_axis`, counted from 0.
@@ -47,6 +52,14 @@ pub trait Axes<R: Real>: Copy {
 pub struct FirstAxis;
 
 impl<R: Real> Axes<R> for FirstAxis {
+    type Kept = ();
+    #[inline(always)]
+    fn keep(&self, _: [[R; 3]; 3]) {}
+    #[inline(always)]
+    fn recall(&self, (): &(), f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3] {
+        // Near the reference these differences are exact, elsewhere they change nothing.
+        [f[0], self.shifted(f[1], -d.sigma, 1), self.shifted(f[2], -d.sigma, 2)]
+    }
     #[inline(always)]
     fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         *columns
@@ -118,6 +131,15 @@ impl<R: Real> FibreFrame<R> {
 }
 
 impl<R: Real> Axes<R> for FibreFrame<R> {
+    type Kept = [[R; 3]; 3];
+    #[inline(always)]
+    fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept {
+        images
+    }
+    #[inline(always)]
+    fn recall(&self, kept: &Self::Kept, _: &[[R; 3]; 3], _: &Stretch<R>) -> [[R; 3]; 3] {
+        *kept
+    }
     #[inline(always)]
     fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
         [image(columns, self.m), image(columns, self.t1), image(columns, self.t2)]
@@ -135,8 +157,6 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
 /// What the fibre and its image say, and F in the fibre's axes.
 #[derive(Clone, Copy)]
 pub struct Stretch<R: Real> {
-    /// Image of the fibre direction.
-    pub c1: [R; 3],
     /// 1 near the reference, else 0.
     sigma: R,
     near: R::Mask,
@@ -154,11 +174,11 @@ pub struct Stretch<R: Real> {
 }
 
 impl<R: Real> Stretch<R> {
-    /// Of `f` (columns of F) in the material axes; with it (F − σ1) t1 and (F − σ1) t2, which the section is made of.
+    /// Of `f` (columns of F) in the material axes; with it F m, (F − σ1) t1 and (F − σ1) t2, which the section is made of.
     ///
     /// Meaningful where [`Strain::doubt`] says so; what other points give must be masked out by the caller.
     #[inline(always)]
-    pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
+    pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 3]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
 
         // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
@@ -173,16 +193,15 @@ impl<R: Real> Stretch<R> {
         let sigma = R::select(near, one, zero);
 
         let columns = [
-            [R::select(near, h[0], f[0][0]), f[0][1], f[0][2]],
-            [f[1][0], R::select(near, h[1], f[1][1]), f[1][2]],
-            [f[2][0], f[2][1], R::select(near, h[2], f[2][2])],
+            [f[0][0] - sigma, f[0][1], f[0][2]],
+            [f[1][0], f[1][1] - sigma, f[1][2]],
+            [f[2][0], f[2][1], f[2][2] - sigma],
         ];
         let [g1, g2, g3] = n.images(&columns);
         let c1 = n.shifted(g1, sigma, 0);
         let u11 = dot(g1, n.shifted(c1, sigma, 0));
         let square = sigma + u11;
         let stretch = Stretch {
-            c1,
             sigma,
             near,
             size,
@@ -193,7 +212,7 @@ impl<R: Real> Stretch<R> {
             lost: u11 - (square - sigma),
             h: [sigma.mul_add(n.component(g1, 1), dot(c1, g2)), sigma.mul_add(n.component(g1, 2), dot(c1, g3))],
         };
-        (stretch, [g2, g3])
+        (stretch, [c1, g2, g3])
     }
 }
 
@@ -223,13 +242,13 @@ pub struct Section<R: Real> {
 }
 
 impl<R: Real> Section<R> {
-    /// Given (F − σ1) t1 and (F − σ1) t2; with it a and b, the images of the transverse axes less their parts along the
+    /// Given F m, (F − σ1) t1 and (F − σ1) t2; with it a and b, the images of the transverse axes less their parts along the
     /// fibre's.
     #[inline(always)]
-    pub fn new<A: Axes<R>>(d: &Stretch<R>, [g2, g3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
+    pub fn new<A: Axes<R>>(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
-        let delta_2 = along(g2, -(d.h[0] * d.inverse_square), d.c1);
-        let delta_3 = along(g3, -(d.h[1] * d.inverse_square), d.c1);
+        let delta_2 = along(g2, -(d.h[0] * d.inverse_square), c1);
+        let delta_3 = along(g3, -(d.h[1] * d.inverse_square), c1);
         let a = n.shifted(delta_2, d.sigma, 1);
         let b = n.shifted(delta_3, d.sigma, 2);
 
@@ -253,7 +272,7 @@ impl<R: Real> Section<R> {
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
             inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
-            lost: d.sigma * (growth - (area_square - one)),
+            lost: R::select(d.near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a, b])
     }
@@ -308,7 +327,7 @@ pub struct Strain<R> {
     pub i_el: R,
     pub i_tc: R,
     pub i_td: R,
-    /// 2 I_td/ŝ.
+    /// I_td/ŝ.
     pub distortion_ratio: R,
     /// 1/(a·a), for the stress.
     pub inverse_a_square: R,
@@ -331,11 +350,11 @@ impl<R: Real> Strain<R> {
             let (over_1, over_2) = (inverse_2 * l.area.denominator(), inverse_2 * l.stretch.denominator());
             [over_1, over_2, inverse_3 * l.product_2, l.inverse * l.product_3]
         };
-        let (asinh, distortion_ratio) = l.distortion.finish([over_3, over_4]);
+        let (i_td, distortion_ratio) = l.distortion.finish([over_3, over_4]);
         Strain {
             i_el: half * l.stretch.finish(over_1, d.lost, d.inverse_square),
             i_tc: R::splat(0.25) * l.area.finish(over_2, section.lost, section.inverse_area_square),
-            i_td: half * asinh,
+            i_td,
             distortion_ratio,
             inverse_a_square: R::splat(1.0) / section.a_square,
             doubt: l.doubt,
@@ -348,8 +367,8 @@ impl<R: Real> Strain<R> {
 pub struct Kinematics<'a, R: Real> {
     pub stretch: &'a Stretch<R>,
     pub section: &'a Section<R>,
-    /// a and b.
-    pub images: &'a [[R; 3]; 2],
+    /// F m, a and b.
+    pub images: [[R; 3]; 3],
     pub strain: &'a Strain<R>,
 }
 
@@ -388,12 +407,12 @@ pub struct Decomposition<R> {
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
     pub fn new(kinematics: Kinematics<'_, R>) -> Self {
-        Decomposition::of(kinematics.stretch, kinematics.section, &kinematics.images[0])
+        Decomposition::of(kinematics.stretch, kinematics.section, &kinematics.images)
     }
 
     /// Likewise, before the strains are known.
     #[inline(always)]
-    pub fn of(d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Self {
+    pub fn of(d: &Stretch<R>, section: &Section<R>, [c1, a, _]: &[[R; 3]; 3]) -> Self {
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();
@@ -402,7 +421,7 @@ impl<R: Real> Decomposition<R> {
         let inverse_area = one / area_ratio;
         let r12 = section.x23 * inverse_r11;
         Decomposition {
-            e: scale(inverse_lambda, d.c1),
+            e: scale(inverse_lambda, *c1),
             q1: scale(inverse_r11, *a),
             lambda,
             inverse_lambda,

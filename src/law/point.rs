@@ -32,7 +32,7 @@ pub trait Derivative<const N: usize>: Copy {
     /// What the tangent needs and can be had before the invariants.
     type Early<R: Real>;
 
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Self::Early<R>;
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Self::Early<R>;
 
     /// What is wanted of the law itself.
     fn request(self) -> Request;
@@ -72,7 +72,7 @@ impl Derivative<0> for Alone {
     type Early<R: Real> = ();
 
     #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[R; 3]) {}
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
 
     #[inline(always)]
     fn request(self) -> Request {
@@ -97,7 +97,7 @@ impl Derivative<0> for StressAndState {
     type Early<R: Real> = ();
 
     #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[R; 3]) {}
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
 
     #[inline(always)]
     fn request(self) -> Request {
@@ -250,10 +250,11 @@ impl<R: Real> Hyperelastic<R> {
         R: Single<T>,
     {
         let (stretch, images) = Stretch::new(f, axes);
-        let (section, images) = Section::new(&stretch, images, axes);
-        let early = tangent.early(&stretch, &section, &images[0]);
+        let (section, [a, b]) = Section::new(&stretch, images, axes);
+        let images = [images[0], a, b];
+        let early = tangent.early(&stretch, &section, &images);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-        let kinematics = Kinematics { stretch: &stretch, section: &section, images: &images, strain: &strain };
+        let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
         let k = self.kirchhoff_of(kinematics);
         let request = tangent.request();
         let tangent = tangent.of(self, kinematics, &k, frame, &early, shear);

@@ -3,7 +3,7 @@
 //! Every formula of the law is generic over [`Real`], so that a scalar call and a block of points run the same
 //! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
 
-use super::elementary::{ARTANH_F32, ARTANH_F64, EXP_F32, EXP_F64, LN_F32, LN_F64};
+use super::elementary::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or several of them side by side.
@@ -28,7 +28,7 @@ pub trait Real:
     /// Whether what costs is the chain of operations, each of which waits for the one before, and not their number.
     const WAITS: bool = false;
     /// Coefficients of artanh, the logarithm and the exponential, see [`elementary`](super::elementary).
-    const ARTANH: &'static [f64];
+    const HALF_ARTANH: &'static [f64];
     const LN: &'static [f64];
     const EXP: &'static [f64];
 
@@ -156,7 +156,7 @@ macro_rules! scalar {
             const EPSILON: f64 = $t::EPSILON as f64;
             const SQUARES: (f64, f64) = $squares;
             const HEADROOM: bool = $headroom;
-            const ARTANH: &'static [f64] = &$artanh;
+            const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
 
@@ -233,10 +233,10 @@ scalar!(
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
     },
-    series: ARTANH_F64, LN_F64, EXP_F64
+    series: HALF_ARTANH_F64, LN_F64, EXP_F64
 );
 scalar!(
     f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15), headroom: false,
     difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
-    series: ARTANH_F32, LN_F32, EXP_F32
+    series: HALF_ARTANH_F32, LN_F32, EXP_F32
 );

@@ -192,7 +192,7 @@ impl<R: Real> Hyperelastic<R> {
         // term beside W1.
         let square = (d.s * d.s).max(R::splat(R::EPSILON));
         // a/s and x a/s.
-        let ratio = strain.distortion_ratio * d.area_ratio;
+        let ratio = R::splat(2.0) * strain.distortion_ratio * d.area_ratio;
         let stiffness = d.cosh * ratio;
         let distortion = quarter * self.k_td * over;
         let elongation = self.k_el * (one - R::splat(2.0) * strain.i_el);
@@ -407,8 +407,8 @@ impl Derivative<21> for Six {
     type Early<R: Real> = Decomposition<R>;
 
     #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
-        Decomposition::of(d, section, a)
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
+        Decomposition::of(d, section, images)
     }
 
     #[inline(always)]
@@ -438,8 +438,13 @@ impl Derivative<21> for Jaumann {
     type Early<R: Real> = (Decomposition<R>, Bases<R>);
 
     #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> (Decomposition<R>, Bases<R>) {
-        let d = Decomposition::of(d, section, a);
+    fn early<R: Real>(
+        self,
+        d: &Stretch<R>,
+        section: &Section<R>,
+        images: &[[R; 3]; 3],
+    ) -> (Decomposition<R>, Bases<R>) {
+        let d = Decomposition::of(d, section, images);
         (d, Bases::new(&d))
     }
 
@@ -470,8 +475,8 @@ impl Derivative<81> for Nine {
     type Early<R: Real> = Decomposition<R>;
 
     #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, a: &[R; 3]) -> Decomposition<R> {
-        Decomposition::of(d, section, a)
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
+        Decomposition::of(d, section, images)
     }
 
     #[inline(always)]

@@ -60,7 +60,7 @@ impl Real for Dual {
     const EPSILON: f64 = <f64 as Real>::EPSILON;
     const SQUARES: (f64, f64) = <f64 as Real>::SQUARES;
     const HEADROOM: bool = <f64 as Real>::HEADROOM;
-    const ARTANH: &'static [f64] = <f64 as Real>::ARTANH;
+    const HALF_ARTANH: &'static [f64] = <f64 as Real>::HALF_ARTANH;
     const LN: &'static [f64] = <f64 as Real>::LN;
     const EXP: &'static [f64] = <f64 as Real>::EXP;
 

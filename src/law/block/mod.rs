@@ -272,18 +272,18 @@ impl<T: Precision> Hyperelastic<T> {
         let mut block = *block;
         // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
         unsafe {
-            block.start_fresh();
+            block.take_over();
             Ok(T::dispatch(level, self, &block, request))
         }
     }
 }
 
 impl<T: Precision> Pointers<T> {
-    /// Where there is no old state, makes one of zeros in the arrays of the new: the loops need not ask for it.
+    /// Brings the old state, or zeros where there is none, to the arrays of the new one: the loops work in place.
     ///
     /// # Safety
     /// As for [`Hyperelastic::raw_block`].
-    unsafe fn start_fresh(&mut self) {
+    unsafe fn take_over(&mut self) {
         let (n, stride) = (self.n, self.leading_dimension);
         let groups = [
             (&mut self.energies_old, self.energies, 4),
@@ -291,13 +291,19 @@ impl<T: Precision> Pointers<T> {
             (&mut self.failure_old, self.failure, 3),
         ];
         for (old, new, components) in groups {
-            if old.is_null() && !new.is_null() {
-                for c in 0..components {
-                    // SAFETY: the caller's promise; a number whose bytes are all 0 is 0.
-                    unsafe { new.add(c * stride).write_bytes(0, n) };
-                }
-                *old = new;
+            if new.is_null() || old.cast_mut() == new {
+                continue;
             }
+            for c in 0..components {
+                // SAFETY: the caller's promise: arrays that are not the same do not overlap. A number whose bytes are all 0 is 0.
+                unsafe {
+                    match old.is_null() {
+                        true => new.add(c * stride).write_bytes(0, n),
+                        false => new.add(c * stride).copy_from_nonoverlapping(old.add(c * stride), n),
+                    }
+                }
+            }
+            *old = new;
         }
     }
 }
@@ -354,6 +360,15 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store(self, to: *mut T);
+    /// Stores the points for which a mask holds.
+    ///
+    /// # Safety
+    /// `to` points to `COUNT` values.
+    #[inline(always)]
+    unsafe fn store_where(self, mask: Self::Mask, to: *mut T) {
+        // SAFETY: the caller's promise.
+        unsafe { Self::select(mask, self, Self::load(to)).store(to) }
+    }
     /// Stores small integers.
     ///
     /// # Safety
@@ -564,7 +579,14 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
         while i < part.n {
             let count = STAGED.min((part.n - i) / R::COUNT);
             // SAFETY: i + count COUNT ≤ n, and the caller's promise.
-            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
+            unsafe {
+                // The widest registers are worth loops of their own whose length is known.
+                if size_of::<R>() == 64 && count == STAGED {
+                    evaluate::<T, R, WANT>(&lanes, &part, i, STAGED, &mut worst);
+                } else {
+                    evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst);
+                }
+            }
             i += count * R::COUNT;
         }
         if left_over.count > 0 {
@@ -677,21 +699,23 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     axes: impl Fn(usize) -> (A, Option<R::Mask>),
     worst: &mut R,
 ) {
-    let (mut stretches, mut sections, mut images) = (Stage::new(), Stage::new(), Stage::new());
+    let (mut stretches, mut sections, mut kept, mut images) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
-    let mut any_strange = zero.lt(zero);
+    let mut trouble = zero;
     let at = |k: usize| i + k * R::COUNT;
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the ones before have put.
     unsafe {
         for k in 0..count {
-            let (stretch, vectors) = Stretch::new(&gradient(block, at(k)), &axes(k).0);
+            let n = axes(k).0;
+            let (stretch, vectors) = Stretch::new(&gradient(block, at(k)), &n);
             stretches.put(k, stretch);
-            images.put(k, vectors);
+            kept.put(k, n.keep(vectors));
         }
         for k in 0..count {
-            let (section, vectors) = Section::new(stretches.get(k), *images.get(k), &axes(k).0);
+            let (n, d) = (axes(k).0, stretches.get(k));
+            let (section, vectors) = Section::new(d, n.recall(kept.get(k), &gradient(block, at(k)), d), &n);
             sections.put(k, section);
             images.put(k, vectors);
         }
@@ -718,33 +742,33 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
                 Some(usable) => R::select(usable, strains.get(k).doubt, R::splat(f64::NAN)),
                 None => strains.get(k).doubt,
             };
-            let kinematics = Kinematics {
-                stretch: stretches.get(k),
-                section: sections.get(k),
-                images: images.get(k),
-                strain: strains.get(k),
-            };
+            let d = stretches.get(k);
+            let [fibre, ..] = axes(k).0.recall(kept.get(k), &gradient(block, at(k)), d);
+            let &[a, b] = images.get(k);
+            let kinematics =
+                Kinematics { stretch: d, section: sections.get(k), images: [fibre, a, b], strain: strains.get(k) };
             let outcome = finish::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, doubt);
-            any_strange = any_strange | outcome.flawed;
             outcomes.put(k, outcome);
+        }
+        for k in 0..count {
+            trouble = probe::<T, R, WANT>(block, at(k), outcomes.get(k).standing, trouble);
+        }
+        // What is strange is rare.
+        if R::any(!(trouble * zero).le(zero)) {
+            for k in 0..count {
+                let usable = axes(k).1.unwrap_or(zero.le(zero));
+                *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
+            }
         }
         if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
             for k in 0..count {
                 let (d, strain) = (stretches.get(k), strains.get(k));
-                let wrong = remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
-                any_strange = any_strange | wrong;
+                remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
             }
         }
         if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
                 drop_tangent(block, at(k), outcomes.get(k));
-            }
-        }
-        // Points that failed before are nothing strange; what is, is rare.
-        if R::any(any_strange) {
-            for k in 0..count {
-                let usable = axes(k).1.unwrap_or(zero.le(zero));
-                *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
             }
         }
     }
@@ -801,11 +825,10 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
     }
 }
 
-/// Where points have a new state, where they are flawed, and the latch of the old state.
+/// Where points have a new state, and how they stand: the latch of the old state, NaN where they are flawed.
 struct Outcome<R: Real> {
     new: R::Mask,
-    flawed: R::Mask,
-    latch: R,
+    standing: R,
 }
 
 /// The stress, stored; flawed points still want theirs. The state is stored apart from it: a processor keeps at hand the places
@@ -831,8 +854,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
-        let latched = if asked { !block.failure_old.is_null() } else { WANT & HISTORY != 0 };
-        let latch = if latched { R::load(block.failure_old.add(stride + i)) } else { zero };
+        let latch = latch::<T, R, WANT>(block, i);
         // The modes and the tangent alone want the frame again.
         let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
@@ -861,8 +883,22 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
         if !asked || !block.status.is_null() {
             zero.store_integers(block.status.add(i));
         }
-        Outcome { new: r.new, flawed: r.flawed, latch }
+        Outcome { new: r.new, standing: r.standing }
     }
+}
+
+/// The latch of the old state.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> R {
+    let asked = WANT & AS_ASKED != 0;
+    if if asked { block.failure_old.is_null() } else { WANT & HISTORY == 0 } {
+        return R::splat(0.0);
+    }
+    // SAFETY: the caller's promise.
+    unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
 }
 
 /// Whether a kernel is asked for the tangent: only those that ask, and are not built for an aligned fibre, ever are.
@@ -922,7 +958,33 @@ unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize,
     }
 }
 
-/// Stores what the points remember. Returns where something is kept that is not finite.
+/// A number that is finite, but for rare overflows, only where a point is not flawed and all that it might keep is finite.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`finish`].
+#[inline(always)]
+unsafe fn probe<T: Precision, R: Lanes<T>, const WANT: u8>(
+    block: &Pointers<T>,
+    i: usize,
+    standing: R,
+    trouble: R,
+) -> R {
+    let request = request::<T, WANT>(block);
+    // SAFETY: the arrays have the component, and the lanes from i on.
+    let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
+    let mut product = if request.failure { old(block.failure, 0) } else { standing };
+    for c in 0..4 {
+        match (request.energies, request.invariants) {
+            (true, true) => product = old(block.energies, c).mul_add(old(block.invariants, c), product),
+            (true, false) => product = product + old(block.energies, c),
+            (false, true) => product = product + old(block.invariants, c),
+            (false, false) => {}
+        }
+    }
+    if request.failure { trouble + standing + product } else { trouble + product }
+}
+
+/// Stores what the points remember that have a new state, and whether they have failed.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
@@ -935,44 +997,30 @@ unsafe fn remember<T: Precision, R: Lanes<T>, const WANT: u8>(
     strain: &Strain<R>,
     power: R,
     outcome: &Outcome<R>,
-) -> R::Mask {
+) {
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
-    let k = law.kirchhoff(d, strain, power);
-    let r = law.history(strain, d.shear_invariant(), &k, outcome.new, outcome.latch, request, WANT & SHEAR != 0);
-    let keep = |x: R, old: *const T, new: *mut T, c: usize| {
-        let at = c * stride + i;
-        // SAFETY: the arrays have the component, and the lanes from i on.
-        unsafe {
-            let kept = R::select(outcome.new, x, R::load(old.add(at)));
-            kept.store(new.add(at));
-            kept
+    // SAFETY: the arrays have the components, and the lanes from i on.
+    unsafe {
+        let latch = latch::<T, R, WANT>(block, i);
+        let k = law.kirchhoff(d, strain, power);
+        let r = law.history(strain, d.shear_invariant(), &k, outcome.new, latch, request, WANT & SHEAR != 0);
+        if request.energies {
+            for (c, energy) in r.energies.into_iter().enumerate() {
+                energy.store_where(outcome.new, block.energies.add(c * stride + i));
+            }
         }
-    };
-    // Products of what is kept: finite, but for rare overflows, only where all of it is.
-    let (zero, mut probe) = (R::splat(0.0), outcome.latch);
-    let mut energies = [zero; 4];
-    if request.energies {
-        for (c, energy) in energies.iter_mut().enumerate() {
-            *energy = keep(r.energies[c], block.energies_old, block.energies, c);
+        if request.invariants {
+            for (c, invariant) in r.invariants.into_iter().enumerate() {
+                invariant.store_where(outcome.new, block.invariants.add(c * stride + i));
+            }
         }
-    }
-    if request.invariants {
-        for (c, &energy) in energies.iter().enumerate() {
-            probe = keep(r.invariants[c], block.invariants_old, block.invariants, c).mul_add(energy, probe);
-        }
-    } else {
-        probe = energies[0].mul_add(energies[1], energies[2].mul_add(energies[3], probe));
-    }
-    if request.failure {
-        probe = keep(r.failure_index, block.failure_old, block.failure, 0).mul_add(outcome.latch, probe);
-        // SAFETY: likewise.
-        unsafe {
+        if request.failure {
+            r.failure_index.store_where(outcome.new, block.failure.add(i));
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
     }
-    !outcome.new & !(probe * zero).le(zero)
 }
 
 /// Has the processor fetch what [`remember`] will store to.
@@ -989,7 +1037,7 @@ fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
 /// the worst code.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`remember`].
+/// As for [`sweep`], for the lanes from i on, after [`finish`] and before [`remember`].
 #[inline(always)]
 unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -1002,6 +1050,8 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
 ) -> R {
     let (zero, stride) = (R::splat(0.0), block.leading_dimension);
     let request = request::<T, WANT>(block);
+    // SAFETY: the caller's promise.
+    let latch = unsafe { latch::<T, R, WANT>(block, i) };
     let mut dropped = zero.lt(zero);
     let mut clean = |array: *mut T, c: usize| {
         // SAFETY: the array has the component, and the lanes from i on.
@@ -1033,7 +1083,7 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
                 R::select(outcome.new, R::load(place.add(i)), zero).store(place.add(i));
             }
         }
-        let code = law.verdict(&gradient(block, i), d, usable, outcome.latch);
+        let code = law.verdict(&gradient(block, i), d, usable, latch);
         let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
         let code = R::select(outcome.new, zero, code);
         if WANT & AS_ASKED == 0 || !block.status.is_null() {

@@ -11,7 +11,7 @@ use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::Lanes;
-use crate::law::elementary::{ARTANH_F32, ARTANH_F64, EXP_F32, EXP_F64, LN_F32, LN_F64};
+use crate::law::elementary::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
 use crate::law::real::{Real, Single};
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
@@ -33,7 +33,8 @@ macro_rules! register {
         scale ($px:ident, $pk:ident) $scale:expr;
         reciprocal ($rx:ident) $reciprocal:expr;
         quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
-        series $artanh:ident $ln:ident $exp:ident $(; waits $waits:literal)?
+        series $artanh:ident $ln:ident $exp:ident
+        $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)? $(; waits $waits:literal)?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -97,7 +98,7 @@ macro_rules! register {
             const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
             const HEADROOM: bool = <$t as Real>::HEADROOM;
             $(const WAITS: bool = $waits;)?
-            const ARTANH: &'static [f64] = &$artanh;
+            const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
 
@@ -229,6 +230,14 @@ macro_rules! register {
                 // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
                 unsafe { $store(to, self.0) }
             }
+            $(
+                #[inline(always)]
+                unsafe fn store_where(self, $wm: $mask, $wto: *mut $t) {
+                    let $wx = self.0;
+                    // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
+                    unsafe { $store_where }
+                }
+            )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
@@ -379,7 +388,7 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, _r) x / divisor;
-    series ARTANH_F64 LN_F64 EXP_F64
+    series HALF_ARTANH_F64 LN_F64 EXP_F64
 }
 
 register! {
@@ -399,7 +408,7 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, _r) x / divisor;
-    series ARTANH_F32 LN_F32 EXP_F32
+    series HALF_ARTANH_F32 LN_F32 EXP_F32
 }
 
 register! {
@@ -419,7 +428,7 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series ARTANH_F64 LN_F64 EXP_F64
+    series HALF_ARTANH_F64 LN_F64 EXP_F64
 }
 
 register! {
@@ -439,7 +448,7 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series ARTANH_F32 LN_F32 EXP_F32
+    series HALF_ARTANH_F32 LN_F32 EXP_F32
 }
 
 register! {
@@ -465,7 +474,8 @@ register! {
     // SAFETY: as for the registers.
     reciprocal (x) refined_reciprocal::<_, 3>(x, F64x8(unsafe { _mm512_rcp14_pd(x.0) }));
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series ARTANH_F64 LN_F64 EXP_F64
+    series HALF_ARTANH_F64 LN_F64 EXP_F64;
+    store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x)
 }
 
 register! {
@@ -491,7 +501,8 @@ register! {
     // SAFETY: as for the registers.
     reciprocal (x) refined_reciprocal::<_, 1>(x, F32x16(unsafe { _mm512_rcp14_ps(x.0) }));
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series ARTANH_F32 LN_F32 EXP_F32
+    series HALF_ARTANH_F32 LN_F32 EXP_F32;
+    store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x)
 }
 
 register! {
@@ -512,7 +523,7 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series ARTANH_F64 LN_F64 EXP_F64;
+    series HALF_ARTANH_F64 LN_F64 EXP_F64;
     waits true
 }
 
