@@ -16,8 +16,7 @@ use super::failure::Failure;
 use super::kinematics::FibreFrame;
 pub use super::linear_tangent::LinearTangent;
 use super::matrix::{
-    Matrix, cofactors, combined, difference, is_finite, product, scaled, selected, shifted, square_norm, transposed,
-    transposed_product,
+    Matrix, cofactors, difference, is_finite, product, scaled, selected, square_norm, sum, transposed,
 };
 use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
 use super::real::{Real, along, cross, dot, image, scale};
@@ -230,10 +229,10 @@ impl<R: Real> LinearElastic<R> {
             Rotation::Spin => (*axes, spun(axes, &change)),
         };
         let turn = difference(&q1, &q0);
-        let [skew, square] = [transposed_product(&q1, &turn), transposed_product(&turn, &turn)];
-        let turn = combined(half, &difference(&transposed(&skew), &skew), -half, &square);
-        let local = transposed_product(&q1, &product(&change, &q0));
-        let local = combined(R::splat(1.0), &local, R::splat(1.0), &turn);
+        let back = transposed(&q1);
+        let [skew, square] = [product(&back, &turn), product(&transposed(&turn), &turn)];
+        let local = sum(&product(&back, &product(&change, &q0)), -half, &square);
+        let local = sum(&local, half, &difference(&transposed(&skew), &skew));
         let (rate, settled) = logarithm(&local, able);
         let strain = [
             rate[0][0],
@@ -334,35 +333,37 @@ impl Answer<f64> {
 /// The axes that follow the fibre: F m, and F n less its part along it.
 #[inline(always)]
 fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
-    let unit = |v: [R; 3]| scale(dot(v, v).sqrt().reciprocal(), v);
-    let e1 = unit(image(f, axes[0]));
-    let second = image(f, axes[1]);
+    let (e1, second) = (unit(image(f, axes[0])), image(f, axes[1]));
     let e2 = unit(along(second, -dot(e1, second), e1));
     [e1, e2, cross(e1, e2)]
+}
+
+#[inline(always)]
+fn unit<R: Real>(v: [R; 3]) -> [R; 3] {
+    scale(dot(v, v).sqrt().reciprocal(), v)
 }
 
 /// The axes turned by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ they turn by
 /// (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
 #[inline(always)]
 fn spun<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
-    let half = R::splat(0.5);
     let g = half_gradient(increment);
-    let w = [half * (g[1][2] - g[2][1]), half * (g[2][0] - g[0][2]), half * (g[0][1] - g[1][0])];
+    let w = scale(R::splat(0.5), [g[1][2] - g[2][1], g[2][0] - g[0][2], g[0][1] - g[1][0]]);
     let factor = R::splat(2.0) / (R::splat(1.0) + dot(w, w));
-    let turned = |axis: [R; 3]| {
-        let once = cross(w, axis);
-        along(along(axis, factor, once), factor, cross(w, once))
-    };
-    [turned(axes[0]), turned(axes[1]), turned(axes[2])]
+    let once = [cross(w, axes[0]), cross(w, axes[1]), cross(w, axes[2])];
+    let twice = [cross(w, once[0]), cross(w, once[1]), cross(w, once[2])];
+    sum(&sum(axes, factor, &once), factor, &twice)
 }
 
-/// The rotation R of F = R U, det F > 0, where `able`: by Newton's iteration X ← ½(γX + X⁻ᵀ/γ), γ² the ratio of the norms.
+/// The rotation R of F = R U, det F > 0, where `able`: by Newton's iteration X ← ½(γX + X⁻ᵀ/γ), γ² the ratio of the norms, or
+/// 1 once it is near, where a scale would only round (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
 #[inline(always)]
 fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
     /// The scale brings any stretch near within a few steps.
     const STEPS: usize = 20;
-    let (half, precision) = (R::splat(0.5), R::splat(R::EPSILON));
-    let (mut x, mut open) = (*f, able);
+    const NEAR: f64 = 0.01;
+    let (half, one, precision) = (R::splat(0.5), R::splat(1.0), R::splat(R::EPSILON));
+    let (mut x, mut open, mut change) = (*f, able, one);
     for _ in 0..STEPS {
         if !R::any(open) {
             break;
@@ -370,9 +371,10 @@ fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
         let (determinant, minors) = cofactors(&x);
         let inverse = determinant.reciprocal();
         let ratio = ((square_norm(&minors) / square_norm(&x)).sqrt() * inverse).sqrt();
-        let next = combined(half * ratio, &x, half * inverse / ratio, &minors);
+        let ratio = R::select(change.lt(R::splat(NEAR)), one, ratio);
+        let next = sum(&scaled(half * ratio, &x), half * inverse / ratio, &minors);
         // Quadratic: what is left of the error is half the square of the change.
-        let change = square_norm(&difference(&next, &x));
+        change = square_norm(&difference(&next, &x));
         x = selected(open, &next, &x);
         open = open & precision.lt(change);
     }
@@ -382,7 +384,10 @@ fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
 /// Half the gradient of the increment 1 + X at the middle of the step: X (2 + X)⁻¹.
 #[inline(always)]
 fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
-    let (determinant, minors) = cofactors(&shifted(x, R::splat(2.0)));
+    let two = R::splat(2.0);
+    let [a, b, c] = *x;
+    let (determinant, minors) =
+        cofactors(&[[a[0] + two, a[1], a[2]], [b[0], b[1] + two, b[2]], [c[0], c[1], c[2] + two]]);
     let g = product(x, &transposed(&minors));
     scaled(determinant.reciprocal(), &g)
 }
@@ -391,14 +396,13 @@ fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
 #[inline(always)]
 fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;
-    let two = R::splat(2.0);
     let y = half_gradient(x);
     let square = product(&y, &y);
     let growth = square_norm(&square);
     let size = square_norm(&y);
     // Squares of norms; a term that cannot change a sixteenth of a rounding is left out, at each point by itself.
     let negligible = R::splat(R::EPSILON * R::EPSILON / 256.0) * size;
-    let (mut power, mut sum) = (y, y);
+    let (mut power, mut series) = (y, y);
     let mut next = size * growth;
     let mut open = able & negligible.lt(next);
     for k in 1..TERMS {
@@ -407,10 +411,10 @@ fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mas
         }
         let factor = R::splat(1.0 / f64::from(2 * k + 1));
         power = product(&power, &square);
-        sum = selected(open, &combined(factor, &power, R::splat(1.0), &sum), &sum);
+        series = sum(&series, R::select(open, factor, R::splat(0.0)), &power);
         next = R::select(open, factor * factor * square_norm(&power) * growth, next);
         open = open & negligible.lt(next);
     }
     let settled = next.le(negligible);
-    (scaled(two, &sum), settled)
+    (scaled(R::splat(2.0), &series), settled)
 }

@@ -2,8 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use super::kinematics::FibreFrame;
-use super::matrix::{Matrix, product, transposed};
+use super::matrix::{Matrix, product, select, transposed};
 use super::real::{Real, cross, dot, image};
 use super::tangent::Moduli;
 
@@ -106,41 +105,46 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
 /// The largest eigenvalue of a symmetric tensor 11 22 33 12 23 31, to within a few roundings of its norm.
 ///
 /// The eigenvalue that stands apart from the other two is a simple root of the characteristic equation, wherever those two
-/// are, and its axis a column of cofactors. What the tensor is along that axis and across it is then good to the square of the
-/// root's error (Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
+/// are, and its axis a column of cofactors; what the tensor is across that axis gives the other two, however near they are
+/// (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
 #[inline(always)]
 pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
     let size = s[0].abs().max(s[1].abs()).max(s[2].abs()).max(s[3].abs()).max(s[4].abs()).max(s[5].abs());
     let size = size.max(least);
-    let unit = R::splat(1.0) / size;
-    // The deviator over √(J2/3): its eigenvalues are 2 cos φ with cos 3φ half its determinant.
+    let unit = size.reciprocal();
+    // The deviator over p = √(J2/3): its eigenvalues are 2 cos φ, with cos 3φ half its determinant.
     let mean = (s[0] + s[1] + s[2]) * unit * R::splat(1.0 / 3.0);
     let [a, b, c] = [s[0].mul_add(unit, -mean), s[1].mul_add(unit, -mean), s[2].mul_add(unit, -mean)];
     let [d, e, f] = [s[3] * unit, s[4] * unit, s[5] * unit];
     let square = R::splat(1.0 / 6.0) * dot([a, b, c], [a, b, c]) + R::splat(1.0 / 3.0) * dot([d, e, f], [d, e, f]);
-    let scaling = R::splat(1.0) / square.max(least).sqrt();
+    let p = square.max(least).sqrt();
+    let scaling = p.reciprocal();
     let [a, b, c, d, e, f] = [a * scaling, b * scaling, c * scaling, d * scaling, e * scaling, f * scaling];
-    let determinant = dot([a, d, f], cross([d, b, e], [f, e, c]));
-    let apart = apart(half * determinant);
-    let columns = [[a - apart, d, f], [d, b - apart, e], [f, e, c - apart]];
-    let longer = |u: [R; 3], v: [R; 3]| {
-        let first = dot(v, v).le(dot(u, u));
-        [R::select(first, u[0], v[0]), R::select(first, u[1], v[1]), R::select(first, u[2], v[2])]
-    };
-    let [u, v, w] = [cross(columns[1], columns[2]), cross(columns[2], columns[0]), cross(columns[0], columns[1])];
-    let (axes, _) = FibreFrame::new(longer(longer(u, v), w));
-    let tensor = [[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]];
-    let alone = dot(axes.m, image(&tensor, axes.m));
-    let moved = image(&tensor, axes.t1);
-    let (p, q, shear) = (dot(axes.t1, moved), dot(axes.t2, image(&tensor, axes.t2)), dot(axes.t2, moved) * unit);
-    // Of the other two the larger one, exactly p or q where there is no shear.
-    let gap = half * (p - q).abs() * unit;
-    let excess = shear * shear / (gap + gap.mul_add(gap, shear * shear).sqrt()).max(least);
-    alone.max(excess.mul_add(size, p.max(q)))
+    let apart = apart(half * dot([a, d, f], cross([d, b, e], [f, e, c])));
+    let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
+    let axis = longer(longer(cross(v, w), cross(w, u)), cross(u, v));
+    let length = dot(axis, axis).sqrt();
+    let inverse = length.reciprocal();
+    // A quotient, so that the stress along one of the axes of reference stays exactly that.
+    let n = [axis[0].quotient(length, inverse), axis[1].quotient(length, inverse), axis[2].quotient(length, inverse)];
+    let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
+    // Less what it is along the axis and in the mean across it, the deviator is half the gap of the other two, twice.
+    let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
+    let along = [drop * n[0], drop * n[1], drop * n[2]];
+    let diagonal =
+        [along[0].mul_add(n[0], a + middle), along[1].mul_add(n[1], b + middle), along[2].mul_add(n[2], c + middle)];
+    let shear = [along[0].mul_add(n[1], d), along[1].mul_add(n[2], e), along[2].mul_add(n[0], f)];
+    let gap = half.mul_add(dot(diagonal, diagonal), dot(shear, shear)).sqrt();
+    alone.max(p.mul_add(gap - middle, mean) * size)
 }
 
-/// The solution x of x³ − 3x = 2r for |r| ≤ 1 that is farthest from the other two, to 1e-8.
+#[inline(always)]
+fn longer<R: Real>(u: [R; 3], v: [R; 3]) -> [R; 3] {
+    select(dot(v, v).le(dot(u, u)), u, v)
+}
+
+/// The solution x of x³ − 3x = 2r for |r| ≤ 1 that is farthest from the other two.
 #[inline(always)]
 fn apart<R: Real>(r: R) -> R {
     const ROOT: f64 = 1.732_050_807_568_877_2;
@@ -148,7 +152,7 @@ fn apart<R: Real>(r: R) -> R {
     let size = r.abs().min(one);
     // Newton's method from the chord of the solution, which goes from √3 at 0 to 2 at 1.
     let mut x = R::splat(2.0 - ROOT).mul_add(size, R::splat(ROOT));
-    for _ in 0..2 {
+    for _ in 0..3 {
         let square = x * x;
         x = x - (square - three).mul_add(x, -two * size) * (three * (square - one)).reciprocal();
     }
