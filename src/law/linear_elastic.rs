@@ -362,21 +362,21 @@ fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
     /// The scale brings any stretch near within a few steps.
     const STEPS: usize = 20;
     const NEAR: f64 = 0.01;
-    let (half, one, precision) = (R::splat(0.5), R::splat(1.0), R::splat(R::EPSILON));
-    let (mut x, mut open, mut change) = (*f, able, one);
+    let (half, one) = (R::splat(0.5), R::splat(1.0));
+    let (mut x, mut open) = (*f, able);
     for _ in 0..STEPS {
         if !R::any(open) {
             break;
         }
         let (determinant, minors) = cofactors(&x);
-        let inverse = determinant.reciprocal();
-        let ratio = ((square_norm(&minors) / square_norm(&x)).sqrt() * inverse).sqrt();
-        let ratio = R::select(change.lt(R::splat(NEAR)), one, ratio);
-        let next = sum(&scaled(half * ratio, &x), half * inverse / ratio, &minors);
-        // Quadratic: what is left of the error is half the square of the change.
-        change = square_norm(&difference(&next, &x));
+        let dual = scaled(determinant.reciprocal(), &minors);
+        let gap = square_norm(&difference(&x, &dual));
+        let ratio = (square_norm(&dual) / square_norm(&x)).sqrt().sqrt();
+        let ratio = R::select(gap.lt(R::splat(NEAR)), one, ratio);
+        let next = sum(&scaled(half * ratio, &x), half / ratio, &dual);
         x = selected(open, &next, &x);
-        open = open & precision.lt(change);
+        // Quadratic: what is left of the error is less than the square of the gap.
+        open = open & R::splat(R::EPSILON).lt(gap);
     }
     x
 }
