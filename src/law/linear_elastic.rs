@@ -16,7 +16,7 @@ use super::failure::Failure;
 use super::kinematics::FibreFrame;
 pub use super::linear_tangent::LinearTangent;
 use super::matrix::{
-    Matrix, cofactors, difference, is_finite, product, scaled, selected, square_norm, sum, transposed,
+    Matrix, cofactors, difference, is_finite, product, scaled, selected, square_norm, sum, transposed, unit,
 };
 use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
 use super::real::{Real, along, cross, dot, image, scale};
@@ -338,11 +338,6 @@ fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
     [e1, e2, cross(e1, e2)]
 }
 
-#[inline(always)]
-fn unit<R: Real>(v: [R; 3]) -> [R; 3] {
-    scale(dot(v, v).sqrt().reciprocal(), v)
-}
-
 /// The axes turned by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ they turn by
 /// (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
 #[inline(always)]
@@ -415,6 +410,6 @@ fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mas
         next = R::select(open, factor * factor * square_norm(&power) * growth, next);
         open = open & negligible.lt(next);
     }
-    let settled = next.le(negligible);
+    let settled = next.le(negligible) & next.lt(R::splat(f64::INFINITY));
     (scaled(R::splat(2.0), &series), settled)
 }

@@ -67,3 +67,11 @@ pub fn is_finite<R: Real>(a: &Matrix<R>) -> R::Mask {
     let nothing = along(along(scale(zero, a[0]), zero, a[1]), zero, a[2]);
     (nothing[0] + nothing[1] + nothing[2]).le(zero)
 }
+
+/// A vector over its length; along an axis exactly that axis, which a product with the reciprocal would not be.
+#[inline(always)]
+pub fn unit<R: Real>(v: [R; 3]) -> [R; 3] {
+    let length = dot(v, v).sqrt();
+    let inverse = length.reciprocal();
+    [v[0].quotient(length, inverse), v[1].quotient(length, inverse), v[2].quotient(length, inverse)]
+}

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use super::matrix::{Matrix, product, select, transposed};
+use super::matrix::{self, Matrix, product, select, transposed};
 use super::real::{Real, cross, dot, image};
 use super::tangent::Moduli;
 
@@ -123,11 +123,7 @@ pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let [a, b, c, d, e, f] = [a * scaling, b * scaling, c * scaling, d * scaling, e * scaling, f * scaling];
     let apart = apart(half * dot([a, d, f], cross([d, b, e], [f, e, c])));
     let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
-    let axis = longer(longer(cross(v, w), cross(w, u)), cross(u, v));
-    let length = dot(axis, axis).sqrt();
-    let inverse = length.reciprocal();
-    // A quotient, so that the stress along one of the axes of reference stays exactly that.
-    let n = [axis[0].quotient(length, inverse), axis[1].quotient(length, inverse), axis[2].quotient(length, inverse)];
+    let n = matrix::unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
     let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
     // Less what it is along the axis and in the mean across it, the deviator is half the gap of the other two, twice.
     let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
