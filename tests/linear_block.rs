@@ -78,6 +78,7 @@ fn troubled() -> Vec<Input> {
         diagonal(-1.0, -1.0, 1.0),
         diagonal(1e30, 1e30, 1e30),
         diagonal(1e-30, 1e-30, 1e-30),
+        diagonal(1e25, 1e-12, 1e-12),
         diagonal(f64::NAN, 1.0, 1.0),
         diagonal(1.0, f64::INFINITY, 1.0),
         [1.0, 0.0, f64::NEG_INFINITY, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
@@ -227,9 +228,9 @@ fn codes() {
                 } else if !finite(&input.f_old) || !finite(&input.f_new) || (spin && !finite(&input.axes)) {
                     status::NOT_FINITE
                 } else if huge {
-                    // Underflow and overflow make the determinant 0 or the increment no number.
+                    // Underflow and overflow make the determinant 0, the increment no number or the axes none.
                     assert!(
-                        [status::INVERTED, status::INCREMENT_TOO_LARGE].contains(&code),
+                        [status::INVERTED, status::OVERFLOW, status::INCREMENT_TOO_LARGE].contains(&code),
                         "{code} {call:?} {input:?}"
                     );
                     code

@@ -245,7 +245,9 @@ impl<R: Real> LinearElastic<R> {
         let (stress, state) = self.increase(&strain, half * (j0 + j1), old, criterion, wanted);
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
         let mut answer = Answer { stress, state, q0, q1, status: zero, taken: able };
-        answer.taken = upright & settled & answer.sound(old);
+        // Lengths whose squares leave the range give no axes.
+        let sized = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
+        answer.taken = upright & settled & sized & answer.sound(old);
         if R::any(!answer.taken) {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(settled, zero, code(status::INCREMENT_TOO_LARGE));
