@@ -252,7 +252,7 @@ impl<R: Real> LinearElastic<R> {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(settled, zero, code(status::INCREMENT_TOO_LARGE));
             let why = R::select(upright, why, code(status::INVERTED));
-            let finite = is_finite(f0) & is_finite(f1) & is_finite(&q0);
+            let finite = is_finite(f0) & is_finite(f1) & is_finite(axes);
             answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
         }
         answer
@@ -393,6 +393,8 @@ fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
 #[inline(always)]
 fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;
+    /// The square of a norm that no step comes near; beyond, rounding leaves little of (2 + X)⁻¹.
+    const LARGEST: f64 = 1e6;
     let y = half_gradient(x);
     let square = product(&y, &y);
     let growth = square_norm(&square);
@@ -412,6 +414,6 @@ fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mas
         next = R::select(open, factor * factor * square_norm(&power) * growth, next);
         open = open & negligible.lt(next);
     }
-    let settled = next.le(negligible) & next.lt(R::splat(f64::INFINITY));
+    let settled = next.le(negligible) & next.lt(R::splat(f64::INFINITY)) & square_norm(x).lt(R::splat(LARGEST));
     (scaled(R::splat(2.0), &series), settled)
 }
