@@ -95,6 +95,30 @@ module toron
     type(c_ptr) :: status = c_null_ptr
   end type
 
+  type, bind(c) :: toron_linear_block_f64
+    integer(c_size_t) :: n
+    integer(c_size_t) :: leading_dimension
+    type(c_ptr) :: f_old = c_null_ptr
+    type(c_ptr) :: f_new = c_null_ptr
+    type(c_ptr) :: axes = c_null_ptr
+    type(c_ptr) :: state_old = c_null_ptr
+    type(c_ptr) :: state_new = c_null_ptr
+    type(c_ptr) :: stress = c_null_ptr
+    type(c_ptr) :: status = c_null_ptr
+  end type
+
+  type, bind(c) :: toron_linear_block_f32
+    integer(c_size_t) :: n
+    integer(c_size_t) :: leading_dimension
+    type(c_ptr) :: f_old = c_null_ptr
+    type(c_ptr) :: f_new = c_null_ptr
+    type(c_ptr) :: axes = c_null_ptr
+    type(c_ptr) :: state_old = c_null_ptr
+    type(c_ptr) :: state_new = c_null_ptr
+    type(c_ptr) :: stress = c_null_ptr
+    type(c_ptr) :: status = c_null_ptr
+  end type
+
   type, bind(c) :: toron_vumat_f64
     integer(c_int32_t) :: nblock
     integer(c_int32_t) :: ndir
@@ -415,6 +439,26 @@ module toron
       real(c_double), intent(inout), optional :: stress(*)
       integer(c_int32_t), value :: criterion
       integer(c_int32_t) :: toron_linear_elastic_increment_f64
+    end function
+
+    function toron_linear_elastic_block_f64(values, count, block, rotation, criterion) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_linear_block_f64), intent(in), optional :: block
+      integer(c_int32_t), value :: rotation
+      integer(c_int32_t), value :: criterion
+      integer(c_int32_t) :: toron_linear_elastic_block_f64
+    end function
+
+    function toron_linear_elastic_block_f32(values, count, block, rotation, criterion) bind(c)
+      import
+      real(c_float), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_linear_block_f32), intent(in), optional :: block
+      integer(c_int32_t), value :: rotation
+      integer(c_int32_t), value :: criterion
+      integer(c_int32_t) :: toron_linear_elastic_block_f32
     end function
 
     function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde, sse, pnewdt, dfgrd1, &

@@ -330,6 +330,86 @@ typedef struct {
 } toron_block_f32;
 
 /*
+ A block of points of the linear elastic law: component-major arrays, component c of point i at
+ `c * leading_dimension + i`.
+
+ Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+ */
+typedef struct {
+  /*
+   Number of points, and the distance from one component to the next, at least as many.
+   */
+  size_t n;
+  size_t leading_dimension;
+  /*
+   In, 9 components each: F by columns at both ends of the step. Must not be null.
+   */
+  const double *f_old;
+  const double *f_new;
+  /*
+   In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
+   nor written for the other frames.
+   */
+  double *axes;
+  /*
+   In, 10: the old state; null: all 0.
+   */
+  const double *state_old;
+  /*
+   Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+   */
+  double *state_new;
+  /*
+   Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+   */
+  double *stress;
+  /*
+   Out: a status code for each point.
+   */
+  int32_t *status;
+} toron_linear_block_f64;
+
+/*
+ A block of points of the linear elastic law: component-major arrays, component c of point i at
+ `c * leading_dimension + i`.
+
+ Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+ */
+typedef struct {
+  /*
+   Number of points, and the distance from one component to the next, at least as many.
+   */
+  size_t n;
+  size_t leading_dimension;
+  /*
+   In, 9 components each: F by columns at both ends of the step. Must not be null.
+   */
+  const float *f_old;
+  const float *f_new;
+  /*
+   In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
+   nor written for the other frames.
+   */
+  float *axes;
+  /*
+   In, 10: the old state; null: all 0.
+   */
+  const float *state_old;
+  /*
+   Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+   */
+  float *state_new;
+  /*
+   Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+   */
+  float *stress;
+  /*
+   Out: a status code for each point.
+   */
+  int32_t *status;
+} toron_linear_block_f32;
+
+/*
  The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
  */
 typedef struct {
@@ -808,6 +888,38 @@ int32_t toron_linear_elastic_increment_f64(const double *values,
                                            double *state_new,
                                            double *stress,
                                            int32_t criterion);
+
+/*
+ The linear elastic law over a step at a block of points.
+
+ - `values`, `count`: the properties in the table's order, the same for all points.
+ - `block`: the arrays, see the structure; all theirs stay the caller's.
+ - `rotation`, `criterion`: as for `toron_linear_elastic_step_f64`.
+
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+ its state and axes; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+
+ # Safety
+ Every array has as many values as the structure says; outputs overlap nothing but, exactly, the old state they
+ replace.
+ */
+int32_t toron_linear_elastic_block_f64(const double *values,
+                                       size_t count,
+                                       const toron_linear_block_f64 *block,
+                                       int32_t rotation,
+                                       int32_t criterion);
+
+/*
+ As `toron_linear_elastic_block_f64`, in single precision.
+
+ # Safety
+ As for `toron_linear_elastic_block_f64`.
+ */
+int32_t toron_linear_elastic_block_f32(const float *values,
+                                       size_t count,
+                                       const toron_linear_block_f32 *block,
+                                       int32_t rotation,
+                                       int32_t criterion);
 
 /*
  The hyperelastic law as a UMAT of Abaqus/Standard.

@@ -325,7 +325,7 @@ fn calculix() {
 fn linear_elastic() {
     let (mut text, mut code) = ([0 as c_char; 200], 0);
     for yarn in &LINEAR {
-        let yarn = yarn.as_ptr();
+        let (yarn_f32, yarn) = (yarn.map(|x| x as f32), yarn.as_ptr());
         let (mut axes, mut state, mut stress) = (REST, [0.0; TORON_LINEAR_ELASTIC_STATE], [0.0; 6]);
         let (a, h, s) = (axes.as_mut_ptr(), state.as_mut_ptr(), stress.as_mut_ptr());
         quiet!(toron_linear_elastic_validate_f64, yarn, L, text.as_mut_ptr(), 200, &mut code);
@@ -356,6 +356,46 @@ fn linear_elastic() {
                     );
                 }
             }
+            let narrow = (yarn_f32.as_ptr(), f.map(|x| x as f32), REST.map(|x| x as f32));
+            let (mut axes_f32, mut state_f32, mut stress_f32) = (narrow.2, [0.0; TORON_LINEAR_ELASTIC_STATE], [0.0; 6]);
+            let block = LinearBlock {
+                n: 1,
+                leading_dimension: 1,
+                f_old: REST.as_ptr(),
+                f_new: f.as_ptr(),
+                axes: a,
+                state_old: null(),
+                state_new: h,
+                stress: s,
+                status: &mut code,
+            };
+            let block_f32 = LinearBlock {
+                n: 1,
+                leading_dimension: 1,
+                f_old: narrow.2.as_ptr(),
+                f_new: narrow.1.as_ptr(),
+                axes: axes_f32.as_mut_ptr(),
+                state_old: null(),
+                state_new: state_f32.as_mut_ptr(),
+                stress: stress_f32.as_mut_ptr(),
+                status: &mut code,
+            };
+            for rotation in -1..4 {
+                for criterion in -1..3 {
+                    quiet!(toron_linear_elastic_block_f64, yarn, L, &block, rotation, criterion);
+                    quiet!(toron_linear_elastic_block_f32, narrow.0, L, &block_f32, rotation, criterion);
+                }
+                quiet!(
+                    toron_linear_elastic_block_f64,
+                    yarn,
+                    L,
+                    &LinearBlock { leading_dimension: 0, ..block },
+                    rotation,
+                    0
+                );
+            }
+            quiet!(toron_linear_elastic_block_f64, yarn, L, null(), 0, 0);
+            quiet!(toron_linear_elastic_block_f32, narrow.0, 3, null(), 0, 0);
             for criterion in -1..3 {
                 quiet!(toron_linear_elastic_increment_f64, yarn, L, f.as_ptr(), 1.0, null(), h, s, criterion);
                 quiet!(toron_linear_elastic_increment_f64, yarn, L, null(), 1.0, null(), h, s, criterion);

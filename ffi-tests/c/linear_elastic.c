@@ -111,6 +111,51 @@ static void increment(void)
     release();
 }
 
+/* A block is the law at each of its points; one that cannot be evaluated is none of the others' business. */
+static void block(int32_t rotation)
+{
+    enum { POINTS = 11, STRIDE = 13, BAD = 4 };
+    double *properties = yarn(), *f_old = guarded(9 * STRIDE * sizeof *f_old), *f_new = guarded(9 * STRIDE * sizeof *f_new);
+    double *turning = guarded(9 * STRIDE * sizeof *turning), *state = guarded(M * STRIDE * sizeof *state);
+    double *stress = guarded(6 * STRIDE * sizeof *stress);
+    int32_t *codes = guarded(POINTS * sizeof *codes);
+    double start[9], old[M] = {0}, f[9], wanted[6];
+    toron_linear_elastic_axes_f64(properties, N, start);
+    for (int i = 0; i < POINTS; i++) {
+        for (int c = 0; c < 9; c++) {
+            f_old[c * STRIDE + i] = at_rest[c];
+            f_new[c * STRIDE + i] = at_rest[c] + 0.001 * (i - c) * (c % 3 + 1);
+            turning[c * STRIDE + i] = start[c];
+        }
+        for (int c = 0; c < M; c++)
+            state[c * STRIDE + i] = 0;
+    }
+    f_new[BAD] = -1;
+    toron_linear_block_f64 points = {.n = POINTS, .leading_dimension = STRIDE, .f_old = f_old, .f_new = f_new,
+                                     .axes = turning, .state_old = state, .state_new = state, .stress = stress,
+                                     .status = codes};
+    int32_t worst = toron_linear_elastic_block_f64(properties, N, &points, rotation, TORON_CRITERION_FIBRE);
+    CHECK(worst == TORON_INVERTED, "%d", worst);
+    for (int i = 0; i < POINTS; i++) {
+        double axes[9], new[M];
+        for (int c = 0; c < 9; c++)
+            f[c] = f_new[c * STRIDE + i], axes[c] = start[c];
+        int32_t status = toron_linear_elastic_step_f64(properties, N, at_rest, f, old, new, wanted, rotation,
+                                                       TORON_CRITERION_FIBRE, axes);
+        CHECK(status == codes[i] && (status == TORON_OK) == (i != BAD), "point %d: %d, %d", i, status, codes[i]);
+        for (int c = 0; c < 6; c++)
+            CHECK(fabs(stress[c * STRIDE + i] - wanted[c]) <= 1e-14 * e_1, "point %d, stress %d", i, c);
+        for (int c = 0; c < M; c++)
+            CHECK(fabs(state[c * STRIDE + i] - new[c]) <= 1e-14 * e_1, "point %d, state %d", i, c);
+        for (int c = 0; rotation == TORON_ROTATION_SPIN && c < 9; c++)
+            CHECK(fabs(turning[c * STRIDE + i] - axes[c]) <= 1e-15, "point %d, axes %d", i, c);
+    }
+    points.leading_dimension = POINTS - 1;
+    CHECK(toron_linear_elastic_block_f64(properties, N, &points, rotation, 0) == TORON_BAD_LEADING_DIMENSION, "stride");
+    CHECK(toron_linear_elastic_block_f64(properties, N, NULL, rotation, 0) == TORON_NULL_ARGUMENT, "no block");
+    release();
+}
+
 static void refused(void)
 {
     double *properties = yarn(), *state = guarded(M * sizeof *state), *stress = guarded(6 * sizeof *stress);
@@ -156,6 +201,9 @@ int main(void)
     pull(TORON_ROTATION_FIBRE);
     pull(TORON_ROTATION_POLAR);
     pull(TORON_ROTATION_SPIN);
+    block(TORON_ROTATION_FIBRE);
+    block(TORON_ROTATION_POLAR);
+    block(TORON_ROTATION_SPIN);
     increment();
     refused();
     return finish();

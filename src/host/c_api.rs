@@ -15,6 +15,7 @@ use core::slice;
 use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
+use crate::law::block::linear::{LinearPointers, LinearPrecision};
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
@@ -930,9 +931,22 @@ pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f32(
 
 /// # Safety
 /// As for `toron_linear_elastic_step_f64`.
-unsafe fn linear_elastic(values: *const f64, count: size_t) -> Result<LinearElastic, Error> {
+unsafe fn linear_elastic<T: Precision>(values: *const T, count: size_t) -> Result<LinearElastic<T>, Error> {
     // SAFETY: the caller's promise.
     LinearElastic::new(unsafe { properties(values, count, &parameters::LINEAR_ELASTIC) }?)
+}
+
+fn rotation(rotation: i32) -> Result<Rotation, Error> {
+    match rotation {
+        TORON_ROTATION_FIBRE => Ok(Rotation::Fibre),
+        TORON_ROTATION_POLAR => Ok(Rotation::Polar),
+        TORON_ROTATION_SPIN => Ok(Rotation::Spin),
+        _ => Err(Error::Argument {
+            name: "rotation",
+            value: f64::from(rotation),
+            wanted: "0 (fibre), 1 (polar) or 2 (spin)",
+        }),
+    }
 }
 
 fn criterion(criterion: i32) -> Result<Criterion, Error> {
@@ -1021,18 +1035,7 @@ unsafe fn linear_step(
     // SAFETY: the caller's promise.
     let law = unsafe { linear_elastic(values, count) }?;
     let criterion = self::criterion(criterion)?;
-    let rotation = match rotation {
-        TORON_ROTATION_FIBRE => Rotation::Fibre,
-        TORON_ROTATION_POLAR => Rotation::Polar,
-        TORON_ROTATION_SPIN => Rotation::Spin,
-        _ => {
-            return Err(Error::Argument {
-                name: "rotation",
-                value: f64::from(rotation),
-                wanted: "0 (fibre), 1 (polar) or 2 (spin)",
-            });
-        }
-    };
+    let rotation = self::rotation(rotation)?;
     let wanted = tangent.map(|(measure, to)| self::measure(measure).map(|measure| (measure, to))).transpose()?;
     let spin = rotation == Rotation::Spin;
     if wanted.is_some_and(|(_, to)| to.is_null()) {
@@ -1167,4 +1170,103 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
             Ok(store_linear(&point, state_new, stress))
         }
     }))
+}
+
+/// A block of points of the linear elastic law: component-major arrays, component c of point i at
+/// `c * leading_dimension + i`.
+///
+/// Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct LinearBlock<T> {
+    /// Number of points, and the distance from one component to the next, at least as many.
+    pub n: size_t,
+    pub leading_dimension: size_t,
+    /// In, 9 components each: F by columns at both ends of the step. Must not be null.
+    pub f_old: *const T,
+    pub f_new: *const T,
+    /// In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
+    /// nor written for the other frames.
+    pub axes: *mut T,
+    /// In, 10: the old state; null: all 0.
+    pub state_old: *const T,
+    /// Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+    pub state_new: *mut T,
+    /// Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+    pub stress: *mut T,
+    /// Out: a status code for each point.
+    pub status: *mut i32,
+}
+
+/// # Safety
+/// As for `toron_linear_elastic_block_f64`.
+unsafe fn linear_block<T: LinearPrecision>(
+    values: *const T,
+    count: size_t,
+    block: *const LinearBlock<T>,
+    rotation: i32,
+    criterion: i32,
+) -> Result<i32, Error> {
+    if block.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        let law = linear_elastic(values, count)?;
+        let LinearBlock { n, leading_dimension, f_old, f_new, axes, state_old, state_new, stress, status } = *block;
+        law.raw_block(&LinearPointers {
+            n,
+            leading_dimension,
+            f_old,
+            f_new,
+            axes,
+            state_old,
+            state_new,
+            stress,
+            status,
+            rotation: self::rotation(rotation)?,
+            criterion: self::criterion(criterion)?,
+            level: None,
+        })
+    }
+}
+
+/// The linear elastic law over a step at a block of points.
+///
+/// - `values`, `count`: the properties in the table's order, the same for all points.
+/// - `block`: the arrays, see the structure; all theirs stay the caller's.
+/// - `rotation`, `criterion`: as for `toron_linear_elastic_step_f64`.
+///
+/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+/// its state and axes; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+///
+/// # Safety
+/// Every array has as many values as the structure says; outputs overlap nothing but, exactly, the old state they
+/// replace.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_block_f64(
+    values: *const f64,
+    count: size_t,
+    block: *const LinearBlock<f64>,
+    rotation: i32,
+    criterion: i32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe { linear_block(values, count, block, rotation, criterion) })
+}
+
+/// As `toron_linear_elastic_block_f64`, in single precision.
+///
+/// # Safety
+/// As for `toron_linear_elastic_block_f64`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_block_f32(
+    values: *const f32,
+    count: size_t,
+    block: *const LinearBlock<f32>,
+    rotation: i32,
+    criterion: i32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    code(unsafe { linear_block(values, count, block, rotation, criterion) })
 }

@@ -3,9 +3,9 @@
 
 use std::ptr::{null, null_mut};
 
-use super::c_api::{self, Block};
+use super::c_api::{self, Block, LinearBlock};
 use super::{abaqus, lsdyna};
-use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
 use crate::law::status;
 use crate::law::stress::truesdell_of_jaumann;
@@ -377,19 +377,24 @@ impl FromF64 for f32 {
     }
 }
 
-/// A precision of the block entry.
+/// A precision of the block entries.
 pub trait BlockPrecision: Copy + Default + Into<f64> + FromF64 + Send + Sync + 'static {
     const ENTRY: unsafe extern "C" fn(*const Self, usize, *const Block<Self>) -> i32;
+    const LINEAR_ENTRY: LinearBlockEntry<Self>;
 }
+
+pub type LinearBlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const LinearBlock<T>, i32, i32) -> i32;
 
 impl BlockPrecision for f64 {
     const ENTRY: unsafe extern "C" fn(*const f64, usize, *const Block<f64>) -> i32 =
         c_api::toron_hyperelastic_block_f64;
+    const LINEAR_ENTRY: LinearBlockEntry<f64> = c_api::toron_linear_elastic_block_f64;
 }
 
 impl BlockPrecision for f32 {
     const ENTRY: unsafe extern "C" fn(*const f32, usize, *const Block<f32>) -> i32 =
         c_api::toron_hyperelastic_block_f32;
+    const LINEAR_ENTRY: LinearBlockEntry<f32> = c_api::toron_linear_elastic_block_f32;
 }
 
 /// The arrays of an explicit solver, component-major with one leading dimension; the history is replaced in place.
@@ -450,38 +455,57 @@ pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBloc
     unsafe { T::ENTRY(properties.as_ptr(), properties.len(), &arrays) }
 }
 
-/// The linear elastic law over a step, as an explicit solver calls `toron_linear_elastic_step_f64`: the deformation
-/// gradients at both ends by columns, the state in place; returns the code and the Cauchy stress. The frame is the
-/// fibre's or the polar one.
-pub fn linear_elastic_step(
-    properties: &[f64; LINEAR_ELASTIC_PROPERTIES],
-    f_old: &[f64; 9],
-    f_new: &[f64; 9],
-    state: &mut [f64; LINEAR_ELASTIC_STATE],
+/// The arrays of an explicit solver for the linear elastic law, as those of [`SolverBlock`].
+#[derive(Debug)]
+pub struct LinearSolverBlock<'a, T> {
+    /// Number of points, and the distance from one component to the next.
+    pub n: usize,
+    pub leading_dimension: usize,
+    /// In, 9 components each: F by columns at both ends of the step.
+    pub f_old: &'a [T],
+    pub f_new: &'a [T],
+    /// In and out, 10: the state variables.
+    pub state: &'a mut [T],
+    /// Out, 6: Cauchy stress 11 22 33 12 23 31.
+    pub stress: &'a mut [T],
+    /// Out: a status code for each point.
+    pub status: &'a mut [i32],
+}
+
+/// The linear elastic law over a step at a block of points through `toron_linear_elastic_block_f64` or `_f32`; returns the
+/// entry's code.
+///
+/// # Panics
+/// An array is shorter than its components need.
+pub fn linear_elastic_block<T: BlockPrecision>(
+    properties: &[T],
+    block: LinearSolverBlock<'_, T>,
     frame: LinearFrame,
     criterion: i32,
-) -> (i32, [f64; 6]) {
-    let mut stress = [0.0; 6];
+) -> i32 {
+    let LinearSolverBlock { n, leading_dimension: stride, f_old, f_new, state, stress, status } = block;
+    let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
+    assert!(n <= stride && holds(f_old.len(), 9) && holds(f_new.len(), 9));
+    assert!(holds(state.len(), LINEAR_ELASTIC_STATE) && holds(stress.len(), 6) && status.len() >= n);
     let state = state.as_mut_ptr();
-    // SAFETY: the arrays have the sizes that the entry asks for; neither frame reads axes.
-    let code = unsafe {
-        c_api::toron_linear_elastic_step_f64(
-            properties.as_ptr(),
-            properties.len(),
-            f_old.as_ptr(),
-            f_new.as_ptr(),
-            state,
-            state,
-            stress.as_mut_ptr(),
-            match frame {
-                LinearFrame::Fibre => c_api::TORON_ROTATION_FIBRE,
-                LinearFrame::Polar => c_api::TORON_ROTATION_POLAR,
-            },
-            criterion,
-            null_mut(),
-        )
+    let arrays = LinearBlock {
+        n,
+        leading_dimension: stride,
+        f_old: f_old.as_ptr(),
+        f_new: f_new.as_ptr(),
+        axes: null_mut(),
+        state_old: state,
+        state_new: state,
+        stress: stress.as_mut_ptr(),
+        status: status.as_mut_ptr(),
     };
-    (code, stress)
+    let rotation = match frame {
+        LinearFrame::Fibre => c_api::TORON_ROTATION_FIBRE,
+        LinearFrame::Polar => c_api::TORON_ROTATION_POLAR,
+    };
+    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, and neither frame
+    // needs axes.
+    unsafe { T::LINEAR_ENTRY(properties.as_ptr(), properties.len(), &arrays, rotation, criterion) }
 }
 
 /// The frames of the linear elastic law that follow from the deformation gradient alone.

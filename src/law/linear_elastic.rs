@@ -5,15 +5,24 @@
 //! shear stiffness is 1/630 of the fibre's: see [`Rotation`]. In the frame the stress is the sum of C times the strain
 //! increments; an increment is the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives
 //! E1 ln λ in any number of steps.
+//!
+//! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is Q1ᵀ (F1 − F0) F0⁻¹ Q0 and what the axes turn by,
+//! Q1ᵀ Q0 − 1, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). No rounding of F or Q beside 1 enters the strain.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
+use super::block::Lanes;
+use super::failure::Failure;
+use super::kinematics::FibreFrame;
+pub use super::linear_tangent::LinearTangent;
+use super::matrix::{
+    Matrix, cofactors, difference, is_finite, product, scaled, selected, square_norm, sum, transposed, unit,
+};
 use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
+use super::real::{Real, along, cross, dot, image, scale};
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use super::status::{self, Error};
-use super::stress::{PAIRS, VOIGT, components, matrix, principal_axes, pulled_back, truesdell_of_jaumann};
-use super::tangent::Measure;
-use super::{failure::Failure, kinematics::FibreFrame};
+use super::stress::{largest_principal, turned};
 
 /// The frame that turns with the material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,11 +48,11 @@ pub enum Criterion {
 
 /// The law's properties, checked and prepared once.
 #[derive(Clone, Copy, Debug)]
-pub struct LinearElastic {
-    stiffness: [f64; 6],
-    limit: f64,
+pub struct LinearElastic<R = f64> {
+    pub(super) stiffness: [R; 6],
+    limit: R,
     /// Columns: fibre, second axis, third axis in the reference placement.
-    axes: Matrix3<f64>,
+    axes: Matrix<R>,
 }
 
 /// What the law answers for one point.
@@ -58,43 +67,80 @@ pub struct LinearPoint {
     pub status: i32,
 }
 
-impl LinearElastic {
+/// What is wanted beside the status; the old state counts in any case.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted {
+    pub stress: bool,
+    pub state: bool,
+}
+
+impl Wanted {
+    pub const ALL: Wanted = Wanted { stress: true, state: true };
+}
+
+/// What the law answers for points side by side.
+pub(super) struct Answer<R: Real> {
+    pub stress: [R; 6],
+    pub state: [R; LINEAR_ELASTIC_STATE],
+    /// The material axes at both ends of the step, as columns.
+    pub q0: Matrix<R>,
+    pub q1: Matrix<R>,
+    pub status: R,
+    /// Where the step has been taken: not at points that failed before or cannot be evaluated.
+    pub taken: R::Mask,
+}
+
+impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
     /// Checks the properties, in the order of [`parameters::LINEAR_ELASTIC`], and prepares the law.
     ///
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
-    pub fn new(properties: &[f64]) -> Result<Self, Error> {
+    pub fn new(properties: &[T]) -> Result<Self, Error> {
         parameters::check(&parameters::LINEAR_ELASTIC, properties)?;
         let &[e_1, e_2, g, limit, m_1, m_2, m_3, n_1, n_2, n_3] = properties else {
             return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
         };
-        let direction = |index, name, value: [f64; 3], wanted| Error::Direction { index, name, value, wanted };
+        let direction = |index, name, value: [T; 3], wanted| {
+            Err(Error::Direction { index, name, value: [value[0].into(), value[1].into(), value[2].into()], wanted })
+        };
         let (frame, usable) = FibreFrame::new([m_1, m_2, m_3]);
         if !usable {
-            let wanted = "any vector but zero";
-            return Err(direction(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3], wanted));
+            return direction(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3], "any vector but zero");
         }
-        let m = Vector3::from(frame.m);
-        let axes = if n_1 == 0.0 && n_2 == 0.0 && n_3 == 0.0 {
-            Matrix3::from_columns(&[m, Vector3::from(frame.t1), Vector3::from(frame.t2)])
+        let second = [n_1, n_2, n_3];
+        let axes = if second.iter().all(|&x| x.into() == 0.0) {
+            [frame.m, frame.t1, frame.t2]
         } else {
-            let (second, usable) = FibreFrame::new([n_1, n_2, n_3]);
-            let n = Vector3::from(second.m);
-            let across = n - m * m.dot(&n);
-            let (second, apart) = FibreFrame::new([across.x, across.y, across.z]);
-            if !(usable && apart && 1e-6 < across.norm_squared()) {
+            let (n, usable) = FibreFrame::new(second);
+            let across = along(n.m, -dot(frame.m, n.m), frame.m);
+            let (n, apart) = FibreFrame::new(across);
+            if !(usable && apart && T::splat(1e-6).lt(dot(across, across))) {
                 let wanted = "any vector that is not along the fibre, or zero";
-                return Err(direction(LINEAR_SECOND_AXIS, "second axis", [n_1, n_2, n_3], wanted));
+                return direction(LINEAR_SECOND_AXIS, "second axis", second, wanted);
             }
-            let n = Vector3::from(second.m);
-            Matrix3::from_columns(&[m, n, m.cross(&n)])
+            [frame.m, n.m, cross(frame.m, n.m)]
         };
         Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes })
     }
 
+    /// The same law in lanes.
+    #[inline(always)]
+    pub(super) fn lanes<L: Real>(&self) -> LinearElastic<L> {
+        let lane = |x: T| L::splat(x.into());
+        let vector = |v: [T; 3]| [lane(v[0]), lane(v[1]), lane(v[2])];
+        let [e_1, e_2, e_3, g_12, g_23, g_31] = self.stiffness;
+        LinearElastic {
+            stiffness: [lane(e_1), lane(e_2), lane(e_3), lane(g_12), lane(g_23), lane(g_31)],
+            limit: lane(self.limit),
+            axes: [vector(self.axes[0]), vector(self.axes[1]), vector(self.axes[2])],
+        }
+    }
+}
+
+impl LinearElastic {
     /// The material axes in the reference placement, as columns: where a spin frame starts.
     pub fn reference_axes(&self) -> Matrix3<f64> {
-        self.axes
+        self.axes.into()
     }
 
     /// From the deformation gradients at both ends of a step.
@@ -110,134 +156,12 @@ impl LinearElastic {
         criterion: Criterion,
         axes: &mut Matrix3<f64>,
     ) -> LinearPoint {
-        self.stepped(f0, f1, state, rotation, criterion, axes).0
-    }
-
-    /// As [`step`](Self::step), with the tangent consistent with what the step does: that of the intact material in the
-    /// call that detects failure, 0 afterwards and where the point cannot be evaluated.
-    pub fn step_with_tangent(
-        &self,
-        f0: &Matrix3<f64>,
-        f1: &Matrix3<f64>,
-        state: &[f64; LINEAR_ELASTIC_STATE],
-        rotation: Rotation,
-        criterion: Criterion,
-        axes: &mut Matrix3<f64>,
-    ) -> (LinearPoint, LinearTangent) {
-        let none = LinearTangent::default();
-        let (mut point, step) = self.stepped(f0, f1, state, rotation, criterion, axes);
-        let Some(step) = step else { return (point, none) };
-        let mut stress = [0.0; 6];
-        stress.copy_from_slice(&point.state[LINEAR_STRESS..LINEAR_LARGEST]);
-        match self.step_tangent(&step, f1, &stress, rotation) {
-            Some(tangent) => (point, tangent),
-            None => {
-                if rotation == Rotation::Spin {
-                    *axes = step.q0;
-                }
-                point = self.refused(state, status::OVERFLOW);
-                (point, none)
-            }
-        }
-    }
-
-    /// A step, and its kinematics where it could be taken.
-    fn stepped(
-        &self,
-        f0: &Matrix3<f64>,
-        f1: &Matrix3<f64>,
-        state: &[f64; LINEAR_ELASTIC_STATE],
-        rotation: Rotation,
-        criterion: Criterion,
-        axes: &mut Matrix3<f64>,
-    ) -> (LinearPoint, Option<Step>) {
-        if !Failure::intact(state[LINEAR_FAILED]) {
-            return (self.failed(state), None);
-        }
-        let step = match self.kinematics(f0, f1, rotation, axes) {
-            Ok(step) => step,
-            Err(status) => return (self.refused(state, status), None),
-        };
-        let rate = &step.rate;
-        let strain = [
-            rate.m11,
-            rate.m22,
-            rate.m33,
-            (rate.m12 + rate.m21) / 2.0,
-            (rate.m23 + rate.m32) / 2.0,
-            (rate.m31 + rate.m13) / 2.0,
-        ];
-        let mut point = self.increment(&strain, step.jacobian, state, criterion);
-        if point.status != status::OK {
-            return (point, None);
-        }
+        let columns = (*axes).into();
+        let answer = self.respond(&(*f0).into(), &(*f1).into(), &columns, state, rotation, criterion, Wanted::ALL);
         if rotation == Rotation::Spin {
-            *axes = step.q1;
+            *axes = answer.q1.into();
         }
-        point.stress = components(&(step.q1 * matrix(&point.stress) * step.q1.transpose()));
-        (point, Some(step))
-    }
-
-    /// How the material axes turn in a step, and the strain that is left.
-    fn kinematics(
-        &self,
-        f0: &Matrix3<f64>,
-        f1: &Matrix3<f64>,
-        rotation: Rotation,
-        axes: &Matrix3<f64>,
-    ) -> Result<Step, i32> {
-        if f0.iter().chain(f1.iter()).chain(axes.iter()).any(|x| !x.is_finite()) {
-            return Err(status::NOT_FINITE);
-        }
-        let (j0, j1) = (f0.determinant(), f1.determinant());
-        let (Some(inverse), true) = (f0.try_inverse(), j0 > 0.0 && j1 > 0.0) else {
-            return Err(status::INVERTED);
-        };
-        let relative = f1 * inverse;
-        let (q0, q1) = match rotation {
-            Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
-            Rotation::Polar => (polar_rotation(f0) * self.axes, polar_rotation(f1) * self.axes),
-            Rotation::Spin => {
-                let spin = HalfSpin::new(&relative).ok_or(status::INCREMENT_TOO_LARGE)?;
-                (*axes, spin.forward * (Matrix3::identity() + spin.half) * *axes)
-            }
-        };
-        let local = q1.transpose() * relative * q0;
-        let rate = logarithm(&local).ok_or(status::INCREMENT_TOO_LARGE)?;
-        Ok(Step { relative, q0, q1, local, rate, jacobian: 0.5 * (j0 + j1) })
-    }
-
-    /// ∂τ/∂L over J for a step to (1 + L) F, column by column: the strain that L adds in the axes, which turn with L as
-    /// well, and the turning of the stress that is there. `None` where it does not fit the number format.
-    fn step_tangent(
-        &self,
-        step: &Step,
-        f: &Matrix3<f64>,
-        stress: &[f64; 6],
-        rotation: Rotation,
-    ) -> Option<LinearTangent> {
-        let Step { q1, local, .. } = step;
-        let stress = matrix(stress);
-        let cauchy = q1 * stress * q1.transpose();
-        let turning = Turning::new(step, f, &self.axes, rotation)?;
-        let mut tangent = LinearTangent::default();
-        for (column, entries) in tangent.0.iter_mut().enumerate() {
-            let mut l = Matrix3::zeros();
-            l[column] = 1.0;
-            let turn = turning.of(step, &l);
-            let seen = q1.transpose() * l * q1 - turn;
-            let rate = logarithm_derivative(local, &(seen * local))?;
-            let mut added = Matrix3::zeros();
-            for (i, j) in PAIRS {
-                let shear = if i == j { 1.0 } else { 2.0 };
-                let strain = 0.5 * (rate[(i, j)] + rate[(j, i)]);
-                added[(i, j)] = self.stiffness[VOIGT[i][j]] * shear * strain;
-                added[(j, i)] = added[(i, j)];
-            }
-            let turned = q1 * (added + turn * stress - stress * turn) * q1.transpose();
-            *entries = components(&(turned + cauchy * l.trace()));
-        }
-        tangent.0.iter().flatten().all(|x| x.is_finite()).then_some(tangent)
+        answer.point()
     }
 
     /// From an increment of strain in a frame that the host keeps: `strain` holds the tensor components 11 22 33 12 23
@@ -253,39 +177,15 @@ impl LinearElastic {
         state: &[f64; LINEAR_ELASTIC_STATE],
         criterion: Criterion,
     ) -> LinearPoint {
-        if !Failure::intact(state[LINEAR_FAILED]) {
-            return self.failed(state);
+        let (stress, new) = self.increase(strain, jacobian, state, criterion, Wanted::ALL);
+        let nowhere = [[0.0; 3]; 3];
+        let mut answer = Answer { stress, state: new, q0: nowhere, q1: nowhere, status: 0.0, taken: true };
+        let finite = strain.iter().all(|x| x.is_finite()) && jacobian.is_finite();
+        answer.taken = finite & answer.sound(state);
+        if !answer.taken {
+            answer.keep(state, if finite { 0.0 } else { f64::from(status::NOT_FINITE) });
         }
-        if !strain.iter().all(|x| x.is_finite()) || !jacobian.is_finite() {
-            return self.refused(state, status::NOT_FINITE);
-        }
-        if !state[..LINEAR_ALIVE].iter().all(|x| x.is_finite()) {
-            return self.refused(state, status::STATE_NOT_FINITE);
-        }
-        let mut new = *state;
-        let mut work = 0.0;
-        for i in 0..6 {
-            let engineering = if i < 3 { strain[i] } else { 2.0 * strain[i] };
-            let old = state[LINEAR_STRESS + i];
-            let stress = old + self.stiffness[i] * engineering;
-            work += 0.5 * (old + stress) * engineering;
-            new[LINEAR_STRESS + i] = stress;
-        }
-        let stress = [new[0], new[1], new[2], new[3], new[4], new[5]];
-        let largest = largest_principal(&stress);
-        new[LINEAR_LARGEST] = largest;
-        new[LINEAR_WORK] += work * jacobian;
-        let measure = match criterion {
-            Criterion::LargestPrincipal => largest,
-            Criterion::FibreStress => stress[0],
-        };
-        let fails = self.limit > 0.0 && measure >= self.limit;
-        new[LINEAR_FAILED] = if fails { 1.0 } else { 0.0 };
-        new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];
-        if !new.iter().all(|x| x.is_finite()) {
-            return self.refused(state, status::OVERFLOW);
-        }
-        LinearPoint { stress, state: new, status: status::OK }
+        answer.point()
     }
 
     /// ρ0 c² for a bound c of the wave speed where the material is not stressed: with Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²)
@@ -293,233 +193,227 @@ impl LinearElastic {
     pub fn wave_modulus(&self) -> f64 {
         self.stiffness[0].max(self.stiffness[1]).max(2.0 * self.stiffness[3])
     }
-
-    /// A point that failed in an earlier call: no stress, the rest as it was.
-    fn failed(&self, state: &[f64; LINEAR_ELASTIC_STATE]) -> LinearPoint {
-        let mut point = self.refused(state, status::OK);
-        for x in &mut point.state[LINEAR_STRESS..LINEAR_LARGEST] {
-            *x = 0.0;
-        }
-        point
-    }
-
-    /// A point that cannot be evaluated: no stress, the old state, less what is not finite in it; the latch is 0 or 1.
-    fn refused(&self, state: &[f64; LINEAR_ELASTIC_STATE], status: i32) -> LinearPoint {
-        let finite = state[..LINEAR_ALIVE].iter().all(|x| x.is_finite());
-        let mut new = state.map(|x| if x.is_finite() { x } else { 0.0 });
-        new[LINEAR_FAILED] = if !Failure::intact(state[LINEAR_FAILED]) { 1.0 } else { 0.0 };
-        new[LINEAR_ALIVE] = 1.0 - new[LINEAR_FAILED];
-        let status = if !finite && status == status::OK { status::STATE_NOT_FINITE } else { status };
-        LinearPoint { stress: [0.0; 6], state: new, status }
-    }
 }
 
-/// The kinematics of a step.
-struct Step {
-    /// F1 F0⁻¹.
-    relative: Matrix3<f64>,
-    /// The material axes at both ends, as columns.
-    q0: Matrix3<f64>,
-    q1: Matrix3<f64>,
-    /// Q1ᵀ F1 F0⁻¹ Q0 and its logarithm.
-    local: Matrix3<f64>,
-    rate: Matrix3<f64>,
-    /// J in the middle.
-    jacobian: f64,
-}
-
-/// The spin of a step by the midpoint rule.
-struct HalfSpin {
-    /// Half the gradient of the increment at the middle of the step, (f − 1)(f + 1)⁻¹, and what of it is (f + 1)⁻¹.
-    gradient: Matrix3<f64>,
-    middle: Matrix3<f64>,
-    /// Its skew part w, which turns a rigid step exactly by (1 − w)⁻¹(1 + w), and (1 − w)⁻¹.
-    half: Matrix3<f64>,
-    forward: Matrix3<f64>,
-}
-
-impl HalfSpin {
-    fn new(relative: &Matrix3<f64>) -> Option<Self> {
-        let middle = (relative + Matrix3::identity()).try_inverse()?;
-        let gradient = (relative - Matrix3::identity()) * middle;
-        let half = (gradient - gradient.transpose()) * 0.5;
-        let forward = (Matrix3::identity() - half).try_inverse()?;
-        Some(HalfSpin { gradient, middle, half, forward })
-    }
-}
-
-/// What the turning of the material axes by a motion needs: dQ1 = Q1 Ω, with Ω linear in L.
-enum Turning {
-    Fibre,
-    /// Reference axes, R, U and (tr U 1 − U)⁻¹.
-    Polar(Matrix3<f64>, Matrix3<f64>, Matrix3<f64>, Matrix3<f64>),
-    Spin(HalfSpin),
-}
-
-impl Turning {
-    fn new(step: &Step, f: &Matrix3<f64>, axes: &Matrix3<f64>, rotation: Rotation) -> Option<Self> {
-        Some(match rotation {
-            Rotation::Fibre => Turning::Fibre,
+impl<R: Real> LinearElastic<R> {
+    /// A step of points side by side from the columns of F at both ends. `axes` counts for [`Rotation::Spin`] only.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn respond<T>(
+        &self,
+        f0: &Matrix<R>,
+        f1: &Matrix<R>,
+        axes: &Matrix<R>,
+        old: &[R; LINEAR_ELASTIC_STATE],
+        rotation: Rotation,
+        criterion: Criterion,
+        wanted: Wanted,
+    ) -> Answer<R>
+    where
+        R: Lanes<T>,
+    {
+        let (zero, half) = (R::splat(0.0), R::splat(0.5));
+        let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
+        let upright = zero.lt(j0) & zero.lt(j1);
+        let able = upright & Failure::intact(old[LINEAR_FAILED]);
+        // F1 F0⁻¹ − 1.
+        let inverse = j0.reciprocal();
+        let change = product(&difference(f1, f0), &transposed(&minors));
+        let change = scaled(inverse, &change);
+        let (q0, q1) = match rotation {
+            Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
             Rotation::Polar => {
-                let r = step.q1 * axes.transpose();
-                let u = r.transpose() * f;
-                let u = (u + u.transpose()) * 0.5;
-                let inverse = (Matrix3::identity() * u.trace() - u).try_inverse()?;
-                Turning::Polar(*axes, r, u, inverse)
+                let (r0, r1) = (polar_rotation(f0, able), polar_rotation(f1, able));
+                (product(&r0, &self.axes), product(&r1, &self.axes))
             }
-            Rotation::Spin => Turning::Spin(HalfSpin::new(&step.relative)?),
-        })
+            Rotation::Spin => (*axes, spun(axes, &change)),
+        };
+        let turn = difference(&q1, &q0);
+        let back = transposed(&q1);
+        let [skew, square] = [product(&back, &turn), product(&transposed(&turn), &turn)];
+        let local = sum(&product(&back, &product(&change, &q0)), -half, &square);
+        let local = sum(&local, half, &difference(&transposed(&skew), &skew));
+        let (rate, settled) = logarithm(&local, able);
+        let strain = [
+            rate[0][0],
+            rate[1][1],
+            rate[2][2],
+            half * (rate[0][1] + rate[1][0]),
+            half * (rate[1][2] + rate[2][1]),
+            half * (rate[2][0] + rate[0][2]),
+        ];
+        let (stress, state) = self.increase(&strain, half * (j0 + j1), old, criterion, wanted);
+        let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
+        let mut answer = Answer { stress, state, q0, q1, status: zero, taken: able };
+        // Lengths whose squares leave the range give no axes.
+        let sized = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
+        answer.taken = upright & settled & sized & answer.sound(old);
+        if R::any(!answer.taken) {
+            let code = |code: i32| R::splat(f64::from(code));
+            let why = R::select(settled, zero, code(status::INCREMENT_TOO_LARGE));
+            let why = R::select(upright, why, code(status::INVERTED));
+            let finite = is_finite(f0) & is_finite(f1) & is_finite(axes);
+            answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
+        }
+        answer
     }
 
-    /// Ω of the motion L.
-    fn of(&self, step: &Step, l: &Matrix3<f64>) -> Matrix3<f64> {
-        let seen = step.q1.transpose() * l * step.q1;
-        match self {
-            // e1 follows L e1; e3 is normal to L e1 and L e2: what is below the diagonal turns the axes.
-            Turning::Fibre => skew(&Vector3::new(seen.m32, -seen.m31, seen.m21)),
-            // Θ U + U Θ is the skew part of RᵀL R U, twice; in axial vectors that is (tr U 1 − U) θ.
-            Turning::Polar(axes, r, u, inverse) => {
-                let moved = r.transpose() * l * r * u;
-                let twice = Vector3::new(moved.m32 - moved.m23, moved.m13 - moved.m31, moved.m21 - moved.m12);
-                axes.transpose() * skew(&(inverse * twice)) * axes
-            }
-            Turning::Spin(HalfSpin { gradient, middle, forward, .. }) => {
-                let moved = (Matrix3::identity() - gradient) * l * step.relative * middle;
-                let half = (moved - moved.transpose()) * 0.5;
-                let back = forward.transpose(); // (1 + w)⁻¹
-                step.q1.transpose() * forward * half * back * step.q1 * 2.0
-            }
+    /// The stress in the axes and the new state, given the increment of strain (tensor components) there.
+    #[inline(always)]
+    fn increase(
+        &self,
+        strain: &[R; 6],
+        jacobian: R,
+        old: &[R; LINEAR_ELASTIC_STATE],
+        criterion: Criterion,
+        wanted: Wanted,
+    ) -> ([R; 6], [R; LINEAR_ELASTIC_STATE]) {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let (mut stress, mut twice_work) = ([zero; 6], zero);
+        for i in 0..6 {
+            let engineering = if i < 3 { strain[i] } else { strain[i] + strain[i] };
+            stress[i] = self.stiffness[i].mul_add(engineering, old[LINEAR_STRESS + i]);
+            twice_work = (old[LINEAR_STRESS + i] + stress[i]).mul_add(engineering, twice_work);
         }
+        let [s_11, s_22, s_33, s_12, s_23, s_31] = stress;
+        let largest = if wanted.state { largest_principal(&stress) } else { zero };
+        let measure = match criterion {
+            Criterion::LargestPrincipal => largest,
+            Criterion::FibreStress => s_11,
+        };
+        let work = (R::splat(0.5) * jacobian).mul_add(twice_work, old[LINEAR_WORK]);
+        let failed = R::select(zero.lt(self.limit) & self.limit.le(measure), one, zero);
+        (stress, [s_11, s_22, s_33, s_12, s_23, s_31, largest, work, failed, one - failed])
     }
 }
 
-/// The skew matrix of an axial vector.
-fn skew(v: &Vector3<f64>) -> Matrix3<f64> {
-    Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
-}
-
-/// How the stress at the end of a step answers to a further motion: ∂τ_ij/∂L_kl over J for F moved to (1 + L) F. Columns of L
-/// 11 21 31 12 22 32 13 23 33, each with the stress 11 22 33 12 23 31.
-///
-/// It is not symmetric, and with [`Rotation::Spin`], whose axes depend on the step, not that of an objective rate.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinearTangent(pub [[f64; 6]; 9]);
-
-impl LinearTangent {
-    /// The matrix of a 6×6 measure, row by row, at the deformation gradient `f` and the Cauchy stress of the step's end;
-    /// `None` for [`Measure::Nominal`], and where F has no inverse.
-    ///
-    /// [`Measure::Jaumann`] is DDSDDE: a motion of symmetric L and no spin.
-    pub fn matrix(&self, measure: Measure, f: &Matrix3<f64>, cauchy: &[f64; 6]) -> Option<[[f64; 6]; 6]> {
-        let mut jaumann = [[0.0; 6]; 6];
-        for (column, (k, l)) in PAIRS.into_iter().enumerate() {
-            for (row, entries) in jaumann.iter_mut().enumerate() {
-                // An engineering shear is half a motion each way.
-                entries[column] = 0.5 * (self.0[k + 3 * l][row] + self.0[l + 3 * k][row]);
-            }
+impl<R: Real> Answer<R> {
+    /// Where the points have not failed before and all their numbers are finite.
+    #[inline(always)]
+    fn sound(&self, old: &[R; LINEAR_ELASTIC_STATE]) -> R::Mask {
+        let zero = R::splat(0.0);
+        let mut probe = old[LINEAR_LARGEST] * zero;
+        for &x in &self.state[..LINEAR_FAILED] {
+            probe = x.mul_add(zero, probe);
         }
-        match measure {
-            Measure::Jaumann => Some(jaumann),
-            Measure::Truesdell => Some(truesdell_of_jaumann(&jaumann, cauchy)),
-            Measure::Material => pulled_back(&truesdell_of_jaumann(&jaumann, cauchy), f),
-            Measure::Nominal => None,
-        }
+        Failure::intact(old[LINEAR_FAILED]) & probe.le(zero)
     }
 
-    /// dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; 0 where F has no inverse.
-    ///
-    /// With L = dF F⁻¹, dP = (dτ − τ Lᵀ) F⁻ᵀ.
-    pub fn nominal(&self, f: &Matrix3<f64>, cauchy: &[f64; 6]) -> [f64; 81] {
-        let mut nominal = [0.0; 81];
-        let Some(inverse) = f.try_inverse() else { return nominal };
-        let (jacobian, cauchy) = (f.determinant(), matrix(cauchy));
-        for (column, entries) in nominal.chunks_exact_mut(9).enumerate() {
-            let (k, big_l) = (column % 3, column / 3);
-            let mut rate = Matrix3::zeros();
-            let mut l = Matrix3::zeros();
-            for (j, along) in inverse.row(big_l).iter().enumerate() {
-                rate += matrix(&self.0[k + 3 * j]) * *along;
-                l[(k, j)] = *along;
-            }
-            let p = (rate - cauchy * l.transpose()) * inverse.transpose() * jacobian;
-            entries.copy_from_slice(p.as_slice());
+    /// Gives the points that have not taken the step no stress and their old state, less what is not finite in it, and
+    /// says why: with the code `why`, or where that is 0 by the old state, or else an overflow.
+    #[inline(always)]
+    pub fn keep(&mut self, old: &[R; LINEAR_ELASTIC_STATE], why: R) {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let (taken, intact) = (self.taken, Failure::intact(old[LINEAR_FAILED]));
+        let mut lost = zero.lt(zero);
+        for c in 0..LINEAR_ALIVE {
+            let finite = (old[c] * zero).le(zero);
+            lost = lost | !finite;
+            let carried = if c < LINEAR_LARGEST { finite & intact } else { finite };
+            self.state[c] = R::select(taken, self.state[c], R::select(carried, old[c], zero));
         }
-        nominal
+        let latch = R::select(intact, zero, one);
+        self.state[LINEAR_FAILED] = R::select(taken, self.state[LINEAR_FAILED], latch);
+        self.state[LINEAR_ALIVE] = one - self.state[LINEAR_FAILED];
+        for stress in &mut self.stress {
+            *stress = R::select(taken, *stress, zero);
+        }
+        self.q1 = selected(taken, &self.q1, &self.q0);
+        let overflow = R::select(intact, R::splat(f64::from(status::OVERFLOW)), zero);
+        let of_state = R::select(lost, R::splat(f64::from(status::STATE_NOT_FINITE)), overflow);
+        let code = R::select(intact & why.lt(zero), why, of_state);
+        self.status = R::select(taken, zero, code);
+    }
+}
+
+impl Answer<f64> {
+    pub fn point(&self) -> LinearPoint {
+        LinearPoint { stress: self.stress, state: self.state, status: self.status as i32 }
     }
 }
 
 /// The axes that follow the fibre: F m, and F n less its part along it.
-fn fibre_axes(f: &Matrix3<f64>, axes: &Matrix3<f64>) -> Matrix3<f64> {
-    let first = f * axes.column(0);
-    let e1 = first / first.norm();
-    let second = f * axes.column(1);
-    let across = second - e1 * e1.dot(&second);
-    let e2 = across / across.norm();
-    Matrix3::from_columns(&[e1, e2, e1.cross(&e2)])
+#[inline(always)]
+fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
+    let (e1, second) = (unit(image(f, axes[0])), image(f, axes[1]));
+    let e2 = unit(along(second, -dot(e1, second), e1));
+    [e1, e2, cross(e1, e2)]
 }
 
-/// The rotation R of F = R U, det F > 0, by Newton's iteration X ← ½(X + X⁻ᵀ) with the determinant as its scale.
-fn polar_rotation(f: &Matrix3<f64>) -> Matrix3<f64> {
-    let mut x = *f;
-    // Quadratic once near; the scale brings any stretch near within a few steps.
-    for _ in 0..20 {
-        let Some(inverse) = x.try_inverse() else { break };
-        let dual = inverse.transpose();
-        let ratio = libm::sqrt(libm::sqrt(dual.norm_squared() / x.norm_squared()));
-        let next = (x * ratio + dual / ratio) * 0.5;
-        let change = (next - x).norm_squared();
-        x = next;
-        if change <= 1e-33 {
+/// The axes turned by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ they turn by
+/// (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
+#[inline(always)]
+fn spun<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
+    let g = half_gradient(increment);
+    let w = scale(R::splat(0.5), [g[1][2] - g[2][1], g[2][0] - g[0][2], g[0][1] - g[1][0]]);
+    let factor = R::splat(2.0) / (R::splat(1.0) + dot(w, w));
+    let once = [cross(w, axes[0]), cross(w, axes[1]), cross(w, axes[2])];
+    let twice = [cross(w, once[0]), cross(w, once[1]), cross(w, once[2])];
+    sum(&sum(axes, factor, &once), factor, &twice)
+}
+
+/// The rotation R of F = R U, det F > 0, where `able`: by Newton's iteration X ← ½(γX + X⁻ᵀ/γ), γ² the ratio of the norms, or
+/// 1 once it is near, where a scale would only round (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
+#[inline(always)]
+fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
+    /// The scale brings any stretch near within a few steps.
+    const STEPS: usize = 20;
+    const NEAR: f64 = 0.01;
+    let (half, one) = (R::splat(0.5), R::splat(1.0));
+    let (mut x, mut open) = (*f, able);
+    for _ in 0..STEPS {
+        if !R::any(open) {
             break;
         }
+        let (determinant, minors) = cofactors(&x);
+        let dual = scaled(determinant.reciprocal(), &minors);
+        let gap = square_norm(&difference(&x, &dual));
+        let ratio = (square_norm(&dual) / square_norm(&x)).sqrt().sqrt();
+        let ratio = R::select(gap.lt(R::splat(NEAR)), one, ratio);
+        let next = sum(&scaled(half * ratio, &x), half / ratio, &dual);
+        x = selected(open, &next, &x);
+        // Quadratic: what is left of the error is less than the square of the gap.
+        open = open & R::splat(R::EPSILON).lt(gap);
     }
     x
 }
 
-/// ln A of a matrix near enough to the identity, as 2 artanh((A − 1)(A + 1)⁻¹); `None` where the series does not settle.
-fn logarithm(a: &Matrix3<f64>) -> Option<Matrix3<f64>> {
+/// Half the gradient of the increment 1 + X at the middle of the step: X (2 + X)⁻¹.
+#[inline(always)]
+fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
+    let two = R::splat(2.0);
+    let [a, b, c] = *x;
+    let (determinant, minors) =
+        cofactors(&[[a[0] + two, a[1], a[2]], [b[0], b[1] + two, b[2]], [c[0], c[1], c[2] + two]]);
+    let g = product(x, &transposed(&minors));
+    scaled(determinant.reciprocal(), &g)
+}
+
+/// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where its series settles; `able` says where that counts.
+#[inline(always)]
+fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;
-    let identity = Matrix3::identity();
-    let y = (a - identity) * (a + identity).try_inverse()?;
-    let square = y * y;
-    let mut power = y;
-    let mut sum = y;
+    /// The square of a norm that no step comes near; beyond, rounding leaves little of (2 + X)⁻¹.
+    const LARGEST: f64 = 1e6;
+    let y = half_gradient(x);
+    let square = product(&y, &y);
+    let growth = square_norm(&square);
+    let size = square_norm(&y);
+    // Squares of norms; a term that cannot change a sixteenth of a rounding is left out, at each point by itself.
+    let negligible = R::splat(R::EPSILON * R::EPSILON / 256.0) * size;
+    let (mut power, mut series) = (y, y);
+    let mut next = size * growth;
+    let mut open = able & negligible.lt(next);
     for k in 1..TERMS {
-        power *= square;
-        let term = power / f64::from(2 * k + 1);
-        sum += term;
-        if term.norm_squared() <= 1e-34 * sum.norm_squared() {
-            return Some(sum * 2.0);
+        if !R::any(open) {
+            break;
         }
+        let factor = R::splat(1.0 / f64::from(2 * k + 1));
+        power = product(&power, &square);
+        series = sum(&series, R::select(open, factor, R::splat(0.0)), &power);
+        next = R::select(open, factor * factor * square_norm(&power) * growth, next);
+        open = open & negligible.lt(next);
     }
-    None
-}
-
-/// The derivative of [`logarithm`] at A along `da`, term by term.
-fn logarithm_derivative(a: &Matrix3<f64>, da: &Matrix3<f64>) -> Option<Matrix3<f64>> {
-    const TERMS: i32 = 200;
-    let identity = Matrix3::identity();
-    let inverse = (a + identity).try_inverse()?;
-    let y = (a - identity) * inverse;
-    let dy = (identity - y) * da * inverse;
-    let square = y * y;
-    let dsquare = dy * y + y * dy;
-    let (mut power, mut dpower) = (y, dy);
-    let mut sum = dy;
-    for k in 1..TERMS {
-        dpower = dpower * square + power * dsquare;
-        power *= square;
-        let term = dpower / f64::from(2 * k + 1);
-        sum += term;
-        if term.norm_squared() <= 1e-34 * sum.norm_squared() {
-            return Some(sum * 2.0);
-        }
-    }
-    None
-}
-
-/// The largest eigenvalue of a symmetric tensor 11 22 33 12 23 31.
-fn largest_principal(s: &[f64; 6]) -> f64 {
-    let [a, b, c] = principal_axes(s).0;
-    a.max(b).max(c)
+    let settled = next.le(negligible) & next.lt(R::splat(f64::INFINITY)) & square_norm(x).lt(R::splat(LARGEST));
+    (scaled(R::splat(2.0), &series), settled)
 }

@@ -7,6 +7,8 @@ pub mod failure;
 pub mod hyperelastic;
 pub mod kinematics;
 pub mod linear_elastic;
+mod linear_tangent;
+pub mod matrix;
 pub mod parameters;
 pub mod point;
 pub mod real;

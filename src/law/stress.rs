@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use super::real::Real;
+use super::matrix::{self, Matrix, product, select, transposed};
+use super::real::{Real, cross, dot, image};
 use super::tangent::Moduli;
 
 /// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
@@ -38,6 +39,14 @@ pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
 /// The six components 11 22 33 12 23 31 of a symmetric matrix.
 pub fn components(s: &Matrix3<f64>) -> [f64; 6] {
     [s.m11, s.m22, s.m33, s.m12, s.m23, s.m31]
+}
+
+/// Q s Qᵀ of a symmetric tensor s, 11 22 33 12 23 31.
+#[inline(always)]
+pub fn turned<R: Real>(q: &Matrix<R>, s: &[R; 6]) -> [R; 6] {
+    let moved = product(q, &[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]]);
+    let (a, b) = (transposed(&moved), transposed(q));
+    [dot(a[0], b[0]), dot(a[1], b[1]), dot(a[2], b[2]), dot(a[0], b[1]), dot(a[1], b[2]), dot(a[2], b[0])]
 }
 
 /// The matrix of cofactors, J F⁻ᵀ, which exists for every F.
@@ -91,6 +100,59 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
         rotate(&mut c, &mut a, &mut ca, &mut bc, &mut ab, &mut z, &mut x);
     }
     ([a, b, c], [x, y, z])
+}
+
+/// The largest eigenvalue of a symmetric tensor 11 22 33 12 23 31, to within a few roundings of its norm.
+///
+/// The eigenvalue that stands apart from the other two is a simple root of the characteristic equation, wherever those two
+/// are, and its axis a column of cofactors; what the tensor is across that axis gives the other two, however near they are
+/// (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
+#[inline(always)]
+pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
+    let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
+    let size = s[0].abs().max(s[1].abs()).max(s[2].abs()).max(s[3].abs()).max(s[4].abs()).max(s[5].abs());
+    let size = size.max(least);
+    let unit = size.reciprocal();
+    // The deviator over p = √(J2/3): its eigenvalues are 2 cos φ, with cos 3φ half its determinant.
+    let mean = (s[0] + s[1] + s[2]) * unit * R::splat(1.0 / 3.0);
+    let [a, b, c] = [s[0].mul_add(unit, -mean), s[1].mul_add(unit, -mean), s[2].mul_add(unit, -mean)];
+    let [d, e, f] = [s[3] * unit, s[4] * unit, s[5] * unit];
+    let square = R::splat(1.0 / 6.0) * dot([a, b, c], [a, b, c]) + R::splat(1.0 / 3.0) * dot([d, e, f], [d, e, f]);
+    let p = square.max(least).sqrt();
+    let scaling = p.reciprocal();
+    let [a, b, c, d, e, f] = [a * scaling, b * scaling, c * scaling, d * scaling, e * scaling, f * scaling];
+    let apart = apart(half * dot([a, d, f], cross([d, b, e], [f, e, c])));
+    let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
+    let n = matrix::unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
+    let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
+    // Less what it is along the axis and in the mean across it, the deviator is half the gap of the other two, twice.
+    let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
+    let along = [drop * n[0], drop * n[1], drop * n[2]];
+    let diagonal =
+        [along[0].mul_add(n[0], a + middle), along[1].mul_add(n[1], b + middle), along[2].mul_add(n[2], c + middle)];
+    let shear = [along[0].mul_add(n[1], d), along[1].mul_add(n[2], e), along[2].mul_add(n[0], f)];
+    let gap = half.mul_add(dot(diagonal, diagonal), dot(shear, shear)).sqrt();
+    alone.max(p.mul_add(gap - middle, mean) * size)
+}
+
+#[inline(always)]
+fn longer<R: Real>(u: [R; 3], v: [R; 3]) -> [R; 3] {
+    select(dot(v, v).le(dot(u, u)), u, v)
+}
+
+/// The solution x of x³ − 3x = 2r for |r| ≤ 1 that is farthest from the other two.
+#[inline(always)]
+fn apart<R: Real>(r: R) -> R {
+    const ROOT: f64 = 1.732_050_807_568_877_2;
+    let [one, two, three] = [R::splat(1.0), R::splat(2.0), R::splat(3.0)];
+    let size = r.abs().min(one);
+    // Newton's method from the chord of the solution, which goes from √3 at 0 to 2 at 1.
+    let mut x = R::splat(2.0 - ROOT).mul_add(size, R::splat(ROOT));
+    for _ in 0..3 {
+        let square = x * x;
+        x = x - (square - three).mul_add(x, -two * size) * (three * (square - one)).reciprocal();
+    }
+    R::select(r.lt(R::splat(0.0)), -x, x)
 }
 
 /// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.

@@ -8,7 +8,7 @@ use super::element::{Control, LANES, Number, Points, Shapes, volume_ratios};
 use crate::driver::Error;
 use crate::driver::material::{Law, Material};
 use crate::host::c_api::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use crate::host::calls::{self, LinearFrame, SolverBlock};
+use crate::host::calls::{self, LinearFrame, LinearSolverBlock, SolverBlock};
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use crate::law::state::{
@@ -24,7 +24,7 @@ pub const BLOCK: usize = 128;
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
     Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
-    LinearElastic { properties: [f64; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
+    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
 }
 
 /// A material as the host uses it.
@@ -52,8 +52,10 @@ impl<T: Number> Medium<T> {
                 (Entry::Hyperelastic(properties), material.property("k_el").unwrap_or_default())
             }
             Law::LinearElastic { law, frame, criterion } => {
-                let mut properties = [0.0; LINEAR_ELASTIC_PROPERTIES];
-                properties.copy_from_slice(&material.values);
+                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
                 let frame = match frame {
                     Rotation::Fibre => LinearFrame::Fibre,
                     Rotation::Polar => LinearFrame::Polar,
@@ -275,26 +277,23 @@ impl<T: Number> ElementBlock<T> {
 
     fn call_linear_elastic(
         &mut self,
-        properties: &[f64; LINEAR_ELASTIC_PROPERTIES],
+        properties: &[T; LINEAR_ELASTIC_PROPERTIES],
         frame: LinearFrame,
         criterion: i32,
         scratch: &mut Scratch<T>,
     ) {
         let stride = self.shapes.stride;
-        for i in 0..self.shapes.n {
-            let wide = |array: &[T], c: usize| -> f64 { array[c * stride + i].into() };
-            let f_new = std::array::from_fn(|c| wide(&scratch.deformation_gradient, c));
-            let f_old = std::array::from_fn(|c| wide(&self.f_old, c));
-            let mut state = std::array::from_fn(|c| wide(&self.state, c));
-            let (code, stress) = calls::linear_elastic_step(properties, &f_old, &f_new, &mut state, frame, criterion);
-            scratch.status[i] = code;
-            for (c, value) in stress.into_iter().enumerate() {
-                scratch.stress[c * stride + i] = T::from_f64(value);
-            }
-            for (c, value) in state.into_iter().enumerate() {
-                self.state[c * stride + i] = T::from_f64(value);
-            }
-        }
+        let arrays = LinearSolverBlock {
+            n: self.shapes.n,
+            leading_dimension: stride,
+            f_old: &self.f_old,
+            f_new: &scratch.deformation_gradient,
+            state: &mut self.state,
+            stress: &mut scratch.stress,
+            status: &mut scratch.status,
+        };
+        // The code is the worst of the points': each has its own in `status`.
+        calls::linear_elastic_block(properties, arrays, frame, criterion);
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
@@ -375,7 +374,7 @@ impl<T: Number> ElementBlock<T> {
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
-            Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0],
+            Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0].into(),
         }
     }
 }

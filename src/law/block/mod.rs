@@ -15,6 +15,7 @@
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
 //! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric |
 
+pub mod linear;
 #[cfg(test)]
 mod tests;
 #[cfg(target_arch = "x86_64")]

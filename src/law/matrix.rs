@@ -1,0 +1,77 @@
+//! 3×3 matrices by columns in the number that the law is written in.
+
+use super::real::{Real, along, cross, dot, image, scale};
+
+/// Three columns.
+pub type Matrix<R> = [[R; 3]; 3];
+
+/// A B.
+#[inline(always)]
+pub fn product<R: Real>(a: &Matrix<R>, b: &Matrix<R>) -> Matrix<R> {
+    [image(a, b[0]), image(a, b[1]), image(a, b[2])]
+}
+
+/// Aᵀ.
+#[inline(always)]
+pub fn transposed<R: Real>(a: &Matrix<R>) -> Matrix<R> {
+    [[a[0][0], a[1][0], a[2][0]], [a[0][1], a[1][1], a[2][1]], [a[0][2], a[1][2], a[2][2]]]
+}
+
+/// s A.
+#[inline(always)]
+pub fn scaled<R: Real>(s: R, a: &Matrix<R>) -> Matrix<R> {
+    [scale(s, a[0]), scale(s, a[1]), scale(s, a[2])]
+}
+
+/// A + s B.
+#[inline(always)]
+pub fn sum<R: Real>(a: &Matrix<R>, s: R, b: &Matrix<R>) -> Matrix<R> {
+    [along(a[0], s, b[0]), along(a[1], s, b[1]), along(a[2], s, b[2])]
+}
+
+/// A − B.
+#[inline(always)]
+pub fn difference<R: Real>(a: &Matrix<R>, b: &Matrix<R>) -> Matrix<R> {
+    sum(a, R::splat(-1.0), b)
+}
+
+/// The determinant and the matrix of cofactors, det A A⁻ᵀ.
+#[inline(always)]
+pub fn cofactors<R: Real>(a: &Matrix<R>) -> (R, Matrix<R>) {
+    let minors = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
+    (dot(a[0], minors[0]), minors)
+}
+
+/// A:A, the square of the norm.
+#[inline(always)]
+pub fn square_norm<R: Real>(a: &Matrix<R>) -> R {
+    dot(a[0], a[0]) + (dot(a[1], a[1]) + dot(a[2], a[2]))
+}
+
+/// `a` where the mask holds, `b` elsewhere.
+#[inline(always)]
+pub fn selected<R: Real>(mask: R::Mask, a: &Matrix<R>, b: &Matrix<R>) -> Matrix<R> {
+    [select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])]
+}
+
+/// Likewise for a vector.
+#[inline(always)]
+pub fn select<R: Real>(mask: R::Mask, a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [R::select(mask, a[0], b[0]), R::select(mask, a[1], b[1]), R::select(mask, a[2], b[2])]
+}
+
+/// Whether every entry is a finite number.
+#[inline(always)]
+pub fn is_finite<R: Real>(a: &Matrix<R>) -> R::Mask {
+    let zero = R::splat(0.0);
+    let nothing = along(along(scale(zero, a[0]), zero, a[1]), zero, a[2]);
+    (nothing[0] + nothing[1] + nothing[2]).le(zero)
+}
+
+/// A vector over its length; along an axis exactly that axis, which a product with the reciprocal would not be.
+#[inline(always)]
+pub fn unit<R: Real>(v: [R; 3]) -> [R; 3] {
+    let length = dot(v, v).sqrt();
+    let inverse = length.reciprocal();
+    [v[0].quotient(length, inverse), v[1].quotient(length, inverse), v[2].quotient(length, inverse)]
+}
