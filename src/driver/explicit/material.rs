@@ -12,13 +12,17 @@ use crate::host::calls::{self, LinearFrame, SolverBlock};
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use crate::law::state::{
-    FAILED, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_STRESS, LINEAR_WORK,
+    FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
+    LINEAR_STRESS, LINEAR_WORK,
 };
 use crate::law::status;
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
 /// first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
+
+/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
+pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
 /// A law as a solver holds it.
 #[derive(Clone, Debug)]
@@ -33,8 +37,9 @@ pub struct Medium<T> {
     pub entry: Entry<T>,
     pub density: f64,
     pub control: Control,
-    /// Whether elements may fail.
+    /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
+    strength: f64,
     /// Wave speed at rest, for the bulk viscosity.
     pub wave_speed: f64,
 }
@@ -68,7 +73,8 @@ impl<T: Number> Medium<T> {
                 (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus())
             }
         };
-        Ok(Medium { entry, density, control, fails: material.can_fail(), wave_speed: (modulus / density).sqrt() })
+        let (fails, strength) = (material.can_fail(), material.property("sigma_lim").unwrap_or_default());
+        Ok(Medium { entry, density, control, fails, strength, wave_speed: (modulus / density).sqrt() })
     }
 
     /// The law's number of state variables, and where the latch stands among them.
@@ -363,11 +369,26 @@ impl<T: Number> ElementBlock<T> {
         self.state[row * self.shapes.stride + i].into()
     }
 
-    /// Energy densities of the four modes; the linear elastic law's are not defined: its work stands first.
-    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
+    /// Energy densities, as [`ENERGY_NAMES`] has them.
+    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
         match medium.entry {
-            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(mode, i)),
-            Entry::LinearElastic { .. } => [self.variable(LINEAR_WORK, i), 0.0, 0.0, 0.0],
+            Entry::Hyperelastic(_) => {
+                let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
+                [el, tc, td, ld, 0.0]
+            }
+            Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+        }
+    }
+
+    /// 1 at the failure limit, 0 without one.
+    pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match medium.entry {
+            Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
+            Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
+                self.variable(LINEAR_STRESS, i) / medium.strength
+            }
+            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / medium.strength,
         }
     }
 

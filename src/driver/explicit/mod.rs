@@ -362,10 +362,22 @@ impl<T: Number> Solver<T> {
         block.is_intact(i)
     }
 
-    /// Energy densities of the four modes in an element; the linear elastic law's work stands first.
-    pub fn energy_densities(&self, number: usize) -> [f64; 4] {
+    /// Energy densities in an element, as [`material::ENERGY_NAMES`] has them.
+    pub fn energy_densities(&self, number: usize) -> [f64; 5] {
         let (block, i) = self.element(number);
         block.energies(&self.media[block.medium], i)
+    }
+
+    /// Reference volume of an element.
+    pub fn volume(&self, number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.shapes.volume[i].into()
+    }
+
+    /// How near an element is to failure, which is at 1.
+    pub fn failure_index(&self, number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.failure_index(&self.media[block.medium], i)
     }
 
     /// Logarithmic strain along the fibre of an element.

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use super::run::{End, Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::driver::Error;
-use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, text};
 use crate::driver::plot::{self, Panel, Series, tidy};
 use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
 use crate::law::parameters::ENERGY_DENSITY;
@@ -60,7 +60,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
     } else {
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
     }
-    let modes = ["elongation", "compaction", "distortion"];
+    let modes = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
     let length = scene.units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
     [
@@ -69,7 +69,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
         panel(
             "Largest energy per reference volume",
             ENERGY_DENSITY,
-            (0..3).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
+            (0..modes.len()).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
         ),
         Panel {
             title: "Width of the section by place",
@@ -112,26 +112,9 @@ fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(
     let (_, body) = root.split_vertically(fine(88));
     let (left, right) = points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.0), r.max(point.0)));
     let top = points.iter().map(|point| point.1).fold(0.0, f64::max);
-    let mut chart = ChartBuilder::on(&body)
-        .margin_right(fine(30))
-        .margin_bottom(fine(12))
-        .x_label_area_size(fine(50))
-        .y_label_area_size(fine(70))
-        .build_cartesian_2d((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0))?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(stroke(RULE, 1))
-        .axis_style(stroke(GREY, 1))
-        .set_all_tick_mark_size(fine(5))
-        .y_labels(6)
-        .label_style(text(TEXT, &INK))
-        .axis_desc_style(text(TEXT, &INK))
-        .x_label_formatter(&|x| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
-        .y_label_formatter(&|y| format!("{y:.0}"))
-        .x_desc(label)
-        .draw()?;
+    let (x, y) = ((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0));
+    let x_label = |x: &f64| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") };
+    let mut chart = plot::chart(&body, x, y, label, [&x_label, &|y| format!("{y:.0}")])?;
     for (case, &point) in scene.cases.iter().zip(points) {
         chart.draw_series([Circle::new(point, fine(5), COLOURS[0].filled())])?;
         let (x, y) = chart.backend_coord(&point);

@@ -14,8 +14,6 @@ use crate::driver::material::Material;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// So many radii from mid-span nothing touches the yarn any more.
-pub const OUTSIDE: f64 = 2.0;
 /// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
 const FITTED: [f64; 2] = [0.4, 0.85];
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
@@ -34,11 +32,16 @@ pub struct Sample {
     pub force: f64,
     /// Of the whole yarn: twice the half model's.
     pub energies: Energies,
-    /// Largest energy densities of the modes: in the yarn, and outside the contact zone.
-    pub largest: [f64; 3],
-    pub outside: [f64; 3],
-    /// Least energy density of elongation.
+    /// The parts of the internal energy, as `ENERGY_NAMES` has them.
+    pub parts: [f64; 5],
+    /// Largest energy densities: in the yarn, and further than a radius from mid-span and from the clamp, where neither
+    /// touches the yarn.
+    pub largest: [f64; 5],
+    pub free: [f64; 5],
+    /// Least energy density of elongation, or of the linear law's work.
     pub least: f64,
+    /// The largest failure index of what stands.
+    pub index: f64,
     pub deleted: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.
     pub longitudinal: f64,
@@ -66,7 +69,7 @@ pub struct Snapshot {
     pub time: f64,
     pub positions: Vec<[f64; 3]>,
     pub intact: Vec<bool>,
-    pub densities: Vec<[f64; 4]>,
+    pub densities: Vec<[f64; 5]>,
     /// Height of the projectile's axis, and its radius.
     pub projectile: Option<(f64, f64)>,
 }
@@ -291,19 +294,23 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn measure_densities(&self, sample: &mut Sample) {
-        let outside = OUTSIDE * self.radius() / self.case.yarn.length * self.case.yarn.layers as f64;
+        let (length, radius) = (self.case.yarn.length, self.radius());
         sample.least = f64::INFINITY;
-        let elements = self.solver.mesh.elements.len();
-        for i in (0..elements).filter(|&i| self.solver.is_intact(i)) {
+        for i in 0..self.solver.mesh.elements.len() {
             let densities = self.solver.energy_densities(i);
-            let beyond = self.solver.mesh.layer(i) as f64 >= outside;
-            for (mode, &density) in densities[..3].iter().enumerate() {
-                sample.largest[mode] = sample.largest[mode].max(density);
-                if beyond {
-                    sample.outside[mode] = sample.outside[mode].max(density);
-                }
+            for (part, density) in sample.parts.iter_mut().zip(densities) {
+                *part += 2.0 * density * self.solver.volume(i);
             }
-            sample.least = sample.least.min(densities[0]);
+            if !self.solver.is_intact(i) {
+                continue;
+            }
+            let place = (self.solver.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
+            larger(&mut sample.largest, densities);
+            if place > radius && place < length - radius {
+                larger(&mut sample.free, densities);
+            }
+            sample.least = sample.least.min(densities[0] + densities[4]);
+            sample.index = sample.index.max(self.solver.failure_index(i));
         }
     }
 
@@ -357,6 +364,12 @@ fn front(values: &[f64], threshold: f64) -> Option<f64> {
     let last = values.iter().rposition(|&value| value >= threshold)?;
     let Some(&next) = values.get(last + 1) else { return Some(last as f64) };
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))
+}
+
+fn larger(largest: &mut [f64; 5], values: [f64; 5]) {
+    for (largest, value) in largest.iter_mut().zip(values) {
+        *largest = largest.max(value);
+    }
 }
 
 /// Energies of the whole yarn from those of its half.
@@ -414,6 +427,12 @@ impl Outcome {
         let work = self.samples.iter().map(|sample| sample.energies.external).fold(0.0, f64::max);
         let scale = if work > 0.0 { work } else { first };
         self.samples.iter().map(|sample| (sample.energies.total() - first).abs() / scale).fold(0.0, f64::max)
+    }
+
+    /// The largest failure index of the samples up to the break.
+    pub fn largest_index(&self) -> f64 {
+        let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
+        self.samples.iter().take_while(|sample| sample.time <= end).map(|sample| sample.index).fold(0.0, f64::max)
     }
 
     /// The samples in which the wave of elongation passes the middle of half the span.

@@ -89,11 +89,13 @@ fn colour(share: f64) -> RGBColor {
 
 impl Drawing<'_> {
     fn draw_row(&self, area: &Area, mode: usize, unit: &str) -> Drawn<()> {
+        // The linear law's work, which has no modes, is elongation for the most part.
+        let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
         let values = self.snapshot.densities.iter().zip(&self.snapshot.intact);
-        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| w[mode]).fold(0.0, f64::max);
+        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| density(w)).fold(0.0, f64::max);
         draw_head(area, MODES[mode], largest, unit)?;
-        let shade =
-            |element: usize| colour(if largest > 0.0 { self.snapshot.densities[element][mode] / largest } else { 0.0 });
+        let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
+        let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
         self.draw_side(area, &shade)?;
         self.draw_section(area, &shade)
     }
