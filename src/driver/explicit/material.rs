@@ -37,6 +37,8 @@ pub struct Medium<T> {
     pub entry: Entry<T>,
     pub density: f64,
     pub control: Control,
+    /// What hourglass modes are held by.
+    hourglass: f64,
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
     strength: f64,
@@ -74,7 +76,10 @@ impl<T: Number> Medium<T> {
             }
         };
         let (fails, strength) = (material.can_fail(), material.property("sigma_lim").unwrap_or_default());
-        Ok(Medium { entry, density, control, fails, strength, wave_speed: (modulus / density).sqrt() })
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let across = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        let hourglass = control.hourglass * across;
+        Ok(Medium { entry, density, control, hourglass, fails, strength, wave_speed: (modulus / density).sqrt() })
     }
 
     /// The law's number of state variables, and where the latch stands among them.
@@ -205,7 +210,7 @@ pub struct ElementBlock<T> {
 
 impl<T: Number> ElementBlock<T> {
     pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
-        let shapes = Shapes::<T>::new(elements, coordinates, &of.control);
+        let shapes = Shapes::<T>::new(elements, coordinates, of.hourglass);
         let (stride, one) = (shapes.stride, T::from_f64(1.0));
         let mut f_old = vec![T::default(); 9 * stride];
         for diagonal in [0, 4, 8] {

@@ -310,7 +310,6 @@ impl Reader<'_> {
             Some(_) => self.positive("sample", &file.sample)?,
             None => end / SAMPLES,
         };
-        let zones = self.zones()?;
         Ok(Case {
             name,
             yarn: self.yarn()?,
@@ -320,8 +319,8 @@ impl Reader<'_> {
             sample,
             pictures: self.pictures()?,
             frames: file.frames.unwrap_or(0),
-            control: self.control(&zones)?,
-            zones,
+            control: self.control()?,
+            zones: self.zones()?,
             precision: file.precision.unwrap_or(Precision::F64),
             outputs: file.outputs.unwrap_or(Outputs::Full),
         })
@@ -373,7 +372,7 @@ impl Reader<'_> {
         Ok(times.get_ref().clone())
     }
 
-    fn control(&self, zones: &Zones) -> Result<Control, Error> {
+    fn control(&self) -> Result<Control, Error> {
         let [linear, quadratic] = match &self.file.viscosity {
             None => [VISCOSITY.0, VISCOSITY.1],
             Some(pair) => {
@@ -384,18 +383,7 @@ impl Reader<'_> {
                 *pair.get_ref()
             }
         };
-        let material = match zones {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
-        };
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let modulus = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
-        Ok(Control {
-            hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?,
-            modulus,
-            linear,
-            quadratic,
-        })
+        Ok(Control { hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?, linear, quadratic })
     }
 
     fn zones(&self) -> Result<Zones, Error> {
