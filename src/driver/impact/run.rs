@@ -124,19 +124,14 @@ impl<'a, T: Number> Run<'a, T> {
         let mesh = case.yarn.mesh();
         let per_layer = mesh.elements_per_layer;
         let layer_length = case.yarn.length / case.yarn.layers as f64;
-        let mut solver = match &case.zones {
-            Zones::One(material) => Solver::new(mesh, vec![medium(material)?], |_| 0),
-            Zones::Two(materials, length) => {
-                let near = (length / layer_length).round() as usize;
-                let media = vec![medium(&materials[0])?, medium(&materials[1])?];
-                Solver::new(mesh, media, |element| usize::from(element / per_layer >= near))
-            }
+        let (materials, length) = match &case.zones {
+            Zones::One(material) => (std::slice::from_ref(&**material), case.yarn.length),
+            Zones::Two(materials, length) => (&materials[..], *length),
         };
-        let material = match &case.zones {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
-        };
-        let smith = Tension::of(material).smith(case.speed, material.density.unwrap_or_default());
+        let near = (length / layer_length).round() as usize;
+        let media = materials.iter().map(medium).collect::<Result<_, _>>()?;
+        let mut solver = Solver::new(mesh, media, |element| usize::from(element / per_layer >= near));
+        let smith = Tension::of(&materials[0]).smith(case.speed, materials[0].density.unwrap_or_default());
         solver.all_outputs = case.outputs == Outputs::Full;
         let start = set_up(case, &mut solver);
         Ok(Run {
