@@ -177,6 +177,9 @@ pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
     kept
 }
 
+/// A plot between two axes.
+type Chart<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
+
 /// Writes a value on an axis.
 type Label<'a> = &'a dyn Fn(&f64) -> String;
 
@@ -187,7 +190,7 @@ pub(super) fn chart<'a, X, Y>(
     y: Y,
     name: &str,
     [x_label, y_label]: [Label; 2],
-) -> Drawn<ChartContext<'a, SVGBackend<'a>, Cartesian2d<X::CoordDescType, Y::CoordDescType>>>
+) -> Drawn<Chart<'a, X::CoordDescType, Y::CoordDescType>>
 where
     X: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
     Y: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
