@@ -455,18 +455,19 @@ mod tests {
     #[test]
     fn a_collapsing_element_shortens_the_step_until_there_is_none() {
         let mut solver = press();
-        let (mut first, mut steps) = (None, 0);
+        let (mut first, mut worst, mut steps) = (None, 0.0, 0);
         let error = loop {
             if let Err(error) = solver.accelerate(true, 1.0) {
                 break error.to_string();
             }
-            let Energies { external, .. } = solver.energies;
             let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
-            assert!(change.abs() <= 0.02 * external.abs(), "{change} of {external} in step {steps}");
+            worst = largest(worst, change.abs());
             solver.displace();
             steps += 1;
             assert!(steps < 100_000 && solver.time < 1e-5, "the top is through the bottom after 10 µs");
         };
         assert!(error.contains("elements have collapsed") && solver.deleted.is_empty(), "{error}");
+        let external = solver.energies.external;
+        assert!(worst < 0.01 * external, "{worst} of {external}");
     }
 }
