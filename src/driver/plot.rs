@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 use super::Error;
@@ -176,6 +177,48 @@ pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
     kept
 }
 
+/// A plot between two axes.
+type Chart<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
+
+/// Writes a value on an axis.
+type Label<'a> = &'a dyn Fn(&f64) -> String;
+
+/// Axes and the rules across, as all plots have them, with the abscissa's name and the two axes' labels.
+pub(super) fn chart<'a, X, Y>(
+    area: &Area<'a>,
+    x: X,
+    y: Y,
+    name: &str,
+    [x_label, y_label]: [Label; 2],
+) -> Drawn<Chart<'a, X::CoordDescType, Y::CoordDescType>>
+where
+    X: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
+    Y: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
+{
+    let mut chart = ChartBuilder::on(area)
+        .margin_right(fine(30))
+        .margin_bottom(fine(12))
+        .x_label_area_size(fine(50))
+        .y_label_area_size(fine(MARGIN))
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(stroke(RULE, 1))
+        .axis_style(stroke(GREY, 1))
+        .set_all_tick_mark_size(fine(5))
+        .x_labels(8)
+        .y_labels(6)
+        .x_label_formatter(&x_label)
+        .y_label_formatter(&y_label)
+        .label_style(text(TEXT, &INK))
+        .axis_desc_style(text(TEXT, &INK))
+        .x_desc(name)
+        .draw()?;
+    Ok(chart)
+}
+
 impl Panel {
     pub fn draw(&self, area: &Area, abscissa: &Abscissa) -> Drawn<()> {
         let (head, body) = area.split_vertically(fine(62));
@@ -183,27 +226,8 @@ impl Panel {
         self.draw_head(&head, power)?;
         let factor = 10f64.powi(-power);
         let (left, right) = bounds(&abscissa.values);
-        let mut chart = ChartBuilder::on(&body)
-            .margin_right(fine(30))
-            .margin_bottom(fine(12))
-            .x_label_area_size(fine(50))
-            .y_label_area_size(fine(MARGIN))
-            .build_cartesian_2d(left..right, low * factor..high * factor)?;
-        chart
-            .configure_mesh()
-            .disable_x_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(stroke(RULE, 1))
-            .axis_style(stroke(GREY, 1))
-            .set_all_tick_mark_size(fine(5))
-            .x_labels(8)
-            .y_labels(6)
-            .x_label_formatter(&|x| tick(*x, right - left))
-            .y_label_formatter(&|y| tick(*y, (high - low) * factor))
-            .label_style(text(TEXT, &INK))
-            .axis_desc_style(text(TEXT, &INK))
-            .x_desc(&abscissa.label)
-            .draw()?;
+        let (x, y) = (|x: &f64| tick(*x, right - left), |y: &f64| tick(*y, (high - low) * factor));
+        let mut chart = chart(&body, left..right, low * factor..high * factor, &abscissa.label, [&x, &y])?;
         let level = |y: f64| [(left, y * factor), (right, y * factor)];
         if low < 0.0 {
             chart.draw_series(LineSeries::new(level(0.0), stroke(GREY, 1)))?;

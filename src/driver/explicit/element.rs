@@ -83,6 +83,14 @@ impl<T: Number> Mul for Lanes<T> {
     }
 }
 
+impl<T: Number> Div for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, T::div)
+    }
+}
+
 /// Components that begin at `first`, of an array with this leading dimension.
 #[inline(always)]
 fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
@@ -146,8 +154,10 @@ pub struct Shapes<T> {
     pub volume: Vec<T>,
     /// 1: stiffness against the hourglass modes.
     stiffness: Vec<T>,
-    /// Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
-    gradients: Vec<[f64; 6]>,
+    /// 6: 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+    gradients: Vec<T>,
+    /// The largest square of a frequency of the hourglass modes, times the density.
+    pub hourglass_frequency: f64,
 }
 
 /// The reference shape of one element.
@@ -155,6 +165,7 @@ struct Shape {
     inverse: [[f64; 3]; 3],
     hourglass: [[f64; 4]; 3],
     volume: f64,
+    /// Σ over corners of ∂N/∂X_i ∂N/∂X_j.
     gradients: [f64; 6],
 }
 
@@ -173,22 +184,29 @@ impl Shape {
             gradients: pairs.map(|pair| product[pair]),
         }
     }
+
+    /// A bound of Σ over the corners of a hourglass mode's squares: 8, and what it sheds of linear fields.
+    fn hourglass_square(&self) -> f64 {
+        let shed =
+            |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
+        8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
+    }
 }
 
-/// The cheap half of a material: what hourglass modes and shocks are held by.
+/// Coefficients of what holds hourglass modes and shocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
-    /// Fraction of the stiffness with which a mode of this modulus would resist, and the modulus.
+    /// Fraction of the stiffness with which a material would resist the modes.
     pub hourglass: f64,
-    pub modulus: f64,
     /// Coefficients of bulk viscosity: linear, quadratic.
     pub linear: f64,
     pub quadratic: f64,
 }
 
 impl<T: Number> Shapes<T> {
-    /// A block of elements. `coordinates` are the nodes in the reference placement.
-    pub fn new(elements: &[[u32; 8]], coordinates: &[[f64; 3]], control: &Control) -> Self {
+    /// A block of elements. `coordinates` are the nodes in the reference placement, `modulus` is what hourglass modes are
+    /// held by.
+    pub fn new(elements: &[[u32; 8]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
         let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
         let array = |components: usize| vec![T::default(); components * stride];
         let mut block = Shapes {
@@ -199,7 +217,8 @@ impl<T: Number> Shapes<T> {
             hourglass: array(12),
             volume: array(1),
             stiffness: array(1),
-            gradients: Vec::with_capacity(n),
+            gradients: array(6),
+            hourglass_frequency: 0.0,
         };
         block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
         for (i, element) in elements.iter().enumerate() {
@@ -215,8 +234,13 @@ impl<T: Number> Shapes<T> {
             let trace: f64 = shape.gradients[..3].iter().sum();
             block.volume[i] = T::from_f64(shape.volume);
             // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
-            block.stiffness[i] = T::from_f64(control.hourglass * 0.5 * control.modulus * trace * shape.volume / 8.0);
-            block.gradients.push(shape.gradients);
+            let stiffness = 0.5 * modulus * trace * shape.volume / 8.0;
+            block.stiffness[i] = T::from_f64(stiffness);
+            let frequency = stiffness * shape.hourglass_square() / (shape.volume / 8.0);
+            block.hourglass_frequency = block.hourglass_frequency.max(frequency);
+            for (c, sum) in shape.gradients.into_iter().enumerate() {
+                block.gradients[c * stride + i] = T::from_f64(8.0 * sum);
+            }
         }
         block
     }
@@ -318,15 +342,20 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// The square of the highest frequency of an element, over its wave speed's: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in
-    /// the current placement is no larger than its trace.
-    pub fn spread(&self, element: usize, f: &[T]) -> f64 {
-        let f = nalgebra::Matrix3::from_fn(|i, j| f[(i + 3 * j) * self.stride + element].into());
-        let [a, b, c, d, e, g] = self.gradients[element];
-        let reference = nalgebra::Matrix3::new(a, d, g, d, b, e, g, e, c);
-        match f.try_inverse() {
-            Some(inverse) => 8.0 * (inverse.transpose() * reference * inverse).trace(),
-            None => 0.0, // it is deleted
+    /// J, and the squares of the elements' highest frequencies over their wave speeds': the largest eigenvalue of
+    /// 8 Σ ∇N ⊗ ∇N in the current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J.
+    #[inline(always)]
+    pub fn volumes_and_spreads(&self, f: &[T], ratios: &mut [T], spreads: &mut [T]) {
+        for first in (0..self.stride).step_by(LANES) {
+            let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
+            let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
+            let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
+            let ratio = dot(u, a);
+            let [aa, bb, cc, ab, bc, ca] = load(&self.gradients, self.stride, first);
+            let (squares, products) =
+                (aa * dot(a, a) + bb * dot(b, b) + cc * dot(c, c), ab * dot(a, b) + bc * dot(b, c) + ca * dot(c, a));
+            store(ratio, ratios, first);
+            store((squares + products + products) / (ratio * ratio), spreads, first);
         }
     }
 
@@ -368,21 +397,16 @@ fn cross<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// det F of every element.
 #[inline(always)]
-pub fn volume_ratios<T: Number>(f: &[T], stride: usize, ratios: &mut [T]) {
-    for first in (0..stride).step_by(LANES) {
-        let [a, b, c, d, e, g, h, i, j] = load(f, stride, first);
-        let [x, y, z] = cross([d, e, g], [h, i, j]);
-        store(a * x + b * y + c * z, ratios, first);
-    }
+fn dot<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> Lanes<T> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const CONTROL: Control = Control { hourglass: 0.3, modulus: 2.0, linear: 0.0, quadratic: 0.0 };
+    const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
     const NODES: [[f64; 3]; 8] = [
         [0.0, 0.0, 0.0],
@@ -429,7 +453,7 @@ mod tests {
 
     #[test]
     fn a_linear_field_has_its_gradient_and_no_hourglass() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, &CONTROL);
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
         let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
         let field: Vec<[f64; 3]> = NODES.iter().map(|&x| (h * nalgebra::Vector3::from(x)).into()).collect();
         let state = deform(&shapes, &field);
@@ -443,7 +467,7 @@ mod tests {
 
     #[test]
     fn forces_are_in_balance() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, &CONTROL);
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
         let displacement = crooked();
         let state = deform(&shapes, &displacement);
         let forces = forces(&shapes, &state, [3.0, -1.0, 2.0, 0.5, -0.7, 0.2]);
@@ -453,7 +477,7 @@ mod tests {
 
     #[test]
     fn hourglass_forces_are_the_slope_of_their_energy() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, &CONTROL);
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
         let mut displacement = crooked();
         let state = deform(&shapes, &displacement);
         let force = forces(&shapes, &state, [0.0; 6]);
@@ -474,7 +498,7 @@ mod tests {
     #[test]
     fn nodal_forces_do_the_work_of_the_stress() {
         // δW = V P:δF for a displacement that is a linear field; the hourglass does none.
-        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, &CONTROL);
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
         let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
         let state = deform(&shapes, &crooked());
         let force = forces(&shapes, &state, stress);

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, LANES, Number, Points, Shapes, volume_ratios};
+use super::element::{Control, LANES, Number, Points, Shapes};
+use super::largest;
 use crate::driver::Error;
 use crate::driver::material::{Law, Material};
 use crate::host::c_api::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
@@ -12,13 +13,17 @@ use crate::host::calls::{self, LinearFrame, LinearSolverBlock, SolverBlock};
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use crate::law::state::{
-    FAILED, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_STRESS, LINEAR_WORK,
+    FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
+    LINEAR_STRESS, LINEAR_WORK,
 };
 use crate::law::status;
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
 /// first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
+
+/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
+pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
 /// A law as a solver holds it.
 #[derive(Clone, Debug)]
@@ -33,8 +38,11 @@ pub struct Medium<T> {
     pub entry: Entry<T>,
     pub density: f64,
     pub control: Control,
-    /// Whether elements may fail.
+    /// What hourglass modes are held by.
+    hourglass: f64,
+    /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
+    strength: f64,
     /// Wave speed at rest, for the bulk viscosity.
     pub wave_speed: f64,
 }
@@ -70,7 +78,11 @@ impl<T: Number> Medium<T> {
                 (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus())
             }
         };
-        Ok(Medium { entry, density, control, fails: material.can_fail(), wave_speed: (modulus / density).sqrt() })
+        let (fails, strength) = (material.can_fail(), material.property("sigma_lim").unwrap_or_default());
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let across = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        let (hourglass, wave_speed) = (control.hourglass * across, (modulus / density).sqrt());
+        Ok(Medium { entry, density, control, hourglass, fails, strength, wave_speed })
     }
 
     /// The law's number of state variables, and where the latch stands among them.
@@ -89,6 +101,7 @@ pub struct Scratch<T> {
     modal: Vec<T>,
     stress: Vec<T>,
     pressure: Vec<T>,
+    spread: Vec<T>,
     wave_speed: Vec<T>,
     status: Vec<i32>,
 }
@@ -101,6 +114,7 @@ impl<T: Number> Default for Scratch<T> {
             modal: array(12),
             stress: array(6),
             pressure: array(1),
+            spread: array(1),
             wave_speed: array(1),
             status: vec![0; BLOCK],
         }
@@ -114,8 +128,6 @@ pub struct Wanted {
     pub law: bool,
     /// What else the balance of energies needs.
     pub balance: bool,
-    /// The square of the highest frequency.
-    pub frequency: bool,
     /// Length of the step that led here.
     pub step: f64,
 }
@@ -128,10 +140,14 @@ pub struct Sums {
     /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
     pub hourglass: f64,
     pub released: f64,
-    /// Squares of the highest frequency of an element.
-    pub frequency: f64,
+    /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
+    /// which bulk viscosity damps one.
+    pub stiffness: f64,
+    pub damping: f64,
     /// Elements deleted in this step.
     pub deleted: Vec<usize>,
+    /// The code of a law that has refused its call.
+    pub refused: Option<i32>,
     /// Time spent inside the law's entries.
     pub law: Duration,
 }
@@ -168,6 +184,7 @@ impl<T: Number> WithSimd for Forces<'_, T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Forces { block, medium, scratch, step, sums, forces } = self;
+        block.shapes.volumes_and_spreads(&scratch.deformation_gradient, &mut scratch.pressure, &mut scratch.spread);
         block.add_viscosity(medium, scratch, step, sums);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
@@ -201,7 +218,7 @@ pub struct ElementBlock<T> {
 
 impl<T: Number> ElementBlock<T> {
     pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
-        let shapes = Shapes::<T>::new(elements, coordinates, &of.control);
+        let shapes = Shapes::<T>::new(elements, coordinates, of.hourglass);
         let (stride, one) = (shapes.stride, T::from_f64(1.0));
         let mut f_old = vec![T::default(); 9 * stride];
         for diagonal in [0, 4, 8] {
@@ -234,22 +251,26 @@ impl<T: Number> ElementBlock<T> {
         wide.dispatch(Deform { shapes: &self.shapes, displacement, scratch });
         let start = Instant::now();
         match &medium.entry {
-            Entry::Hyperelastic(properties) => self.call_hyperelastic(properties, medium, scratch, wanted),
+            Entry::Hyperelastic(properties) => {
+                let code = self.call_hyperelastic(properties, medium, scratch, wanted);
+                sums.refused = sums.refused.or(refused(code));
+            }
             Entry::LinearElastic { properties, frame, criterion } => {
                 self.call_linear_elastic(properties, *frame, *criterion, scratch);
+                scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
+                sums.refused = sums.refused.or(scratch.status[..self.shapes.n].iter().find_map(|&code| refused(code)));
             }
         }
         sums.law += start.elapsed();
+        // What cannot be evaluated goes before it weighs on its nodes; what has failed carries its last stress.
+        self.delete(scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
         wide.dispatch(Forces { block: self, medium, scratch, step: wanted.step, sums, forces });
+        let (latch, stride) = (medium.state().1, self.shapes.stride);
+        self.delete(scratch, sums, |block, _, i| block.state[latch * stride + i] != T::default() && block.is_intact(i));
         if wanted.balance {
-            let modal = &scratch.modal;
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
-            sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, modal)).sum::<f64>();
+            sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
         }
-        if wanted.frequency {
-            self.bound_frequency(medium, scratch, sums);
-        }
-        self.delete(medium, scratch, sums);
     }
 
     fn call_hyperelastic(
@@ -258,7 +279,7 @@ impl<T: Number> ElementBlock<T> {
         medium: &Medium<T>,
         scratch: &mut Scratch<T>,
         wanted: Wanted,
-    ) {
+    ) -> i32 {
         let wave_speed = &mut scratch.wave_speed[..];
         let arrays = SolverBlock {
             n: self.shapes.n,
@@ -268,11 +289,10 @@ impl<T: Number> ElementBlock<T> {
             energies: wanted.law,
             failure: medium.fails,
             stress: &mut scratch.stress,
-            wave_speed: wanted.frequency.then(|| (T::from_f64(medium.density), wave_speed)),
+            wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             status: &mut scratch.status,
         };
-        // The code is the worst of the points': each has its own in `status`.
-        calls::hyperelastic_block(properties, arrays);
+        calls::hyperelastic_block(properties, arrays)
     }
 
     fn call_linear_elastic(
@@ -297,57 +317,54 @@ impl<T: Number> ElementBlock<T> {
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
-    /// von Neumann's and Landshoff's pressure, in compression only: q = ρ l (c2 l ε̇² + c1 c |ε̇|), ε̇ = J̇/J.
+    /// von Neumann's and Landshoff's pressure, in compression only: q = ρ l (c2 l ε̇² + c1 c |ε̇|), ε̇ = J̇/J; and by how
+    /// much it and the law bound the step.
     #[inline(always)]
     fn add_viscosity(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, step: f64, sums: &mut Sums) {
         let stride = self.shapes.stride;
         let Control { linear, quadratic, .. } = medium.control;
-        volume_ratios(&scratch.deformation_gradient, stride, &mut scratch.pressure);
         let (zero, half) = (T::default(), T::from_f64(0.5));
         let per_step = if step > 0.0 { 1.0 / step } else { 0.0 };
-        let first = T::from_f64(linear * medium.density * medium.wave_speed * per_step);
-        let second = T::from_f64(quadratic * medium.density * per_step * per_step);
+        let first = T::from_f64(linear * medium.wave_speed);
+        let second = T::from_f64(quadratic * per_step);
+        let density = T::from_f64(medium.density * per_step);
         // As many sums as lanes, so that the loop need not wait for one.
-        let mut dissipated = [zero; LANES];
+        let [mut dissipated, mut stiffest, mut most_damped] = [[zero; LANES]; 3];
+        let Scratch { pressure, spread, wave_speed, .. } = scratch;
         let history = self.volume_ratio[..stride].iter_mut().zip(&mut self.pressure[..stride]);
         let constant = self.side[..stride].iter().zip(&self.intact[..stride]).zip(&self.shapes.volume[..stride]);
-        let elements = history.zip(constant).zip(&mut scratch.pressure[..stride]).enumerate();
-        for (i, (((old, q_old), ((&side, &intact), &volume)), ratio)) in elements {
-            let closing = *old - *ratio;
-            let closing = if closing > zero { closing } else { zero };
+        let bounds = spread[..stride].iter().zip(&wave_speed[..stride]);
+        let elements = history.zip(constant).zip(&mut pressure[..stride]).zip(bounds).enumerate();
+        for (i, ((((old, q_old), ((&side, &intact), &volume)), ratio), (&spread, &speed))) in elements {
+            let standing = intact > zero && *ratio > zero;
+            let change = *old - *ratio;
+            let closing = if change > zero { change } else { zero };
             // Over the mean volume ratio for the rate, and over the current one for the density.
             let rate = side * closing / (half * (*old + *ratio));
-            let q = intact * rate * (second * rate + first) / *ratio;
-            dissipated[i % LANES] += half * (q + *q_old) * closing * volume;
+            let q = if standing { density * rate * (second * rate + first) / *ratio } else { zero };
+            dissipated[i % LANES] += half * (q + *q_old) * change * volume;
+            let stiffness = if standing { speed * speed * spread } else { zero };
+            // The slope of the pressure, which is what damps.
+            let damping = if standing { side * (second * (rate + rate) + first) * spread } else { zero };
+            stiffest[i % LANES] = if stiffness > stiffest[i % LANES] { stiffness } else { stiffest[i % LANES] };
+            most_damped[i % LANES] = if damping > most_damped[i % LANES] { damping } else { most_damped[i % LANES] };
             *old = *ratio;
             *q_old = q;
             *ratio = q;
         }
-        let dissipated: f64 = dissipated.into_iter().map(Into::into).sum();
-        sums.viscosity += dissipated;
+        sums.viscosity += dissipated.into_iter().map(Into::into).sum::<f64>();
+        // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
+        let hourglass = self.shapes.hourglass_frequency / medium.density;
+        sums.stiffness = stiffest.into_iter().map(|value| value.into() + hourglass).fold(sums.stiffness, largest);
+        sums.damping = most_damped.into_iter().map(Into::into).fold(sums.damping, largest);
     }
 
-    /// Irons: no frequency of the body exceeds the highest one of its elements.
-    fn bound_frequency(&self, medium: &Medium<T>, scratch: &Scratch<T>, sums: &mut Sums) {
-        for i in (0..self.shapes.n).filter(|&i| self.is_intact(i)) {
-            let speed = match medium.entry {
-                Entry::Hyperelastic(_) => scratch.wave_speed[i].into(),
-                Entry::LinearElastic { .. } => medium.wave_speed,
-            };
-            let square = speed * speed * self.shapes.spread(i, &scratch.deformation_gradient);
-            sums.frequency = sums.frequency.max(square);
-        }
-    }
-
-    /// Deletes what has failed or cannot be evaluated.
-    fn delete(&mut self, medium: &Medium<T>, scratch: &Scratch<T>, sums: &mut Sums) {
-        let (stride, latch) = (self.shapes.stride, medium.state().1);
-        let zero = T::default();
+    /// Deletes the elements that are picked.
+    fn delete(&mut self, scratch: &Scratch<T>, sums: &mut Sums, picked: impl Fn(&Self, &Scratch<T>, usize) -> bool) {
         for i in 0..self.shapes.n {
-            let failed = self.state[latch * stride + i] != zero || scratch.status[i] != status::OK;
-            if failed && self.is_intact(i) {
-                self.intact[i] = zero;
-                self.pressure[i] = zero;
+            if picked(self, scratch, i) {
+                self.intact[i] = T::default();
+                self.pressure[i] = T::default();
                 sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
                 sums.deleted.push(self.first + i);
             }
@@ -362,11 +379,26 @@ impl<T: Number> ElementBlock<T> {
         self.state[row * self.shapes.stride + i].into()
     }
 
-    /// Energy densities of the four modes; the linear elastic law's are not defined: its work stands first.
-    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
+    /// Energy densities, as [`ENERGY_NAMES`] has them.
+    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
         match medium.entry {
-            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(mode, i)),
-            Entry::LinearElastic { .. } => [self.variable(LINEAR_WORK, i), 0.0, 0.0, 0.0],
+            Entry::Hyperelastic(_) => {
+                let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
+                [el, tc, td, ld, 0.0]
+            }
+            Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+        }
+    }
+
+    /// 1 at the failure limit, 0 without one.
+    pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match medium.entry {
+            Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
+            Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
+                self.variable(LINEAR_STRESS, i) / medium.strength
+            }
+            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / medium.strength,
         }
     }
 
@@ -377,4 +409,9 @@ impl<T: Number> ElementBlock<T> {
             Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0].into(),
         }
     }
+}
+
+/// The code of a call that the law refuses, whatever the points: bad properties, counts, arguments.
+fn refused(code: i32) -> Option<i32> {
+    (code != status::OK && code > status::INVERTED).then_some(code)
 }

@@ -34,7 +34,8 @@ pub struct Mesh {
     pub elements: Vec<[u32; 8]>,
     pub elements_per_layer: usize,
     pub nodes_per_section: usize,
-    /// Surface that belongs to each node, the two ends of the yarn left out.
+    /// Surface that belongs to each node, the two ends of the yarn left out. Inner nodes have a share of the lines that
+    /// they stand on, for when what stands above them is gone.
     pub surface: Vec<f64>,
 }
 
@@ -45,6 +46,11 @@ impl Yarn {
             Section::Ellipse => PI / 4.0 * self.height * self.width,
             Section::Rectangle => self.height * self.width,
         }
+    }
+
+    /// The number of layers that comes nearest to a length.
+    pub fn layers_to(&self, length: f64) -> usize {
+        (length / self.length * self.layers as f64).round() as usize
     }
 
     pub fn mesh(&self) -> Mesh {
@@ -70,17 +76,30 @@ impl Yarn {
                         (base + along * per_section + section.number(column + across, row + up)) as u32
                     }));
                 }
-                mesh.add_strip(base, [column, column + 1].map(|c| section.number(c, self.rows)));
-                mesh.add_strip(base, [column, column + 1].map(|c| section.number(c, 0)));
+                for row in 0..=self.rows {
+                    let ends = [column, column + 1].map(|c| section.number(c, row));
+                    // The tips belong to the outline alone.
+                    let outline = row == 0 || row == self.rows;
+                    let shares = ends.iter().zip([column, column + 1]).filter(|(_, c)| outline || !self.is_tip(*c));
+                    let shares: Vec<usize> = shares.map(|(&end, _)| end).collect();
+                    mesh.add_strip(base, ends, &shares);
+                }
             }
             if self.section == Section::Rectangle {
                 for row in 0..self.rows {
-                    mesh.add_strip(base, [row, row + 1].map(|r| section.number(0, r)));
-                    mesh.add_strip(base, [row, row + 1].map(|r| section.number(self.columns, r)));
+                    for column in [0, self.columns] {
+                        let ends = [row, row + 1].map(|r| section.number(column, r));
+                        mesh.add_strip(base, ends, &ends);
+                    }
                 }
             }
         }
         mesh
+    }
+
+    /// Whether the rows of this column of points meet in one.
+    fn is_tip(&self, column: usize) -> bool {
+        self.section == Section::Ellipse && (column == 0 || column == self.columns)
     }
 
     fn section_points(&self) -> Points {
@@ -94,7 +113,7 @@ impl Yarn {
                 Section::Rectangle => (share - 0.5, 0.5),
                 Section::Ellipse => (-0.5 * scale * (PI * share).cos(), 0.5 * scale * (PI * share).sin()),
             };
-            let tip = self.section == Section::Ellipse && (column == 0 || column == self.columns);
+            let tip = self.is_tip(column);
             for row in 0..=self.rows {
                 if row == 0 || !tip {
                     let level = if tip { 0.0 } else { 2.0 * row as f64 / self.rows as f64 - 1.0 };
@@ -121,13 +140,14 @@ impl Points {
 }
 
 impl Mesh {
-    /// Shares a face of the surface, between two points of the section and one layer long, among its nodes.
-    fn add_strip(&mut self, base: usize, ends: [usize; 2]) {
+    /// Gives those of a face's nodes their quarters of it; it lies between two points of the section and is one layer long.
+    fn add_strip(&mut self, base: usize, ends: [usize; 2], shares: &[usize]) {
         let [a, b] = ends.map(|end| self.nodes[base + end]);
         let length = self.nodes[base + self.nodes_per_section][0] - a[0];
         let area = length * (b[1] - a[1]).hypot(b[2] - a[2]);
-        for node in [base, base + self.nodes_per_section].into_iter().flat_map(|base| ends.map(|end| base + end)) {
-            self.surface[node] += area / 4.0;
+        for share in shares {
+            self.surface[base + share] += area / 4.0;
+            self.surface[base + self.nodes_per_section + share] += area / 4.0;
         }
     }
 
@@ -167,9 +187,10 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_is_the_outline_times_the_length() {
+    fn the_surface_is_the_outline_and_the_lines_inside_times_the_length() {
         let yarn =
             Yarn { section: Section::Rectangle, length: 3.0, height: 1.0, width: 2.0, layers: 4, rows: 2, columns: 3 };
-        assert!((yarn.mesh().surface.iter().sum::<f64>() - 3.0 * 6.0).abs() < 1e-12);
+        // Around it 6, and 2 between the rows.
+        assert!((yarn.mesh().surface.iter().sum::<f64>() - 3.0 * 8.0).abs() < 1e-12);
     }
 }

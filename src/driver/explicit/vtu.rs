@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use super::Solver;
 use super::element::Number;
+use super::material::ENERGY_NAMES;
 
 /// The corners in the order of a VTK hexahedron.
 const VTK_ORDER: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 const VTK_HEXAHEDRON: u8 = 12;
-const CELLS: [&str; 4] = ["w_el", "w_tc", "w_td", "w_ld"];
 
 /// The body as it stands, as the text of a VTU file: intact elements only, with displacement and velocity of the nodes
 /// and the energy densities of the elements.
@@ -27,8 +27,8 @@ pub fn unstructured_grid<T: Number>(solver: &Solver<T>) -> String {
     array(&mut text, "offsets", "Int32", 1, (1..=cells).map(|i| 8 * i));
     array(&mut text, "types", "UInt8", 1, (0..cells).map(|_| VTK_HEXAHEDRON));
     text.push_str("</Cells>\n<CellData>\n");
-    let densities: Vec<[f64; 4]> = intact.iter().map(|&i| solver.energy_densities(i)).collect();
-    for (mode, name) in CELLS.into_iter().enumerate() {
+    let densities: Vec<[f64; 5]> = intact.iter().map(|&i| solver.energy_densities(i)).collect();
+    for (mode, name) in ENERGY_NAMES.into_iter().enumerate() {
         array(&mut text, name, "Float32", 1, densities.iter().map(|energies| energies[mode] as f32));
     }
     text.push_str("</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n");

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::run::{End, Outcome, STATIONS, Sample};
+use super::run::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::driver::Error;
-use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use crate::driver::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use crate::driver::plot::{self, Panel, Series, tidy};
 use crate::driver::unit_names::{ENERGY, SPEED, TIME, unit};
 use crate::law::parameters::ENERGY_DENSITY;
@@ -53,14 +53,14 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
         line(2, "internal", &|s| s.energies.internal),
         line(3, "all other", &|s| s.energies.other()),
     ];
-    // A projectile that is held has its energy from outside.
-    if result.last().energies.external == 0.0 {
+    // What is held or driven has its energy from outside.
+    if let Striker::Cylinder { held: false, .. } = case.striker {
         energies.insert(0, line(0, "projectile", &|s| s.energies.projectile));
         energies.push(Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) });
     } else {
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
     }
-    let modes = ["elongation", "compaction", "distortion"];
+    let modes = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
     let length = scene.units.names()[0];
     let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
     [
@@ -69,7 +69,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
         panel(
             "Largest energy per reference volume",
             ENERGY_DENSITY,
-            (0..3).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
+            (0..modes.len()).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
         ),
         Panel {
             title: "Width of the section by place",
@@ -89,15 +89,9 @@ pub fn write_comparison(
     png: &Path,
     scene: &Scene,
     abscissa: Abscissa,
-    results: &[Outcome],
+    results: &[(&Case, Outcome)],
 ) -> Result<(), Error> {
-    let place = |case: &Case, result: &Outcome| match (abscissa, case.striker) {
-        (Abscissa::ContactStiffness, Striker::Cylinder { cylinder, .. }) => cylinder.stiffness,
-        _ => result.mesh.elements.len() as f64,
-    };
-    let residual = |result: &Outcome| if result.end == End::Stopped { 0.0 } else { result.last().speed };
-    let points = scene.cases.iter().zip(results).map(|(case, result)| (place(case, result), residual(result)));
-    let points: Vec<(f64, f64)> = points.collect();
+    let points: Vec<Point> = results.iter().map(|(case, result)| point(abscissa, case, result)).collect();
     let label = match abscissa {
         Abscissa::Elements => "elements",
         Abscissa::ContactStiffness => "contact stiffness, pressure by depth",
@@ -105,40 +99,46 @@ pub fn write_comparison(
     picture::write(svg, png, COMPARISON, |root| draw_comparison(root, scene, label, &points))
 }
 
-fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[(f64, f64)]) -> Drawn<()> {
+/// A case in the comparison.
+struct Point<'a> {
+    name: &'a str,
+    place: (f64, f64),
+    /// Whether its speed is the residual one, or what the run has ended with.
+    residual: bool,
+}
+
+fn point<'a>(abscissa: Abscissa, case: &'a Case, result: &Outcome) -> Point<'a> {
+    let x = match (abscissa, case.striker) {
+        (Abscissa::ContactStiffness, Striker::Cylinder { cylinder, .. }) => cylinder.stiffness,
+        _ => result.mesh.elements.len() as f64,
+    };
+    let residual = result.residual_speed();
+    Point { name: &case.name, place: (x, residual.unwrap_or(result.last().speed)), residual: residual.is_some() }
+}
+
+fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[Point]) -> Drawn<()> {
     root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-    let ordinate = format!("Residual speed ({})", unit(&scene.units, SPEED));
+    let hollow = if points.iter().all(|point| point.residual) { "" } else { "; hollow: at the end of the run" };
+    let ordinate = format!("Residual speed ({}){hollow}", unit(&scene.units, SPEED));
     root.draw_text(&ordinate, &text(HEADING, &INK), (fine(24), fine(56)))?;
     let (_, body) = root.split_vertically(fine(88));
-    let (left, right) = points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.0), r.max(point.0)));
-    let top = points.iter().map(|point| point.1).fold(0.0, f64::max);
-    let mut chart = ChartBuilder::on(&body)
-        .margin_right(fine(30))
-        .margin_bottom(fine(12))
-        .x_label_area_size(fine(50))
-        .y_label_area_size(fine(70))
-        .build_cartesian_2d((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0))?;
-    chart
-        .configure_mesh()
-        .disable_x_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(stroke(RULE, 1))
-        .axis_style(stroke(GREY, 1))
-        .set_all_tick_mark_size(fine(5))
-        .y_labels(6)
-        .label_style(text(TEXT, &INK))
-        .axis_desc_style(text(TEXT, &INK))
-        .x_label_formatter(&|x| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") })
-        .y_label_formatter(&|y| format!("{y:.0}"))
-        .x_desc(label)
-        .draw()?;
-    for (case, &point) in scene.cases.iter().zip(points) {
-        chart.draw_series([Circle::new(point, fine(5), COLOURS[0].filled())])?;
-        let (x, y) = chart.backend_coord(&point);
+    let (left, right) =
+        points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.place.0), r.max(point.place.0)));
+    let top = points.iter().map(|point| point.place.1).fold(0.0, f64::max);
+    let (x, y) = ((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0));
+    let x_label = |x: &f64| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") };
+    let mut chart = plot::chart(&body, x, y, label, [&x_label, &|y| format!("{y:.0}")])?;
+    for point in points {
+        chart.draw_series([Circle::new(
+            point.place,
+            fine(5),
+            if point.residual { COLOURS[0].filled() } else { stroke(COLOURS[0], 2) },
+        )])?;
+        let (x, y) = chart.backend_coord(&point.place);
         let style = text(TEXT, &INK);
-        let (width, _) = body.estimate_text_size(&case.name, &style)?;
+        let (width, _) = body.estimate_text_size(point.name, &style)?;
         let (_, above) = body.get_base_pixel();
-        body.draw_text(&case.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
+        body.draw_text(point.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
     }
     Ok(())
 }

@@ -3,23 +3,26 @@
 use std::time::{Duration, Instant};
 
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
-use super::smith::{Smith, Tension};
+use super::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::driver::Error;
 use crate::driver::explicit::contact::Contact;
 use crate::driver::explicit::element::Number;
 use crate::driver::explicit::material::Medium;
 use crate::driver::explicit::mesh::Mesh;
-use crate::driver::explicit::{Cost, Energies, Projectile, Solver, Support, vtu};
+use crate::driver::explicit::{Cost, Energies, Projectile, Solver, Support, largest, vtu};
 use crate::driver::material::Material;
+use crate::driver::unit_names::number;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// So many radii from mid-span nothing touches the yarn any more.
-pub const OUTSIDE: f64 = 2.0;
 /// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
 const FITTED: [f64; 2] = [0.4, 0.85];
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 const PLATEAU: [f64; 2] = [0.3, 0.7];
+/// A run whose total energy moves by more than this part of itself is not stable.
+const LARGEST_IMBALANCE: f64 = 0.05;
+/// Times are told apart by this part of a case's time.
+const ROUNDING: f64 = 1e-9;
 /// A transverse front this near the clamp has reached it but for what its own length adds.
 const AT_CLAMP: [f64; 2] = [0.75, 0.95];
 
@@ -34,11 +37,16 @@ pub struct Sample {
     pub force: f64,
     /// Of the whole yarn: twice the half model's.
     pub energies: Energies,
-    /// Largest energy densities of the modes: in the yarn, and outside the contact zone.
-    pub largest: [f64; 3],
-    pub outside: [f64; 3],
-    /// Least energy density of elongation.
+    /// The parts of the internal energy, as `ENERGY_NAMES` has them.
+    pub parts: [f64; 5],
+    /// Largest energy densities: in the yarn, and further than a radius from mid-span and from the clamp, where neither
+    /// touches the yarn.
+    pub largest: [f64; 5],
+    pub free: [f64; 5],
+    /// Least energy density of elongation, or of the linear law's work.
     pub least: f64,
+    /// The largest failure index of what stands.
+    pub index: f64,
     pub deleted: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.
     pub longitudinal: f64,
@@ -66,7 +74,7 @@ pub struct Snapshot {
     pub time: f64,
     pub positions: Vec<[f64; 3]>,
     pub intact: Vec<bool>,
-    pub densities: Vec<[f64; 4]>,
+    pub densities: Vec<[f64; 5]>,
     /// Height of the projectile's axis, and its radius.
     pub projectile: Option<(f64, f64)>,
 }
@@ -76,25 +84,40 @@ pub struct Snapshot {
 pub struct Outcome {
     pub samples: Vec<Sample>,
     pub snapshots: Vec<Snapshot>,
-    /// Texts of VTU files and their times.
-    pub frames: Vec<(f64, String)>,
     pub mesh: Mesh,
     pub end: End,
-    /// When nothing intact joined the clamp to mid-span any more, and the projectile's speed then.
+    /// When the last line of elements along the fibre tore, and the projectile's speed then.
     pub broken: Option<(f64, f64)>,
     pub cost: Cost,
     pub wall: Duration,
     pub smith: Smith,
 }
 
-/// Runs a case; `progress` hears of the fraction of its time that has passed.
+/// Who follows a run.
+pub trait Observer {
+    /// The fraction of the case's time that has passed.
+    fn progress(&mut self, _fraction: f64) {}
+
+    /// The text of a VTU file, and its time.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn frame(&mut self, _time: f64, _text: &str) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// Nobody does.
+impl Observer for () {}
+
+/// Runs a case.
 ///
 /// # Errors
-/// A material that the host cannot use.
-pub fn run(case: &Case, progress: &dyn Fn(f64)) -> Result<Outcome, Error> {
+/// A material that the host cannot use, a speed beyond every yarn, a run that is not stable, or the observer's.
+pub fn run(case: &Case, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     match case.precision {
-        Precision::F64 => Run::<f64>::new(case)?.go(progress),
-        Precision::F32 => Run::<f32>::new(case)?.go(progress),
+        Precision::F64 => Run::<f64>::new(case)?.go(observer),
+        Precision::F32 => Run::<f32>::new(case)?.go(observer),
     }
 }
 
@@ -105,10 +128,10 @@ struct Run<'a, T> {
     smith: Smith,
     samples: Vec<Sample>,
     snapshots: Vec<Snapshot>,
-    frames: Vec<(f64, String)>,
     broken: Option<(f64, f64)>,
-    /// Deleted elements when the yarn was last found to hold.
-    looked_at: usize,
+    /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
+    deleted: usize,
+    torn: Vec<bool>,
     /// Since when nothing has touched the projectile.
     untouched: f64,
     start: f64,
@@ -120,20 +143,18 @@ impl<'a, T: Number> Run<'a, T> {
             |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
         let mesh = case.yarn.mesh();
         let per_layer = mesh.elements_per_layer;
-        let layer_length = case.yarn.length / case.yarn.layers as f64;
-        let mut solver = match &case.zones {
-            Zones::One(material) => Solver::new(mesh, vec![medium(material)?], |_| 0),
-            Zones::Two(materials, length) => {
-                let near = (length / layer_length).round() as usize;
-                let media = vec![medium(&materials[0])?, medium(&materials[1])?];
-                Solver::new(mesh, media, |element| usize::from(element / per_layer >= near))
-            }
+        let (materials, length) = match &case.zones {
+            Zones::One(material) => (std::slice::from_ref(&**material), case.yarn.length),
+            Zones::Two(materials, length) => (&materials[..], *length),
         };
-        let material = match &case.zones {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
-        };
-        let smith = Tension::of(material).smith(case.speed, material.density.unwrap_or_default());
+        let near = case.yarn.layers_to(length);
+        let media = materials.iter().map(medium).collect::<Result<_, _>>()?;
+        let mut solver = Solver::new(mesh, media, |element| usize::from(element / per_layer >= near));
+        let tension = Tension::of(&materials[0]);
+        let smith = tension.smith(case.speed, materials[0].density.unwrap_or_default()).ok_or_else(|| {
+            let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
+            Error::Input(format!("case {}: speed is {}; allowed: {allowed}", case.name, case.speed))
+        })?;
         solver.all_outputs = case.outputs == Outputs::Full;
         let start = set_up(case, &mut solver);
         Ok(Run {
@@ -142,51 +163,54 @@ impl<'a, T: Number> Run<'a, T> {
             smith,
             samples: Vec::new(),
             snapshots: Vec::new(),
-            frames: Vec::new(),
             broken: None,
-            looked_at: 0,
+            deleted: 0,
+            torn: vec![false; per_layer],
             untouched: 0.0,
             start,
         })
     }
 
-    fn go(mut self, progress: &dyn Fn(f64)) -> Result<Outcome, Error> {
+    fn go(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         let begun = Instant::now();
         let (mut next_sample, mut next_frame) = (0.0, 0.0);
         let frame = self.case.end / self.case.frames.max(1) as f64;
         let mut pictures = self.case.pictures.clone();
         pictures.sort_by(|a, b| b.total_cmp(a));
+        let mut end = None;
         let end = loop {
             let time = self.solver.time;
-            let sampled = time >= next_sample || time >= self.case.end;
-            let drawn = pictures.last().is_some_and(|&picture| time >= picture);
-            let framed = self.case.frames > 0 && time >= next_frame;
-            let state = (drawn || framed).then(|| self.positions());
-            self.solver.advance(sampled || drawn || framed, self.case.end);
+            let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
+            end = end.or(reached(self.case.end).then_some(End::Time));
+            let sampled = reached(next_sample) || end.is_some();
+            let drawn = pictures.last().is_some_and(|&picture| reached(picture));
+            let framed = self.case.frames > 0 && reached(next_frame);
+            let left = if end.is_some() { self.case.end } else { self.case.end - time };
+            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.fault(&error.to_string()))?;
             if sampled {
-                self.sample(time);
+                self.sample(time)?;
                 next_sample += self.case.sample;
-                progress(time / self.case.end);
+                observer.progress(time / self.case.end);
             }
-            if let Some(positions) = state {
-                if drawn {
-                    pictures.pop();
-                    self.snapshots.push(self.snapshot(time, positions));
-                }
-                if framed {
-                    next_frame += frame;
-                    self.frames.push((time, vtu::unstructured_grid(&self.solver)));
-                }
+            if drawn {
+                pictures.pop();
+                self.snapshots.push(self.snapshot(time));
             }
-            if let Some(end) = self.ended(time) {
+            if framed {
+                next_frame += frame;
+                observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
+            }
+            if let Some(end) = end {
                 break end;
             }
+            // How it stands after the last step: sampled, and the end.
+            end = self.ended(time);
+            self.solver.displace();
         };
-        progress(1.0);
+        observer.progress(1.0);
         Ok(Outcome {
             samples: self.samples,
             snapshots: self.snapshots,
-            frames: self.frames,
             end,
             broken: self.broken,
             cost: self.solver.cost,
@@ -196,15 +220,11 @@ impl<'a, T: Number> Run<'a, T> {
         })
     }
 
-    fn positions(&self) -> Vec<[f64; 3]> {
-        (0..self.solver.mesh.nodes.len()).map(|node| self.solver.position(node)).collect()
-    }
-
-    fn snapshot(&self, time: f64, positions: Vec<[f64; 3]>) -> Snapshot {
+    fn snapshot(&self, time: f64) -> Snapshot {
         let elements = 0..self.solver.mesh.elements.len();
         Snapshot {
             time,
-            positions,
+            positions: (0..self.solver.mesh.nodes.len()).map(|node| self.solver.position(node)).collect(),
             intact: elements.clone().map(|i| self.solver.is_intact(i)).collect(),
             densities: elements.map(|i| self.solver.energy_densities(i)).collect(),
             projectile: self.solver.projectile.as_ref().map(|p| (p.position, self.radius())),
@@ -224,11 +244,8 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.solver.deleted.len() > self.looked_at {
-            self.looked_at = self.solver.deleted.len();
-            if self.severed() {
-                self.broken = Some((time, self.speed()));
-            }
+        if self.broken.is_none() && self.tears() {
+            self.broken = Some((time, self.speed()));
         }
         if let Some(projectile) = &self.solver.projectile {
             if projectile.force != 0.0 {
@@ -246,36 +263,24 @@ impl<'a, T: Number> Run<'a, T> {
         (time >= self.case.end).then_some(End::Time)
     }
 
-    /// Whether no way leads from the clamp to mid-span through faces that intact elements share.
-    fn severed(&self) -> bool {
-        let yarn = &self.case.yarn;
-        let number = |[layer, column, row]: [usize; 3]| (layer * yarn.columns + column) * yarn.rows + row;
-        let counts = [yarn.layers, yarn.columns, yarn.rows];
-        let mut seen = vec![false; counts.iter().product()];
-        let last = yarn.layers - 1;
-        let mut open: Vec<[usize; 3]> =
-            (0..yarn.columns).flat_map(|column| (0..yarn.rows).map(move |row| [last, column, row])).collect();
-        while let Some(place) = open.pop() {
-            if std::mem::replace(&mut seen[number(place)], true) || !self.solver.is_intact(number(place)) {
-                continue;
-            }
-            if place[0] == 0 {
-                return false;
-            }
-            for axis in 0..3 {
-                let mut neighbour = place;
-                for step in [place[axis].wrapping_sub(1), place[axis] + 1] {
-                    neighbour[axis] = step;
-                    if step < counts[axis] {
-                        open.push(neighbour);
-                    }
-                }
-            }
+    /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
+    /// all, so that a torn line carries no tension, whatever its neighbours do.
+    fn tears(&mut self) -> bool {
+        for &element in &self.solver.deleted[self.deleted..] {
+            self.torn[element % self.solver.mesh.elements_per_layer] = true;
         }
-        true
+        self.deleted = self.solver.deleted.len();
+        self.torn.iter().all(|&torn| torn)
     }
 
-    fn sample(&mut self, time: f64) {
+    /// Why the case has no result.
+    fn fault(&self, reason: &str) -> Error {
+        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
+    }
+
+    /// # Errors
+    /// The balance of energy is lost.
+    fn sample(&mut self, time: f64) -> Result<(), Error> {
         let mut sample = Sample { time, speed: self.speed(), deleted: self.solver.deleted.len(), ..Sample::default() };
         if let Some(projectile) = &self.solver.projectile {
             sample.travel = self.start - projectile.position;
@@ -288,22 +293,33 @@ impl<'a, T: Number> Run<'a, T> {
         self.measure_fronts(&mut sample);
         sample.widths = STATIONS.map(|station| self.width(station));
         self.samples.push(sample);
+        let imbalance = imbalance(&self.samples);
+        if imbalance <= LARGEST_IMBALANCE {
+            return Ok(());
+        }
+        let energy = number(sample.energies.total());
+        let bound = 100.0 * LARGEST_IMBALANCE;
+        Err(self.fault(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
     }
 
     fn measure_densities(&self, sample: &mut Sample) {
-        let outside = OUTSIDE * self.radius() / self.case.yarn.length * self.case.yarn.layers as f64;
+        let (length, radius) = (self.case.yarn.length, self.radius());
         sample.least = f64::INFINITY;
-        let elements = self.solver.mesh.elements.len();
-        for i in (0..elements).filter(|&i| self.solver.is_intact(i)) {
+        for i in 0..self.solver.mesh.elements.len() {
             let densities = self.solver.energy_densities(i);
-            let beyond = self.solver.mesh.layer(i) as f64 >= outside;
-            for (mode, &density) in densities[..3].iter().enumerate() {
-                sample.largest[mode] = sample.largest[mode].max(density);
-                if beyond {
-                    sample.outside[mode] = sample.outside[mode].max(density);
-                }
+            for (part, density) in sample.parts.iter_mut().zip(densities) {
+                *part += 2.0 * density * self.solver.volume(i);
             }
-            sample.least = sample.least.min(densities[0]);
+            if !self.solver.is_intact(i) {
+                continue;
+            }
+            let place = (self.solver.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
+            larger(&mut sample.largest, densities);
+            if place > radius && place < length - radius {
+                larger(&mut sample.free, densities);
+            }
+            sample.least = sample.least.min(densities[0] + densities[4]);
+            sample.index = largest(sample.index, self.solver.failure_index(i));
         }
     }
 
@@ -326,7 +342,7 @@ impl<'a, T: Number> Run<'a, T> {
         let plateau = &strains[from..to.max(from + 1).min(layers)];
         sample.strain = (plateau.iter().sum::<f64>() / plateau.len() as f64).exp_m1();
         let velocities: Vec<f64> = (0..=layers).map(|section| -self.section_mean(section).1).collect();
-        if let Some(place) = front(&velocities, 0.5 * self.speed()) {
+        if let Some(place) = front(&velocities, 0.5 * self.case.speed) {
             let (section, part) = (place as usize, place.fract());
             let [here, next] = [section, (section + 1).min(layers)].map(|section| self.section_mean(section).0);
             sample.transverse = here + part * (next - here);
@@ -357,6 +373,21 @@ fn front(values: &[f64], threshold: f64) -> Option<f64> {
     let last = values.iter().rposition(|&value| value >= threshold)?;
     let Some(&next) = values.get(last + 1) else { return Some(last as f64) };
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))
+}
+
+/// The largest difference of the total energy from what it was, over the largest of: the energy that was there, the work
+/// from outside.
+fn imbalance(samples: &[Sample]) -> f64 {
+    let Some(first) = samples.first().map(|sample| sample.energies.total()) else { return 0.0 };
+    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
+    let difference = samples.iter().map(|sample| (sample.energies.total() - first).abs()).fold(0.0, largest);
+    if difference > 0.0 || difference.is_nan() { difference / scale } else { 0.0 }
+}
+
+fn larger(all: &mut [f64; 5], values: [f64; 5]) {
+    for (most, value) in all.iter_mut().zip(values) {
+        *most = largest(*most, value);
+    }
 }
 
 /// Energies of the whole yarn from those of its half.
@@ -407,13 +438,36 @@ impl Outcome {
         found.copied().unwrap_or_else(|| self.last())
     }
 
-    /// The largest difference of the total energy from what it was, over the work from outside or, without any, over the
-    /// energy that was there.
+    /// The largest difference of the total energy from what it was, over the work from outside or the energy that was there.
     pub fn imbalance(&self) -> f64 {
-        let Some(first) = self.samples.first().map(|sample| sample.energies.total()) else { return 0.0 };
-        let work = self.samples.iter().map(|sample| sample.energies.external).fold(0.0, f64::max);
-        let scale = if work > 0.0 { work } else { first };
-        self.samples.iter().map(|sample| (sample.energies.total() - first).abs() / scale).fold(0.0, f64::max)
+        imbalance(&self.samples)
+    }
+
+    /// What is left of the projectile's speed; none where the run has ended before that was settled.
+    pub fn residual_speed(&self) -> Option<f64> {
+        match self.end {
+            End::Stopped => Some(0.0),
+            End::Left => Some(self.last().speed),
+            End::Time => None,
+        }
+    }
+
+    /// The largest of a quantity in the samples up to the break.
+    fn largest_before_break(&self, of: impl Fn(&Sample) -> f64) -> f64 {
+        let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
+        self.samples.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
+    }
+
+    /// The largest failure index of the samples up to the break.
+    pub fn largest_index(&self) -> f64 {
+        self.largest_before_break(|sample| sample.index)
+    }
+
+    /// The largest hourglass energy up to the break, over the largest internal energy.
+    pub fn hourglass_share(&self) -> f64 {
+        let internal = self.largest_before_break(|sample| sample.energies.internal);
+        let hourglass = self.largest_before_break(|sample| sample.energies.hourglass);
+        if internal == 0.0 { 0.0 } else { hourglass / internal }
     }
 
     /// The samples in which the wave of elongation passes the middle of half the span.

@@ -15,8 +15,12 @@ use crate::driver::path::{MaterialFile, Source};
 use crate::host::units::UnitSystem;
 use crate::law::linear_elastic::{Criterion, Rotation};
 
-/// Sums of rows, columns and layers beyond this do not fit the numbers of the nodes.
-const MOST_ELEMENTS: usize = 100_000_000;
+/// An element takes some 700 bytes: more do not fit most memories.
+const MOST_ELEMENTS: usize = 10_000_000;
+/// Files for ParaView are numbered by four digits.
+const MOST_FRAMES: usize = 9999;
+/// Lengths are told apart by this part of themselves.
+const ROUNDING: f64 = 1e-9;
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 600.0;
 
@@ -62,14 +66,14 @@ pub struct Case {
 #[derive(Clone, Debug)]
 pub enum Zones {
     One(Box<Material>),
-    /// The first material up to this distance from mid-span.
+    /// The first material up to this distance from mid-span, in whole layers.
     Two(Box<[Material; 2]>, f64),
 }
 
 /// What sets the yarn in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Striker {
-    /// A rigid cylinder: its whole mass, and whether its speed is held.
+    /// A rigid cylinder: its whole mass, which has no influence where its speed is held.
     Cylinder { cylinder: Cylinder, mass: f64, held: bool },
     /// The section at mid-span is driven itself.
     Driven,
@@ -127,7 +131,7 @@ enum StrikerName {
 struct SceneFile {
     title: Option<String>,
     units: Spanned<String>,
-    abscissa: Option<Abscissa>,
+    abscissa: Option<Spanned<Abscissa>>,
     scene: Spanned<CaseFile>,
     #[serde(default)]
     case: Vec<Spanned<CaseFile>>,
@@ -147,9 +151,9 @@ struct CaseFile {
     half_length: Option<Spanned<f64>>,
     height: Option<Spanned<f64>>,
     width: Option<Spanned<f64>>,
-    layers: Option<Spanned<usize>>,
-    rows: Option<Spanned<usize>>,
-    columns: Option<Spanned<usize>>,
+    layers: Option<Spanned<i64>>,
+    rows: Option<Spanned<i64>>,
+    columns: Option<Spanned<i64>>,
     striker: Option<StrikerName>,
     speed: Option<Spanned<f64>>,
     held: Option<bool>,
@@ -162,7 +166,7 @@ struct CaseFile {
     end: Option<Spanned<f64>>,
     sample: Option<Spanned<f64>>,
     pictures: Option<Spanned<Vec<f64>>>,
-    frames: Option<usize>,
+    frames: Option<Spanned<i64>>,
     precision: Option<Precision>,
     outputs: Option<Outputs>,
 }
@@ -229,18 +233,23 @@ impl Scene {
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
         let base = file.scene.get_ref();
+        if let Some(name) = &base.name {
+            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
+        }
         let mut cases: Vec<Case> = Vec::new();
         if file.case.is_empty() {
-            let reader = Reader { source: &source, units: &units, file: base, span: file.scene.span() };
+            let reader = Reader { source: &source, units: &units, file: base, own: base, span: file.scene.span() };
             cases.push(reader.case("scene".to_string())?);
         }
         for case in &file.case {
             let name = source.case_name(case, &cases)?;
             let merged = case.get_ref().over(base);
-            let reader = Reader { source: &source, units: &units, file: &merged, span: case.span() };
+            let (own, span) = (case.get_ref(), case.span());
+            let reader = Reader { source: &source, units: &units, file: &merged, own, span };
             cases.push(reader.case(name)?);
         }
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa: file.abscissa })
+        let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
     }
 }
 
@@ -251,12 +260,38 @@ impl Source<'_> {
             return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
         };
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        let taken = others.iter().any(|other| other.name == *name.get_ref());
+        let taken = SUMMARIES.contains(&name.get_ref().as_str())
+            || others.iter().any(|other| same_files(&other.name, name.get_ref()));
         if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
             return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
         }
         Ok(name.get_ref().clone())
     }
+
+    /// A contact has its stiffness only where there is one.
+    fn abscissa_of(&self, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
+        let driven = cases.iter().find(|case| case.striker == Striker::Driven);
+        match (abscissa.get_ref(), driven) {
+            (Abscissa::ContactStiffness, Some(case)) => {
+                let message =
+                    format!("abscissa is contact-stiffness, but case \"{}\" is driven; allowed: elements", case.name);
+                Err(self.error(abscissa.span(), &message))
+            }
+            (&abscissa, _) => Ok(abscissa),
+        }
+    }
+}
+
+/// Names of the files that the cases have in common.
+const SUMMARIES: [&str; 2] = ["summary", "residual-speed"];
+
+/// Whether two cases would write the same files, one the other's pictures.
+fn same_files(one: &str, other: &str) -> bool {
+    let picture_of = |case: &str, name: &str| {
+        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix("-yarn-"));
+        number.is_some_and(|number| number.parse::<usize>().is_ok())
+    };
+    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
 }
 
 /// A case's table and what is needed to read it.
@@ -264,6 +299,8 @@ struct Reader<'a> {
     source: &'a Source<'a>,
     units: &'a UnitSystem,
     file: &'a CaseFile,
+    /// What the case itself says, not the scene.
+    own: &'a CaseFile,
     /// What to blame for what is missing.
     span: std::ops::Range<usize>,
 }
@@ -292,14 +329,20 @@ impl Reader<'_> {
         }
     }
 
-    fn count(&self, key: &str, value: &Option<Spanned<usize>>, least: usize) -> Result<usize, Error> {
-        match value {
-            Some(count) if (least..=MOST_ELEMENTS).contains(count.get_ref()) => Ok(*count.get_ref()),
-            Some(count) => {
-                let message = format!("{key} is {}; allowed: a whole number from {least} on", count.get_ref());
-                Err(self.source.error(count.span(), &message))
-            }
-            None => Err(self.missing(key, &format!("a whole number from {least} on"))),
+    /// A whole number from `least` to `most`, or the default.
+    fn count(
+        &self,
+        key: &str,
+        value: &Option<Spanned<i64>>,
+        range: [usize; 2],
+        default: Option<usize>,
+    ) -> Result<usize, Error> {
+        let [least, most] = range;
+        let allowed = format!("a whole number from {least} to {most}");
+        let Some(count) = value else { return default.ok_or_else(|| self.missing(key, &allowed)) };
+        match usize::try_from(*count.get_ref()) {
+            Ok(number) if (least..=most).contains(&number) => Ok(number),
+            _ => Err(self.source.error(count.span(), &format!("{key} is {}; allowed: {allowed}", count.get_ref()))),
         }
     }
 
@@ -310,18 +353,18 @@ impl Reader<'_> {
             Some(_) => self.positive("sample", &file.sample)?,
             None => end / SAMPLES,
         };
-        let zones = self.zones()?;
+        let yarn = self.yarn()?;
         Ok(Case {
             name,
-            yarn: self.yarn()?,
             striker: self.striker()?,
             speed: self.positive("speed", &file.speed)?,
             end,
             sample,
-            pictures: self.pictures()?,
-            frames: file.frames.unwrap_or(0),
-            control: self.control(&zones)?,
-            zones,
+            pictures: self.pictures(end)?,
+            frames: self.count("frames", &file.frames, [0, MOST_FRAMES], Some(0))?,
+            control: self.control()?,
+            zones: self.zones(&yarn)?,
+            yarn,
             precision: file.precision.unwrap_or(Precision::F64),
             outputs: file.outputs.unwrap_or(Outputs::Full),
         })
@@ -338,10 +381,15 @@ impl Reader<'_> {
             length: self.positive("half-length", &file.half_length)?,
             height: self.positive("height", &file.height)?,
             width: self.positive("width", &file.width)?,
-            layers: self.count("layers", &file.layers, 1)?,
-            rows: self.count("rows", &file.rows, 1)?,
+            layers: self.count("layers", &file.layers, [1, MOST_ELEMENTS], None)?,
+            rows: self.count("rows", &file.rows, [1, MOST_ELEMENTS], None)?,
             // An ellipse needs two: they meet between its tips.
-            columns: self.count("columns", &file.columns, if section == Section::Ellipse { 2 } else { 1 })?,
+            columns: self.count(
+                "columns",
+                &file.columns,
+                [if section == Section::Ellipse { 2 } else { 1 }, MOST_ELEMENTS],
+                None,
+            )?,
         };
         let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
         if elements > MOST_ELEMENTS {
@@ -354,7 +402,7 @@ impl Reader<'_> {
     fn striker(&self) -> Result<Striker, Error> {
         let file = self.file;
         if file.striker == Some(StrikerName::Driven) {
-            return Ok(Striker::Driven);
+            return self.driven();
         }
         let cylinder = Cylinder {
             radius: self.positive("radius", &file.radius)?,
@@ -362,18 +410,42 @@ impl Reader<'_> {
             friction: self.zero_or_more("friction", &file.friction, 0.0)?,
         };
         let held = file.held.unwrap_or(false);
-        Ok(Striker::Cylinder { cylinder, mass: self.positive("mass", &file.mass)?, held })
+        let mass = if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? };
+        Ok(Striker::Cylinder { cylinder, mass, held })
     }
 
-    fn pictures(&self) -> Result<Vec<f64>, Error> {
+    /// A driven section meets nothing: keys of a cylinder in the same table are a mistake.
+    fn driven(&self) -> Result<Striker, Error> {
+        let own = self.own;
+        let numbers = [
+            ("mass", &own.mass),
+            ("radius", &own.radius),
+            ("friction", &own.friction),
+            ("contact-stiffness", &own.contact_stiffness),
+        ];
+        let given = numbers.into_iter().find_map(|(key, value)| Some((key, value.as_ref()?.span())));
+        let given = given.or(own.held.as_ref().map(|_| ("held", self.span.clone())));
+        match given {
+            Some((key, span)) => {
+                let message = format!("{key} belongs to a cylinder, and striker is driven; allowed: one of the two");
+                Err(self.source.error(span, &message))
+            }
+            None => Ok(Striker::Driven),
+        }
+    }
+
+    fn pictures(&self, end: f64) -> Result<Vec<f64>, Error> {
         let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
         for &time in times.get_ref() {
-            self.source.positive("a time of pictures", time, times.span())?;
+            if !(time > 0.0 && time <= end) {
+                let message = format!("a time of pictures is {time}; allowed: a number > 0, up to end = {end}");
+                return Err(self.source.error(times.span(), &message));
+            }
         }
         Ok(times.get_ref().clone())
     }
 
-    fn control(&self, zones: &Zones) -> Result<Control, Error> {
+    fn control(&self) -> Result<Control, Error> {
         let [linear, quadratic] = match &self.file.viscosity {
             None => [VISCOSITY.0, VISCOSITY.1],
             Some(pair) => {
@@ -384,41 +456,52 @@ impl Reader<'_> {
                 *pair.get_ref()
             }
         };
-        let material = match zones {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
-        };
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let modulus = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
-        Ok(Control {
-            hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?,
-            modulus,
-            linear,
-            quadratic,
-        })
+        Ok(Control { hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?, linear, quadratic })
     }
 
-    fn zones(&self) -> Result<Zones, Error> {
+    fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {
         let file = self.file;
-        let hyperelastic = || self.material(&file.hyperelastic, "kevlar-km2-600");
-        let linear = || self.material(&file.linear_elastic, "kevlar-km2-600-linear");
+        let hyperelastic = || self.material("hyperelastic", &file.hyperelastic);
+        let linear = || self.material("linear-elastic", &file.linear_elastic);
         Ok(match file.law {
             None | Some(LawName::Hyperelastic) => Zones::One(Box::new(hyperelastic()?)),
             Some(LawName::LinearElastic) => Zones::One(Box::new(linear()?)),
             Some(LawName::Hybrid) => {
-                let length = self.positive("hyperelastic-length", &file.hyperelastic_length)?;
-                Zones::Two(Box::new([hyperelastic()?, linear()?]), length)
+                Zones::Two(Box::new([hyperelastic()?, linear()?]), self.hyperelastic_length(yarn)?)
             }
         })
     }
 
-    /// The material of a table or, without one, of the preset, with the failure that the case asks for.
-    fn material(&self, table: &Option<Spanned<MaterialFile>>, preset: &str) -> Result<Material, Error> {
+    fn hyperelastic_length(&self, yarn: &Yarn) -> Result<f64, Error> {
+        let (key, value) = ("hyperelastic-length", &self.file.hyperelastic_length);
+        let length = self.positive(key, value)?;
+        let layer = yarn.length / yarn.layers as f64;
+        if length < layer * (1.0 - ROUNDING) || length > yarn.length * (1.0 + ROUNDING) {
+            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
+            let message = format!("{key} is {length}; allowed: from a layer, {layer}, to half-length, {}", yarn.length);
+            return Err(self.source.error(span, &message));
+        }
+        Ok(length)
+    }
+
+    /// The material of the table of this law or, without one, of its preset, with the failure that the case asks for.
+    fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
+        let preset = if law == "hyperelastic" { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
         let (file, span) = match table {
             Some(table) => (table.get_ref().clone(), table.span()),
             None => (MaterialFile::of_preset(preset, self.span.clone()), self.span.clone()),
         };
         let mut material = self.source.material(&file, self.units, span.clone())?;
+        let found = material.law_name().replace(' ', "-");
+        if found != law {
+            return Err(self.source.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
+        }
+        let fibre = material.fibre();
+        if fibre.x.abs() < 1.0 - ROUNDING {
+            let [x, y, z] = fibre.into();
+            let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
+            return Err(self.source.error(span, &message));
+        }
         let off: &[&str] = match self.file.failure {
             None | Some(FailureName::None) => &["eps_lim", "sigma_lim"],
             Some(FailureName::Uniaxial) => &["alpha", "beta"],

@@ -11,7 +11,7 @@ use crate::driver::material::{Law, Material};
 const STEPS: usize = 1000;
 const HALVINGS: usize = 60;
 /// Strains are looked for up to here; every fibre breaks before.
-const LARGEST_STRAIN: f64 = 0.5;
+pub const LARGEST_STRAIN: f64 = 0.5;
 
 /// What a transverse velocity does to a yarn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +60,12 @@ impl Tension {
         }
     }
 
-    /// What the transverse velocity does to a yarn of this reference density.
-    pub fn smith(&self, velocity: f64, density: f64) -> Smith {
+    /// What the transverse velocity does to a yarn of this reference density; none where it needs more than
+    /// [`LARGEST_STRAIN`].
+    pub fn smith(&self, velocity: f64, density: f64) -> Option<Smith> {
+        if self.velocities(LARGEST_STRAIN, density).0 < velocity {
+            return None;
+        }
         let (mut low, mut high) = (0.0, LARGEST_STRAIN);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
@@ -70,7 +74,7 @@ impl Tension {
         }
         let (_, transverse) = self.velocities(low, density);
         let speed = |strain: f64| (self.slope(1.0 + strain) / density).sqrt();
-        Smith { strain: low, fastest: speed(0.0), slowest: speed(low), transverse }
+        Some(Smith { strain: low, fastest: speed(0.0), slowest: speed(low), transverse })
     }
 
     /// V and U at a strain.
@@ -94,15 +98,20 @@ mod tests {
         // Tab. 3.1: E 84.62 GPa, ρ 1440 kg/m³.
         let hooke = Tension::Hooke(84.62e9);
         for (velocity, percent, transverse) in [(200.0, 0.498, 504.2), (400.0, 1.271, 772.0), (800.0, 3.258, 1156.0)] {
-            let smith = hooke.smith(velocity, 1440.0);
+            let smith = hooke.smith(velocity, 1440.0).expect("it is slow enough");
             assert!((100.0 * smith.strain - percent).abs() < 6e-4, "{}", smith.strain);
             assert!((smith.transverse - transverse).abs() < 0.6, "{}", smith.transverse);
         }
     }
 
     #[test]
+    fn no_yarn_is_stretched_by_half() {
+        assert_eq!(Tension::Logarithmic(82.341e9).smith(1e5, 1351.4), None);
+    }
+
+    #[test]
     fn the_law_slows_the_wave_as_it_stretches() {
-        let smith = Tension::Logarithmic(82.341e9).smith(400.0, 1351.4);
+        let smith = Tension::Logarithmic(82.341e9).smith(400.0, 1351.4).expect("it is slow enough");
         let fallen = 1.0 - smith.slowest / smith.fastest;
         assert!((fallen - 0.019).abs() < 0.0015, "{fallen}");
     }

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use super::run::{End, Outcome};
-use super::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::Smith;
 use crate::driver::Error;
+use crate::driver::unit_names::number as unit_number;
 
 /// A column that has nothing to say about a case.
 const NONE: &str = "-";
@@ -15,15 +16,19 @@ pub fn outcome(result: &Outcome) -> &'static str {
     match (result.end, result.broken) {
         (End::Stopped, None) => "not penetrated",
         (End::Stopped, Some(_)) => "broken, stopped",
-        (_, Some(_)) => "penetrated",
-        (_, None) => "unbroken",
+        (End::Left, _) => "penetrated",
+        (End::Time, Some(_)) => "broken, not over",
+        (End::Time, None) => "unbroken, not over",
     }
 }
 
 fn law(case: &Case) -> String {
     let mut name = match &case.zones {
         Zones::One(material) => material.law_name().to_string(),
-        Zones::Two(_, length) => format!("hyperelastic to {length}"),
+        Zones::Two(_, length) => {
+            let layers = case.yarn.layers_to(*length) as f64;
+            format!("hyperelastic to {}", unit_number(layers / case.yarn.layers as f64 * case.yarn.length))
+        }
     };
     if case.precision == Precision::F32 {
         name.push_str(", f32");
@@ -70,19 +75,22 @@ fn maybe(value: Option<f64>, digits: usize) -> String {
 fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
     let last = result.last();
     let broken = |of: fn((f64, f64)) -> f64, digits| maybe(result.broken.map(of), digits);
-    let residual = if result.end == End::Stopped { 0.0 } else { last.speed };
     cells.extend([
         ("contact_stiffness", format!("{stiffness:.0e}")),
         ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), 5)),
         ("outcome", outcome(result).to_string()),
-        ("residual_speed", number(residual, 1)),
+        ("residual_speed", maybe(result.residual_speed(), 1)),
+        ("speed_at_end", number(last.speed, 1)),
         ("broken_at", broken(|(time, _)| time, 5)),
         ("speed_then", broken(|(_, speed)| speed, 1)),
         ("deleted", last.deleted.to_string()),
         ("end", number(last.time, 5)),
+        ("hourglass_share", number(result.hourglass_share(), 3)),
+        ("index_max", number(result.largest_index(), 3)),
         ("w_el_max", number(last.largest[0], 2)),
         ("w_tc_max", number(last.largest[1], 2)),
         ("w_td_max", number(last.largest[2], 2)),
+        ("work_max", number(last.largest[4], 2)),
     ]);
 }
 
@@ -99,8 +107,8 @@ fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, Str
 }
 
 /// The titles of all cases' columns, and a line for each case.
-fn lines(scene: &Scene, results: &[Outcome]) -> (Vec<&'static str>, Vec<Vec<String>>) {
-    let cells: Vec<_> = scene.cases.iter().zip(results).map(|(case, result)| cells(case, result)).collect();
+fn lines(results: &[(&Case, Outcome)]) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    let cells: Vec<_> = results.iter().map(|(case, result)| cells(case, result)).collect();
     let mut titles: Vec<&'static str> = Vec::new();
     for &(title, _) in cells.iter().flatten() {
         if !titles.contains(&title) {
@@ -115,8 +123,8 @@ fn lines(scene: &Scene, results: &[Outcome]) -> (Vec<&'static str>, Vec<Vec<Stri
 }
 
 /// The table of all cases as Markdown, columns that say nothing left out.
-pub fn table(scene: &Scene, results: &[Outcome]) -> String {
-    let (titles, lines) = lines(scene, results);
+pub fn table(results: &[(&Case, Outcome)]) -> String {
+    let (titles, lines) = lines(results);
     let kept: Vec<usize> = (0..titles.len()).filter(|&c| lines.iter().any(|line| line[c] != NONE)).collect();
     let width = |c: usize| lines.iter().map(|line| line[c].chars().count()).fold(titles[c].len(), usize::max);
     let mut text = String::new();
@@ -139,9 +147,9 @@ pub fn table(scene: &Scene, results: &[Outcome]) -> String {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(file: &Path, scene: &Scene, results: &[Outcome]) -> Result<(), Error> {
+pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
     let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
-    let (titles, lines) = lines(scene, results);
+    let (titles, lines) = lines(results);
     let mut writer = csv::Writer::from_path(file).map_err(fault)?;
     writer.write_record(titles).map_err(fault)?;
     for line in lines {
@@ -172,12 +180,20 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             "contact_energy",
             "external_work",
             "total_energy",
+            "elongation_energy",
+            "compaction_energy",
+            "distortion_energy",
+            "shear_energy",
+            "linear_work",
             "w_el_max",
             "w_tc_max",
             "w_td_max",
+            "w_ld_max",
+            "work_max",
             "w_el_min",
-            "w_tc_outside",
-            "w_td_outside",
+            "w_tc_free",
+            "w_td_free",
+            "failure_index_max",
             "deleted",
             "longitudinal_front",
             "transverse_front",
@@ -193,8 +209,10 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
         let line = (
             [sample.time, sample.speed, sample.travel, sample.force],
             [e.projectile, e.kinetic, e.internal, e.hourglass, e.viscosity, e.friction, e.contact, e.external],
-            [e.total(), sample.largest[0], sample.largest[1], sample.largest[2], sample.least],
-            [sample.outside[1], sample.outside[2]],
+            e.total(),
+            sample.parts,
+            sample.largest,
+            [sample.least, sample.free[1], sample.free[2], sample.index],
             sample.deleted,
             [sample.longitudinal, sample.transverse, sample.strain],
             sample.widths,

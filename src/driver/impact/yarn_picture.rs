@@ -16,21 +16,24 @@ const SIZE: [u32; 2] = [1280, 900];
 /// The part of the width that the view of the whole yarn gets; the rest is the section's.
 const SIDE: i32 = 960;
 const ROW: i32 = 272;
-/// Heights of a row's heading, and of the scale in it.
+/// Where the first row starts, the height of a row's heading, and where the yarn's axis lies below that.
+const TOP: i32 = 80;
 const HEAD: i32 = 38;
+const AXIS: f64 = 78.0;
+/// Air beside the pictures, and beside all text on the left.
+const AIR: i32 = 30;
+const LEFT: i32 = 24;
+/// Corners of the projectile's circle.
+const CORNERS: usize = 72;
+/// The scale of colours: its place, width and height in the heading, and its steps.
+const SCALE_LEFT: i32 = 180;
+const SCALE_WIDTH: i32 = 200;
+const SCALE_TOP: i32 = 12;
+const SCALE_HEIGHT: i32 = 14;
+const SCALE_STEPS: i32 = 40;
 /// Looking down by so much, the top is seen: a length across is drawn upwards in this proportion.
 const TILT: f64 = 1.0;
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
-/// Anchors of viridis (van der Walt and Smith, 2015), from nothing to the largest.
-const SCALE: [[f64; 3]; 6] = [
-    [68.0, 1.0, 84.0],
-    [65.0, 68.0, 135.0],
-    [42.0, 120.0, 142.0],
-    [34.0, 168.0, 132.0],
-    [122.0, 209.0, 81.0],
-    [253.0, 231.0, 37.0],
-];
-
 /// Draws the yarn as it stood at an instant.
 ///
 /// # Errors
@@ -45,12 +48,12 @@ pub fn write(
 ) -> Result<(), Error> {
     picture::write(svg, png, SIZE, |root| {
         let title = format!("{}: {}", scene.title, case.name);
-        root.draw_text(&title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+        root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(16)))?;
         let time = format!("at {} {}", number(snapshot.time), unit(&scene.units, TIME));
-        root.draw_text(&time, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+        root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(50)))?;
         let drawing = Drawing { mesh: &result.mesh, case, snapshot };
         for mode in 0..MODES.len() {
-            let top = 80 + ROW * mode as i32;
+            let top = TOP + ROW * mode as i32;
             let row = root.margin(fine(top), 0, 0, 0);
             drawing.draw_row(&row, mode, &unit(&scene.units, ENERGY_DENSITY))?;
         }
@@ -77,23 +80,20 @@ impl View {
     }
 }
 
-/// A colour between nothing and the largest value.
+/// A colour of viridis between nothing and the largest value.
 fn colour(share: f64) -> RGBColor {
-    let place = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
-    let low = (place as usize).min(SCALE.len() - 2);
-    let part = place - low as f64;
-    let [red, green, blue] =
-        [0, 1, 2].map(|c| (SCALE[low][c] + part * (SCALE[low + 1][c] - SCALE[low][c])).round() as u8);
-    RGBColor(red, green, blue)
+    ViridisRGB.get_color(share.clamp(0.0, 1.0))
 }
 
 impl Drawing<'_> {
     fn draw_row(&self, area: &Area, mode: usize, unit: &str) -> Drawn<()> {
+        // The linear law's work, which has no modes, is elongation for the most part.
+        let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
         let values = self.snapshot.densities.iter().zip(&self.snapshot.intact);
-        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| w[mode]).fold(0.0, f64::max);
+        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| density(w)).fold(0.0, f64::max);
         draw_head(area, MODES[mode], largest, unit)?;
-        let shade =
-            |element: usize| colour(if largest > 0.0 { self.snapshot.densities[element][mode] / largest } else { 0.0 });
+        let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
+        let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
         self.draw_side(area, &shade)?;
         self.draw_section(area, &shade)
     }
@@ -101,12 +101,14 @@ impl Drawing<'_> {
     /// The whole yarn: the half that was computed, and its mirror image.
     fn draw_side(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
         let span = 2.0 * self.case.yarn.length;
-        let scale = f64::from(SIDE - 60) / span;
-        let view = View { scale, origin: [f64::from(SIDE) / 2.0, f64::from(HEAD) + 78.0] };
+        let scale = f64::from(SIDE - 2 * AIR) / span;
+        let view = View { scale, origin: [f64::from(SIDE) / 2.0, f64::from(HEAD) + AXIS] };
         // The far side first.
         for column in (0..self.case.yarn.columns).rev() {
-            for layer in 0..self.case.yarn.layers {
-                let element = self.element(layer, column, self.case.yarn.rows - 1);
+            let rows = self.case.yarn.rows;
+            for (layer, row) in (0..self.case.yarn.layers).flat_map(|layer| (0..rows).map(move |row| (layer, row))) {
+                // What stands above covers it.
+                let element = self.element(layer, column, row);
                 if !self.snapshot.intact[element] {
                     continue;
                 }
@@ -122,8 +124,8 @@ impl Drawing<'_> {
             }
         }
         if let Some((height, radius)) = self.snapshot.projectile {
-            let turn = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / 72.0;
-            let circle = (0..=72)
+            let turn = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / CORNERS as f64;
+            let circle = (0..=CORNERS)
                 .map(|i| view.place([radius * turn(i).cos(), height + radius * turn(i).sin()]))
                 .collect::<Vec<_>>();
             area.draw(&PathElement::new(circle, stroke(GREY, 2)))?;
@@ -137,7 +139,7 @@ impl Drawing<'_> {
         let nodes = 0..self.mesh.nodes_per_section;
         let centre = nodes.clone().map(|node| self.snapshot.positions[node][1]).sum::<f64>() / nodes.len() as f64;
         // Twice the section's width has room.
-        let scale = f64::from(SIZE[0] as i32 - SIDE - 40) / (2.0 * yarn.width);
+        let scale = f64::from(SIZE[0] as i32 - SIDE - 2 * AIR) / (2.0 * yarn.width);
         let origin = [f64::from(SIDE) + f64::from(SIZE[0] as i32 - SIDE) / 2.0, f64::from(HEAD + ROW) / 2.0];
         let view = View { scale, origin };
         for element in (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]) {
@@ -163,14 +165,14 @@ impl Drawing<'_> {
 
 /// The mode's name, and what its colours mean.
 fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
-    area.draw_text(name, &text(HEADING, &INK), (fine(24), fine(8)))?;
-    let (left, width, steps) = (180, 200, 40);
-    for step in 0..steps {
-        let x = |i: i32| fine(left) + fine(width) * i / steps;
-        let corners = [(x(step), fine(12)), (x(step + 1), fine(26))];
-        area.draw(&Rectangle::new(corners, colour(f64::from(step) / f64::from(steps - 1)).filled()))?;
+    area.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(8)))?;
+    for step in 0..SCALE_STEPS {
+        let x = |i: i32| fine(SCALE_LEFT) + fine(SCALE_WIDTH) * i / SCALE_STEPS;
+        let corners = [(x(step), fine(SCALE_TOP)), (x(step + 1), fine(SCALE_TOP + SCALE_HEIGHT))];
+        let share = f64::from(step) / f64::from(SCALE_STEPS - 1);
+        area.draw(&Rectangle::new(corners, colour(share).filled()))?;
     }
     let label = format!("0 to {} {unit}", number(largest));
-    area.draw_text(&label, &text(TEXT, &INK), (fine(left + width + 12), fine(10)))?;
+    area.draw_text(&label, &text(TEXT, &INK), (fine(SCALE_LEFT + SCALE_WIDTH + 12), fine(10)))?;
     Ok(())
 }
