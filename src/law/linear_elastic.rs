@@ -306,11 +306,11 @@ impl<R: Real> Answer<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let (taken, intact) = (self.taken, Failure::intact(old[LINEAR_FAILED]));
         let mut lost = zero.lt(zero);
-        for c in 0..LINEAR_ALIVE {
-            let finite = (old[c] * zero).le(zero);
+        for (c, &old) in old.iter().enumerate().take(LINEAR_ALIVE) {
+            let finite = (old * zero).le(zero);
             lost = lost | !finite;
             let carried = if c < LINEAR_LARGEST { finite & intact } else { finite };
-            self.state[c] = R::select(taken, self.state[c], R::select(carried, old[c], zero));
+            self.state[c] = R::select(taken, self.state[c], R::select(carried, old, zero));
         }
         let latch = R::select(intact, zero, one);
         self.state[LINEAR_FAILED] = R::select(taken, self.state[LINEAR_FAILED], latch);
