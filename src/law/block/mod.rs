@@ -580,14 +580,7 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
         while i < part.n {
             let count = STAGED.min((part.n - i) / R::COUNT);
             // SAFETY: i + count COUNT ≤ n, and the caller's promise.
-            unsafe {
-                // The widest registers are worth loops of their own whose length is known.
-                if size_of::<R>() == 64 && count == STAGED {
-                    evaluate::<T, R, WANT>(&lanes, &part, i, STAGED, &mut worst);
-                } else {
-                    evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst);
-                }
-            }
+            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
             i += count * R::COUNT;
         }
         if left_over.count > 0 {
@@ -755,7 +748,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             trouble = probe::<T, R, WANT>(block, at(k), outcomes.get(k).standing, trouble);
         }
         // What is strange is rare.
-        if R::any(!(trouble * zero).le(zero)) {
+        if R::any(!trouble.le(zero)) {
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
                 *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
@@ -959,7 +952,8 @@ unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize,
     }
 }
 
-/// A number that is finite, but for rare overflows, only where a point is not flawed and all that it might keep is finite.
+/// `trouble`, or NaN where a point is flawed, or something that it might keep is not finite (or rarely, where their products
+/// are not).
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
@@ -982,7 +976,8 @@ unsafe fn probe<T: Precision, R: Lanes<T>, const WANT: u8>(
             (false, false) => {}
         }
     }
-    if request.failure { trouble + standing + product } else { trouble + product }
+    let sum = if request.failure { standing + product } else { product };
+    sum.mul_add(R::splat(0.0), trouble)
 }
 
 /// Stores what the points remember that have a new state, and whether they have failed.
