@@ -748,7 +748,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             trouble = probe::<T, R, WANT>(block, at(k), outcomes.get(k).standing, trouble);
         }
         // What is strange is rare.
-        if R::any(!trouble.le(zero)) {
+        if R::any(!(trouble - trouble).le(zero)) {
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
                 *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
@@ -952,8 +952,8 @@ unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize,
     }
 }
 
-/// `trouble`, or NaN where a point is flawed, or something that it might keep is not finite (or rarely, where their products
-/// are not).
+/// `trouble` and something more: finite, but for rare overflows, only where a point is not flawed and all that it might keep is
+/// finite.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
@@ -976,8 +976,7 @@ unsafe fn probe<T: Precision, R: Lanes<T>, const WANT: u8>(
             (false, false) => {}
         }
     }
-    let sum = if request.failure { standing + product } else { product };
-    sum.mul_add(R::splat(0.0), trouble)
+    if request.failure { trouble + standing + product } else { trouble + product }
 }
 
 /// Stores what the points remember that have a new state, and whether they have failed.
