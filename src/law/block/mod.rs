@@ -747,8 +747,10 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         for k in 0..count {
             trouble = probe::<T, R, WANT>(block, at(k), outcomes.get(k).standing, trouble);
         }
-        // What is strange is rare.
-        if R::any(!(trouble - trouble).le(zero)) {
+        // What is strange is rare. A number less itself is 0, unless it is NaN or infinite.
+        #[allow(clippy::eq_op)]
+        let ordinary = (trouble - trouble).le(zero);
+        if R::any(!ordinary) {
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
                 *worst = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k), *worst);
