@@ -7,7 +7,7 @@
 //! | `state_old`, `state_new` | the rows of [`state::LINEAR_ELASTIC`](crate::law::state::LINEAR_ELASTIC) |
 //! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
 
-use super::{Lanes, LeftOver, Level, Precision, WIDEST, leading_dimension_below};
+use super::{Lanes, LeftOver, Level, Precision, leading_dimension_below, least_code};
 use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation, Wanted};
 use crate::law::matrix::Matrix;
 use crate::law::state::LINEAR_ELASTIC_STATE;
@@ -131,14 +131,7 @@ unsafe fn sweep<T: Precision, R: Lanes<T>>(law: &LinearElastic<T>, block: &Linea
         // SAFETY: the caller's promise.
         part = unsafe { fetch(&mut left_over, block, part.n, R::COUNT) };
     }
-    let mut codes = [0; WIDEST];
-    // SAFETY: there is room for the widest lanes.
-    unsafe { worst.store_integers(codes.as_mut_ptr()) };
-    let mut code = status::OK;
-    for &one in codes.iter().take(R::COUNT) {
-        code = code.min(one);
-    }
-    code
+    least_code(worst)
 }
 
 /// Evaluates the points of a register from `i` on; returns their codes.

@@ -594,11 +594,17 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>
         // SAFETY: the caller's promise.
         part = unsafe { left_over.fetch(block, part.n, R::COUNT) };
     }
-    let mut codes = [0; WIDEST];
+    least_code(worst)
+}
+
+/// The least of the codes in the lanes, or 0.
+#[inline(always)]
+fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
+    let mut stored = [0; WIDEST];
     // SAFETY: there is room for the widest lanes.
-    unsafe { worst.store_integers(codes.as_mut_ptr()) };
+    unsafe { codes.store_integers(stored.as_mut_ptr()) };
     let mut code = status::OK;
-    for &one in codes.iter().take(R::COUNT) {
+    for &one in stored.iter().take(R::COUNT) {
         code = code.min(one);
     }
     code
