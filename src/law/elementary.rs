@@ -289,7 +289,7 @@ fn rough_power_of_two(x: f64) -> f64 {
 pub struct Power<R: Real> {
     logarithm: Logarithm<R>,
     reciprocal: R,
-    vanishes: R::Mask,
+    remains: R::Mask,
 }
 
 impl<R: Real> Power<R> {
@@ -297,7 +297,7 @@ impl<R: Real> Power<R> {
     #[inline(always)]
     pub fn new(i: R, q: &Exponent<R>) -> Self {
         let logarithm = Logarithm::new(i.max(q.least));
-        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), vanishes: i.lt(q.least) }
+        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), remains: q.least.le(i) }
     }
 
     /// The second: i^q = 2^n e^r, |r| ≤ ½ ln 2.
@@ -307,7 +307,7 @@ impl<R: Real> Power<R> {
         let n = q.over_ln_2.mul_add(ln_z, q.value * k).round();
         let d = q.high.mul_add(k, -n);
         let r = d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z));
-        Reduced { n, r, vanishes: self.vanishes }
+        Reduced { n, r, remains: self.remains }
     }
 }
 
@@ -316,16 +316,16 @@ impl<R: Real> Power<R> {
 pub struct Reduced<R: Real> {
     n: R,
     r: R,
-    vanishes: R::Mask,
+    remains: R::Mask,
 }
 
 impl<R: Real> Reduced<R> {
     /// The third: 2^n e^r, or 0 for a base so small that the power is.
     #[inline(always)]
     pub fn finish(&self) -> R {
-        let Reduced { n, r, vanishes } = *self;
+        let Reduced { n, r, remains } = *self;
         let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
-        R::select(vanishes, R::splat(0.0), exponential.times_power_of_two(n))
+        R::select(remains, exponential.times_power_of_two(n), R::splat(0.0))
     }
 }
 

@@ -28,9 +28,8 @@
 use super::elementary::{Asinh, Logarithm};
 use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
 
-/// F − 1 counts as small where the sum of its squared entries is below this: every diagonal entry of F is then above ½,
-/// so that H is exact, and no singular value of F is below 0.6.
-const NEAR_REFERENCE: f64 = 0.16;
+/// F is near the reference where its diagonal is above this: F − 1 is then exact (from ½ on), and no strain far below it.
+const NEAR_REFERENCE: f64 = 0.6;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
 pub trait Axes<R: Real>: Copy {
@@ -39,12 +38,19 @@ pub trait Axes<R: Real>: Copy {
     fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept;
     /// What [`Stretch::new`] has said of the images, from what was kept or from F.
     fn recall(&self, kept: &Self::Kept, f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3];
-    /// The images of the axes under the matrix of these columns.
-    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3];
+    /// The images of the axes under F.
+    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3];
     /// `v + s n_axis`, counted from 0.
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
-    /// `n_axis·v`.
-    fn component(&self, v: [R; 3], axis: usize) -> R;
+    /// The scalar product of the images of two different axes, the second one that of `n_axis`.
+    fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R;
+}
+
+/// The image of an axis n, whole and less σn: near the reference the difference holds digits that the whole has not.
+#[derive(Clone, Copy)]
+pub struct Image<R> {
+    whole: [R; 3],
+    rest: [R; 3],
 }
 
 /// The coordinate axes, where the fibre lies along the first one.
@@ -57,12 +63,14 @@ impl<R: Real> Axes<R> for FirstAxis {
     fn keep(&self, _: [[R; 3]; 3]) {}
     #[inline(always)]
     fn recall(&self, (): &(), f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3] {
-        // Near the reference these differences are exact, elsewhere they change nothing.
-        [f[0], self.shifted(f[1], -d.sigma, 1), self.shifted(f[2], -d.sigma, 2)]
+        let [m, t1, t2] = self.images(f, d.sigma);
+        [m.whole, t1.rest, t2.rest]
     }
     #[inline(always)]
-    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-        *columns
+    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3] {
+        // Near the reference these differences are exact, elsewhere they change nothing.
+        let image = |axis: usize, column| Image { whole: column, rest: self.shifted(column, -sigma, axis) };
+        [image(0, f[0]), image(1, f[1]), image(2, f[2])]
     }
     #[inline(always)]
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
@@ -73,12 +81,9 @@ impl<R: Real> Axes<R> for FirstAxis {
         }
     }
     #[inline(always)]
-    fn component(&self, v: [R; 3], axis: usize) -> R {
-        match axis {
-            0 => v[0],
-            1 => v[1],
-            _ => v[2],
-        }
+    fn product(&self, x: &Image<R>, y: &Image<R>, _: R, _: usize) -> R {
+        // Each term has an entry across its axis as a factor, and so all its digits.
+        dot(x.whole, y.whole)
     }
 }
 
@@ -141,16 +146,25 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
         *kept
     }
     #[inline(always)]
-    fn images(&self, columns: &[[R; 3]; 3]) -> [[R; 3]; 3] {
-        [image(columns, self.m), image(columns, self.t1), image(columns, self.t2)]
+    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3] {
+        let columns = [
+            [f[0][0] - sigma, f[0][1], f[0][2]],
+            [f[1][0], f[1][1] - sigma, f[1][2]],
+            [f[2][0], f[2][1], f[2][2] - sigma],
+        ];
+        let image = |axis: usize, n| {
+            let rest = image(&columns, n);
+            Image { whole: self.shifted(rest, sigma, axis), rest }
+        };
+        [image(0, self.m), image(1, self.t1), image(2, self.t2)]
     }
     #[inline(always)]
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
         along(v, s, self.axis(axis))
     }
     #[inline(always)]
-    fn component(&self, v: [R; 3], axis: usize) -> R {
-        dot(self.axis(axis), v)
+    fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R {
+        sigma.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
     }
 }
 
@@ -159,9 +173,6 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
 pub struct Stretch<R: Real> {
     /// 1 near the reference, else 0.
     sigma: R,
-    near: R::Mask,
-    /// The sum of the squared entries of F − 1.
-    size: R,
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
@@ -169,8 +180,9 @@ pub struct Stretch<R: Real> {
     pub square: R,
     pub inverse_square: R,
     lost: R,
-    /// h2 and h3: the fibre's image times those of the axes across it.
+    /// h2 and h3: the fibre's image times those of the axes across it; (h2² + h3²)/λ².
     pub h: [R; 2],
+    slip_square: R,
 }
 
 impl<R: Real> Stretch<R> {
@@ -185,34 +197,25 @@ impl<R: Real> Stretch<R> {
         // section loses most of its digits here.
         let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
-        let h = [f[0][0] - one, f[1][1] - one, f[2][2] - one];
-        let size = dot(h, h)
-            + (dot([f[0][1], f[0][2], f[1][2]], [f[0][1], f[0][2], f[1][2]])
-                + dot([f[1][0], f[2][0], f[2][1]], [f[1][0], f[2][0], f[2][1]]));
-        let near = size.lt(R::splat(NEAR_REFERENCE));
+        let near = R::splat(NEAR_REFERENCE).lt(f[0][0].min(f[1][1]).min(f[2][2]));
         let sigma = R::select(near, one, zero);
 
-        let columns = [
-            [f[0][0] - sigma, f[0][1], f[0][2]],
-            [f[1][0], f[1][1] - sigma, f[1][2]],
-            [f[2][0], f[2][1], f[2][2] - sigma],
-        ];
-        let [g1, g2, g3] = n.images(&columns);
-        let c1 = n.shifted(g1, sigma, 0);
-        let u11 = dot(g1, n.shifted(c1, sigma, 0));
+        let [m, t1, t2] = n.images(f, sigma);
+        let u11 = dot(m.rest, n.shifted(m.whole, sigma, 0));
         let square = sigma + u11;
+        let h = [n.product(&m, &t1, sigma, 1), n.product(&m, &t2, sigma, 2)];
+        let inverse_square = one / square;
         let stretch = Stretch {
             sigma,
-            near,
-            size,
             jacobian,
-            inverse_jacobian: one / jacobian,
+            inverse_jacobian: jacobian.reciprocal(),
             square,
-            inverse_square: one / square,
+            inverse_square,
             lost: u11 - (square - sigma),
-            h: [sigma.mul_add(n.component(g1, 1), dot(c1, g2)), sigma.mul_add(n.component(g1, 2), dot(c1, g3))],
+            h,
+            slip_square: h[0].mul_add(h[0], h[1] * h[1]) * inverse_square,
         };
-        (stretch, [c1, g2, g3])
+        (stretch, [m.whole, t1.rest, t2.rest])
     }
 }
 
@@ -220,7 +223,7 @@ impl<R: Real> Stretch<R> {
     /// The longitudinal-shear invariant I_ld, the only one that needs no logarithm.
     #[inline(always)]
     pub fn shear_invariant(&self) -> R {
-        self.h[0].mul_add(self.h[0], self.h[1] * self.h[1]).sqrt() * self.inverse_square
+        (self.slip_square * self.inverse_square).sqrt()
     }
 }
 
@@ -249,19 +252,20 @@ impl<R: Real> Section<R> {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let delta_2 = along(g2, -(d.h[0] * d.inverse_square), c1);
         let delta_3 = along(g3, -(d.h[1] * d.inverse_square), c1);
-        let a = n.shifted(delta_2, d.sigma, 1);
-        let b = n.shifted(delta_3, d.sigma, 2);
+        let a = Image { whole: n.shifted(delta_2, d.sigma, 1), rest: delta_2 };
+        let b = Image { whole: n.shifted(delta_3, d.sigma, 2), rest: delta_3 };
 
         // x_ij = a_i·a_j − σ δ_ij for a_2 = a, a_3 = b.
-        let x22 = dot(delta_2, n.shifted(a, d.sigma, 1));
-        let x33 = dot(delta_3, n.shifted(b, d.sigma, 2));
-        let x23 = d.sigma.mul_add(n.component(delta_2, 2), dot(a, delta_3));
+        let x22 = dot(a.rest, n.shifted(a.whole, d.sigma, 1));
+        let x33 = dot(b.rest, n.shifted(b.whole, d.sigma, 2));
+        let x23 = n.product(&a, &b, d.sigma, 2);
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
-        // J_t² = det X near the reference, where its distance from 1 holds more digits than J.
+        // J_t² = det X where both are near 1: its distance from 1 holds more digits than J. σ = 0 is never near.
         let growth = sum + x22.mul_add(x33, -x23_square);
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
-        let area_square = R::select(d.near, one + growth, ratio);
+        let near = sum.lt(d.sigma) & (-half).lt(growth);
+        let area_square = R::select(near, one + growth, ratio);
 
         let section = Section {
             delta,
@@ -272,9 +276,9 @@ impl<R: Real> Section<R> {
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
             inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
-            lost: R::select(d.near, growth - (area_square - one), R::splat(0.0)),
+            lost: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
-        (section, [a, b])
+        (section, [a.whole, b.whole])
     }
 }
 
@@ -308,11 +312,11 @@ impl<R: Real> Logarithms<R> {
             product_2,
             product_3,
             inverse: R::splat(1.0) / (product_3 * d_4),
-            // A size that is NaN stays so in the largest one, a growth in the least. Where the three images are almost parallel
-            // a and b may vanish by cancellation, though J does not.
+            // NaN in F is NaN in the growth, and stays so in the largest one. Where the three images are almost parallel a and b
+            // may vanish by cancellation, though J does not. With a·a and the growth in range J_t² is a normal number.
             doubt: R::select(
-                least.lt(d.jacobian.min(d.square).min(section.area_square).min(section.a_square).min(growth))
-                    & growth.max(d.size).lt(most),
+                least.lt(d.jacobian.min(d.square).min(section.a_square))
+                    & d.square.max(section.half_trace).max(d.slip_square).max(growth).lt(most),
                 R::splat(0.0),
                 R::splat(f64::NAN),
             ),

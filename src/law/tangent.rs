@@ -18,7 +18,7 @@ use nalgebra::Matrix3;
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request, shear_components};
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Section, Strain, Stretch};
 use super::point::{Derivative, Point};
-use super::real::{Real, along, dot, scale};
+use super::real::{Real, along, dot, image, scale};
 use super::state::HYPERELASTIC_STATE;
 use super::stress::{VOIGT, paired, paired_with_one, square, symmetric_product, upper_triangle};
 
@@ -329,8 +329,13 @@ impl<R: Real> Hyperelastic<R> {
         let c = self.spatial_tangent(d, strain, k, Measure::Truesdell, shear).matrix();
         let [w1, w2, w3] = d.pulled_back(n);
         let (e, q1, q2) = (d.e, d.q1, d.q2());
-        let inverse = |row: usize| along(along(scale(w1[row], e), w2[row], q1), w3[row], q2);
-        let inverse = [inverse(0), inverse(1), inverse(2)];
+        // Rows of F⁻¹; a closure would be compiled without the lanes' instructions.
+        let axes = [e, q1, q2];
+        let inverse = [
+            image(&axes, [w1[0], w2[0], w3[0]]),
+            image(&axes, [w1[1], w2[1], w3[1]]),
+            image(&axes, [w1[2], w2[2], w3[2]]),
+        ];
         let mut a = [R::splat(0.0); 81];
         for i in 0..3 {
             for k in i..3 {

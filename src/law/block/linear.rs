@@ -214,9 +214,12 @@ unsafe fn fetch<T: Precision>(
             unsafe { copy.fetch_row(row + c, super::component(array, c, block.leading_dimension)) };
         }
     }
-    // Null stays null.
-    let mut place =
-        |present: *const T, row: usize| if present.is_null() { core::ptr::null_mut() } else { copy.row(row) };
+    // Null stays null. All pointers come from one: a second borrow of the copy would end the first one's.
+    let rows = copy.row(0);
+    let place = |present: *const T, row: usize| match present.is_null() {
+        true => core::ptr::null_mut(),
+        false => rows.wrapping_add(row * lanes),
+    };
     LinearPointers {
         n: lanes,
         leading_dimension: lanes,

@@ -270,16 +270,36 @@ impl<T: Precision> Hyperelastic<T> {
             wave_modulus: !block.wave_speed.is_null(),
         };
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
-        let mut block = *block;
-        // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
-        unsafe {
-            block.take_over();
-            Ok(T::dispatch(level, self, &block, request))
+        // An old state elsewhere is brought over part by part: what has been copied is then still in the nearest cache.
+        let part = if block.in_place() { block.n } else { TAKEN_OVER };
+        let mut worst = status::OK;
+        for first in (0..block.n).step_by(part) {
+            let mut points = block.from(first);
+            points.n = points.n.min(part);
+            // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+            unsafe {
+                points.take_over();
+                worst = worst.min(T::dispatch(level, self, &points, request));
+            }
         }
+        Ok(worst)
     }
 }
 
+/// How many points' old state is brought over at a time: whole groups of registers in either precision.
+const TAKEN_OVER: usize = 2 * STAGED * WIDEST;
+
 impl<T: Precision> Pointers<T> {
+    /// Whether the old state, as far as it is wanted, is where the new one goes.
+    fn in_place(&self) -> bool {
+        let pairs = [
+            (self.energies_old, self.energies),
+            (self.invariants_old, self.invariants),
+            (self.failure_old, self.failure),
+        ];
+        pairs.iter().all(|&(old, new)| new.is_null() || old == new.cast_const())
+    }
+
     /// Brings the old state, or zeros where there is none, to the arrays of the new one: the loops work in place.
     ///
     /// # Safety
@@ -517,7 +537,7 @@ const AS_ASKED: u8 = 128;
 macro_rules! specialised {
     ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
-        let usual = stress && !modes && !wave_modulus && $block.tangent.is_null() && !$block.status.is_null();
+        let usual = stress && !modes && !wave_modulus && $block.tangent.is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
             (true, false, false, false) => wanting!(0, $kernel, $law, $block),
@@ -704,6 +724,9 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let zero = R::splat(0.0);
     let mut trouble = zero;
     let at = |k: usize| i + k * R::COUNT;
+    // Codes that nobody wants go where nobody looks: a test in the stage would cost more.
+    let mut nowhere = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
+    let status = if block.status.is_null() { nowhere.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the ones before have put.
     unsafe {
@@ -724,6 +747,9 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         for k in 0..count {
             strains.put(k, Strain::new(stretches.get(k), sections.get(k), &steps.get(k).logarithms));
+            for column in block.stress {
+                R::prefetch(column.wrapping_add(at(k)));
+            }
         }
         for k in 0..count {
             steps.put(k, Step { power: law.compaction(strains.get(k)) });
@@ -748,6 +774,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             let kinematics =
                 Kinematics { stretch: d, section: sections.get(k), images: [fibre, a, b], strain: strains.get(k) };
             let outcome = finish::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, doubt);
+            zero.store_integers(status.wrapping_add(at(k)));
             outcomes.put(k, outcome);
         }
         for k in 0..count {
@@ -849,8 +876,6 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
     doubt: R,
 ) -> Outcome<R> {
     let Kinematics { stretch: d, strain, .. } = kinematics;
-    let zero = R::splat(0.0);
-    let asked = WANT & AS_ASKED != 0;
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
 
@@ -882,9 +907,6 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
             // The ratio of two numbers may leave the range; that of their roots does not.
             wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
         }
-        if !asked || !block.status.is_null() {
-            zero.store_integers(block.status.add(i));
-        }
         Outcome { new: r.new, standing: r.standing }
     }
 }
@@ -895,8 +917,8 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
 unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> R {
-    let asked = WANT & AS_ASKED != 0;
-    if if asked { block.failure_old.is_null() } else { WANT & HISTORY == 0 } {
+    let absent = if WANT & AS_ASKED != 0 { block.failure_old.is_null() } else { WANT & HISTORY == 0 };
+    if absent {
         return R::splat(0.0);
     }
     // SAFETY: the caller's promise.
@@ -951,6 +973,9 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
 #[inline(always)]
 unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
     let zero = R::splat(0.0);
+    if !R::any(!outcome.new) {
+        return;
+    }
     for c in 0..block.measure.components() {
         // SAFETY: the array has the component, and the lanes from i on.
         unsafe {
@@ -960,8 +985,8 @@ unsafe fn drop_tangent<T: Precision, R: Lanes<T>>(block: &Pointers<T>, i: usize,
     }
 }
 
-/// `trouble` and something more: finite, but for rare overflows, only where a point is not flawed and all that it might keep is
-/// finite.
+/// `trouble` and what a register adds to it: a number that is not finite where one of its points needs [`settle`], that is, where
+/// a point is flawed or what it might keep is not finite.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`].
@@ -975,16 +1000,16 @@ unsafe fn probe<T: Precision, R: Lanes<T>, const WANT: u8>(
     let request = request::<T, WANT>(block);
     // SAFETY: the arrays have the component, and the lanes from i on.
     let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
-    let mut product = if request.failure { old(block.failure, 0) } else { standing };
+    let mut sum = if request.failure { standing + old(block.failure, 0) } else { standing };
     for c in 0..4 {
-        match (request.energies, request.invariants) {
-            (true, true) => product = old(block.energies, c).mul_add(old(block.invariants, c), product),
-            (true, false) => product = product + old(block.energies, c),
-            (false, true) => product = product + old(block.invariants, c),
-            (false, false) => {}
-        }
+        sum = match (request.energies, request.invariants) {
+            (true, true) => old(block.energies, c).mul_add(old(block.invariants, c), sum),
+            (true, false) => sum + old(block.energies, c),
+            (false, true) => sum + old(block.invariants, c),
+            (false, false) => sum,
+        };
     }
-    if request.failure { trouble + standing + product } else { trouble + product }
+    trouble + sum
 }
 
 /// Stores what the points remember that have a new state, and whether they have failed.
@@ -1089,7 +1114,7 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
         let code = law.verdict(&gradient(block, i), d, usable, latch);
         let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
         let code = R::select(outcome.new, zero, code);
-        if WANT & AS_ASKED == 0 || !block.status.is_null() {
+        if !block.status.is_null() {
             code.store_integers(block.status.add(i));
         }
         R::select(code.lt(worst), code, worst)

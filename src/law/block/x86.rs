@@ -1,8 +1,8 @@
 //! The lanes of x86-64: SSE2, which every such processor has, AVX2 with FMA, and AVX-512.
 //!
 //! Each type is a register of numbers and every operation one or a few instructions; what they compute is written in
-//! [`Real`]. The operations may only run where the processor has the instructions: the block's dispatch sees to that, and
-//! nothing else makes these types.
+//! [`Real`]. The operations may only run where the processor has the instructions: what makes these types (the block's dispatch,
+//! the dispatch of a single call, the tests) has looked.
 
 // In SSE2 the operations are safe on their own.
 #![allow(unused_unsafe)]
@@ -40,8 +40,7 @@ macro_rules! register {
         #[derive(Clone, Copy)]
         pub struct $name($f);
 
-        // SAFETY (all of the impls below): these values exist only inside functions that the dispatch calls after it
-        // has found the instructions.
+        // SAFETY (all of the impls below): these values are made only after the instructions have been found.
         impl Add for $name {
             type Output = Self;
             #[inline(always)]
