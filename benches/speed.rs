@@ -8,13 +8,13 @@ mod common;
 mod report;
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use baselines::{Properties, eigen, fortran, literal};
 use common::truth::{Case, cases};
 use criterion::Criterion;
 use nalgebra::{Matrix3, Scalar};
-use report::{Accuracy, Family, Machine, Report, Row, Timing};
+use report::{Accuracy, Family, Machine, Quartiles, Report, Row};
 use serde::Deserialize;
 use toron::driver::bench::{Answer, Entry, SIZES, each_point, processor, properties};
 use toron::driver::scene::Scene;
@@ -24,6 +24,9 @@ use toron::law::state::HYPERELASTIC_STATE;
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;
+/// Points in all the pairs of calls that a ratio is the median of, and the least number of pairs.
+const PAIRED: usize = 2_000_000;
+const LEAST_PAIRS: usize = 51;
 /// A point of the truth fills this many points, so that lanes and vectorised loops run as they do in a block.
 const COPIES: usize = 16;
 
@@ -50,20 +53,19 @@ struct Implementation {
 fn main() {
     let compiler = fortran::compiler();
     let implementations = implementations(compiler.is_some());
-    let timings = timings(&implementations);
+    let kernels: Vec<Kernel> = implementations.iter().map(|one| (one.kernel)(properties())).collect();
+    let timings = timings(&implementations, &kernels);
     let cases = cases();
-    let row = |(implementation, timings): (&Implementation, Vec<Timing>)| Row {
+    let row = |(implementation, timings): (&Implementation, Vec<Quartiles>)| Row {
         name: implementation.name.clone(),
         family: implementation.family,
         flags: implementation.flags.clone(),
         timings,
         accuracy: (implementation.family != Family::Copy).then(|| accuracy(implementation, &cases)),
     };
-    let report = Report {
-        machine: Machine::new(processor(), compiler),
-        sizes: SIZES.to_vec(),
-        rows: implementations.iter().zip(timings).map(row).collect(),
-    };
+    let rows = implementations.iter().zip(timings).map(row).collect();
+    let mut report = Report::new(Machine::new(processor(), compiler), SIZES.to_vec(), rows);
+    report.compare(|above, below, n| in_turn(&kernels[above], &kernels[below], n));
     print!("\n{}", report.summary());
     report.write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/results")).expect("the results are written");
 }
@@ -151,11 +153,10 @@ struct Sample {
 }
 
 /// Times of a point, by row and size.
-fn timings(implementations: &[Implementation]) -> Vec<Vec<Timing>> {
+fn timings(implementations: &[Implementation], kernels: &[Kernel]) -> Vec<Vec<Quartiles>> {
     // What an earlier run left must not be read as this one's.
     (0..ROUNDS).for_each(|round| drop(std::fs::remove_dir_all(output(round))));
-    let kernels: Vec<Kernel> = implementations.iter().map(|one| (one.kernel)(properties())).collect();
-    let mut timings: Vec<Vec<Timing>> = kernels.iter().map(|_| Vec::new()).collect();
+    let mut timings: Vec<Vec<Quartiles>> = kernels.iter().map(|_| Vec::new()).collect();
     for n in SIZES {
         let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
         let mut samples: Vec<Vec<f64>> = kernels.iter().map(|_| Vec::new()).collect();
@@ -174,10 +175,28 @@ fn timings(implementations: &[Implementation]) -> Vec<Vec<Timing>> {
             }
         }
         for (timings, samples) in timings.iter_mut().zip(samples) {
-            timings.push(Timing::new(samples, n));
+            timings.push(Quartiles::new(samples.into_iter().map(|call| call / n as f64).collect()));
         }
     }
     timings
+}
+
+/// The ratios of the times of two kernels called in turn: a clock that wanders slows both calls of a pair alike. An untimed call
+/// before each leaves the caches as the kernel itself leaves them.
+fn in_turn(above: &Kernel, below: &Kernel, n: usize) -> Quartiles {
+    let (mut double, mut single) = (Scene::impact(n), Scene::impact(n));
+    let mut call = |kernel: &Kernel| match kernel {
+        Kernel::Double(run) => run(&mut double),
+        Kernel::Single(run) => run(&mut single),
+    };
+    let mut seconds = |kernel: &Kernel| {
+        call(kernel);
+        let start = Instant::now();
+        call(kernel);
+        start.elapsed().as_secs_f64()
+    };
+    let pairs = (PAIRED / n).max(LEAST_PAIRS);
+    Quartiles::new((0..pairs).map(|_| seconds(above) / seconds(below)).collect())
 }
 
 /// Nanoseconds a call of every sample of a row in a round.

@@ -27,23 +27,31 @@ pub enum Family {
     Copy,
 }
 
-/// Nanoseconds a point over all samples of all rounds.
+/// Where a set of measurements lies.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub struct Timing {
-    /// The fastest sample, which the tables and ratios use: what disturbs a measurement only makes it longer.
-    pub fastest: f64,
+pub struct Quartiles {
+    pub least: f64,
     pub lower_quartile: f64,
     pub median: f64,
     pub upper_quartile: f64,
 }
 
-impl Timing {
-    /// From the nanoseconds of calls of `n` points each.
-    pub fn new(mut samples: Vec<f64>, n: usize) -> Self {
+impl Quartiles {
+    pub fn new(mut samples: Vec<f64>) -> Self {
         samples.sort_by(f64::total_cmp);
-        let quantile = |quarters: usize| samples[quarters * (samples.len() - 1) / 4] / n as f64;
-        Timing { fastest: quantile(0), lower_quartile: quantile(1), median: quantile(2), upper_quartile: quantile(3) }
+        let quantile = |quarters: usize| samples[quarters * (samples.len() - 1) / 4];
+        Quartiles { least: quantile(0), lower_quartile: quantile(1), median: quantile(2), upper_quartile: quantile(3) }
     }
+}
+
+/// How many times one row's time is another's.
+#[derive(Serialize)]
+pub struct Ratio {
+    name: &'static str,
+    above: String,
+    below: String,
+    points: usize,
+    times: Quartiles,
 }
 
 /// The errors of the stress over the truth cases: |σ − truth|/(|truth| + K), K being what rounding F by one part does to
@@ -100,8 +108,9 @@ pub struct Row {
     pub family: Family,
     /// The compiler's flags, where they are not the benchmark's own.
     pub flags: String,
-    /// By size.
-    pub timings: Vec<Timing>,
+    /// Nanoseconds a point over all samples of all rounds, by size. The tables use the least: what disturbs a measurement
+    /// only makes it longer.
+    pub timings: Vec<Quartiles>,
     /// `None` where no law is evaluated.
     pub accuracy: Option<Accuracy>,
 }
@@ -145,9 +154,10 @@ fn libraries() -> String {
 
 #[derive(Serialize)]
 pub struct Report {
-    pub machine: Machine,
-    pub sizes: Vec<usize>,
-    pub rows: Vec<Row>,
+    machine: Machine,
+    sizes: Vec<usize>,
+    rows: Vec<Row>,
+    ratios: Vec<Ratio>,
 }
 
 /// The sizes of the ratios: a batch in the cache, and one in memory.
@@ -155,6 +165,34 @@ const CACHED: usize = 4096;
 const STREAMED: usize = 1_000_000;
 
 impl Report {
+    pub fn new(machine: Machine, sizes: Vec<usize>, rows: Vec<Row>) -> Self {
+        Report { machine, sizes, rows, ratios: Vec::new() }
+    }
+
+    /// Has the ratios measured that the text claims: of two rows, by their places, at a number of points.
+    pub fn compare(&mut self, measure: impl Fn(usize, usize, usize) -> Quartiles) {
+        let block =
+            |family| move |row: &Row| row.family == family && row.name.contains("block") && !row.name.contains("only");
+        let double = |n| self.fastest(n, block(Family::Double));
+        let fortran =
+            |what| self.fastest(CACHED, move |row| row.name.starts_with("Fortran") && row.name.contains(what));
+        let copy = self.fastest(STREAMED, |row| row.family == Family::Copy && row.name.starts_with("f64"));
+        let single = self.fastest(CACHED, block(Family::Single));
+        let claims = [
+            ("fastest Fortran loop / f64 block, 4096 points", fortran("loop"), double(CACHED), CACHED),
+            ("scalar Fortran / f64 block, 4096 points", fortran("scalar"), double(CACHED), CACHED),
+            ("f64 block / copy limit, 10⁶ points", double(STREAMED), copy, STREAMED),
+            ("f64 block / f32 block, 4096 points", double(CACHED), single, CACHED),
+        ];
+        let ratio = |(name, above, below, points): (_, Option<usize>, Option<usize>, _)| {
+            let (above, below) = above.zip(below)?;
+            let times = measure(above, below, points);
+            let [above, below] = [above, below].map(|row| self.rows[row].name.clone());
+            Some(Ratio { name, above, below, points, times })
+        };
+        self.ratios = claims.into_iter().filter_map(ratio).collect();
+    }
+
     /// Times and ratios in Markdown.
     pub fn summary(&self) -> String {
         let mut text = String::from("# Speed against error\n\n");
@@ -187,7 +225,7 @@ impl Report {
 
     fn time(&self, row: &Row, n: usize) -> f64 {
         let size = self.sizes.iter().position(|&size| size == n).expect("a measured size");
-        row.timings[size].fastest
+        row.timings[size].least
     }
 
     fn write_times(&self, text: &mut String) {
@@ -200,9 +238,9 @@ impl Report {
         head.extend(["spread", "worst error", "median error", "near rest"].map(String::from));
         let rows = self.rows.iter().map(|row| {
             let mut cells = vec![row.name.clone()];
-            cells.extend(row.timings.iter().map(|timing| time(timing.fastest)));
+            cells.extend(row.timings.iter().map(|timing| time(timing.least)));
             let cached = self.sizes.iter().position(|&n| n == CACHED).map(|size| row.timings[size]);
-            cells.push(cached.map_or(String::new(), |t| format!("{:.0} %", 100.0 * (t.median / t.fastest - 1.0))));
+            cells.push(cached.map_or(String::new(), |t| format!("{:.0} %", 100.0 * (t.median / t.least - 1.0))));
             match &row.accuracy {
                 Some(a) => cells.extend([a.worst(), a.median(), a.near_rest].map(error)),
                 None => cells.extend(["–"; 3].map(String::from)),
@@ -212,33 +250,20 @@ impl Report {
         write_table(text, &head, rows);
     }
 
-    /// The best time of the rows that qualify.
-    fn best(&self, n: usize, qualifies: impl Fn(&Row) -> bool) -> Option<f64> {
-        let times = self.rows.iter().filter(|row| qualifies(row)).map(|row| self.time(row, n));
-        times.min_by(f64::total_cmp)
+    /// The place of the fastest of the rows that qualify.
+    fn fastest(&self, n: usize, qualifies: impl Fn(&Row) -> bool) -> Option<usize> {
+        let rows = (0..self.rows.len()).filter(|&row| qualifies(&self.rows[row]));
+        rows.min_by(|&one, &other| self.time(&self.rows[one], n).total_cmp(&self.time(&self.rows[other], n)))
     }
 
     fn write_ratios(&self, text: &mut String) {
-        let block = |family: Family| {
-            move |row: &Row| row.family == family && row.name.contains("block") && !row.name.contains("only")
-        };
-        let double = |n| self.best(n, block(Family::Double));
-        let single = |n| self.best(n, block(Family::Single));
-        let fortran =
-            |what: &'static str| self.best(CACHED, |row| row.name.starts_with("Fortran") && row.name.contains(what));
-        let copy = self.best(STREAMED, |row| row.family == Family::Copy && row.name.starts_with("f64"));
-        let ratios = [
-            ("fastest Fortran loop / f64 block, 4096 points", fortran("loop"), double(CACHED)),
-            ("scalar Fortran / f64 block, 4096 points", fortran("scalar"), double(CACHED)),
-            ("f64 block / copy limit, 10⁶ points", double(STREAMED), copy),
-            ("f64 block / f32 block, 4096 points", double(CACHED), single(CACHED)),
-        ];
         text.push_str("\n## Ratios\n\n");
-        let rows = ratios.into_iter().map(|(name, above, below)| {
-            let ratio = above.zip(below).map_or("–".to_string(), |(above, below)| format!("{:.2}", above / below));
-            vec![name.to_string(), ratio]
+        text.push_str("The two called in turn, each after an untimed call of its own: the median of the pairs, and the middle half.\n\n");
+        let rows = self.ratios.iter().map(|Ratio { name, times, .. }| {
+            let middle = format!("{:.2} to {:.2}", times.lower_quartile, times.upper_quartile);
+            vec![name.to_string(), format!("{:.2}", times.median), middle]
         });
-        write_table(text, &["".to_string(), "times".to_string()], rows);
+        write_table(text, &["", "times", "middle half"].map(String::from), rows);
     }
 
     fn write_errors(&self, text: &mut String) {
