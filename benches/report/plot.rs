@@ -102,9 +102,13 @@ fn mark(root: &Area, row: &Row, (x, y): (i32, i32)) -> Drawn<()> {
         }
     }
     let style = text(TEXT, &INK);
-    let (width, _) = root.estimate_text_size(&row.name, &style)?;
+    let (width, height) = root.estimate_text_size(&row.name, &style)?;
     let left = [Family::Double, Family::Single].contains(&row.family);
     let offset = if left { -(width as i32) - fine(14) } else { fine(14) };
-    root.draw_text(&row.name, &style, (x + offset, y - fine(10)))?;
+    let corner = (x + offset, y - fine(10));
+    // A line may run behind the name.
+    let opposite = (corner.0 + width as i32, corner.1 + height as i32);
+    root.draw(&Rectangle::new([corner, opposite], WHITE.filled()))?;
+    root.draw_text(&row.name, &style, corner)?;
     Ok(())
 }

@@ -312,7 +312,7 @@ fn powers() {
         let arguments: Vec<_> = bases.iter().filter(|i| promised::<f64>(q * i.log2())).map(|&i| [i]).collect();
         let exact = |[i]: [f64; 1]| [reference(i).powf(&reference(q))];
         let name = format!("power {q}");
-        within([(&name, POWER.0.0)], &Power(Exponent::new(q)), &arguments, exact, |_| q * POWER.0.1);
+        within([(&name, POWER.0.0 + POWER.0.1 * q)], &Power(Exponent::new(q)), &arguments, exact, none);
     }
     for q in exponents().into_iter().map(|q| q as f32) {
         let bases = positive_single().step_by(23);
@@ -320,7 +320,7 @@ fn powers() {
         let arguments: Vec<_> = bases.filter(|&i| promised::<f32>(q_64 * f64::from(i).log2())).map(|i| [i]).collect();
         let exact = |[i]: [f32; 1]| [f64::from(i).powf(q_64)];
         let name = format!("power {q}");
-        within([(&name, POWER.1.0)], &Power(Exponent::new(q)), &arguments, exact, |_| q_64 * POWER.1.1);
+        within([(&name, POWER.1.0 + POWER.1.1 * q_64)], &Power(Exponent::new(q)), &arguments, exact, none);
     }
 }
 
