@@ -8,6 +8,7 @@ pub mod contact;
 pub mod element;
 pub mod material;
 pub mod mesh;
+pub mod viscosity;
 pub mod vtu;
 
 use std::time::{Duration, Instant};
