@@ -149,6 +149,17 @@ fn two_laws_share_a_yarn() {
     assert_eq!(run(&hybrid).samples, run(&full).samples);
 }
 
+/// √(E1/ρ) = 7666 m/s.
+#[test]
+fn the_linear_law_s_wave_has_its_speed() {
+    let mut case = coarse("no_failure.toml", "linear");
+    (case.yarn.layers, case.end) = (100, 0.002);
+    let result = run(&case);
+    let wave = result.front_speed(case.yarn.length, |sample| sample.longitudinal).expect("the wave passes");
+    assert_between(wave, 0.98 * 7666.0, 1.02 * 7666.0);
+    assert_balanced(&result);
+}
+
 /// The linear law has no spreading wave.
 #[test]
 fn the_linear_law_keeps_the_section() {
@@ -266,6 +277,16 @@ fn errors_say_what_is_wrong() {
         scene("layers = 100\nhyperelastic = { preset = \"kevlar-km2-600-linear\" }"),
         "scene.toml:14: hyperelastic has a material of the law linear-elastic; allowed: hyperelastic"
     );
+    let unused = |line: usize, table: &str| {
+        format!("scene.toml:{line}: {table} is not used; allowed: the material of a case's law")
+    };
+    let table = "linear-elastic = { preset = \"kevlar-km2-600-linear\" }";
+    assert_eq!(scene(&format!("layers = 100\n{table}")), unused(14, "linear-elastic"));
+    assert_eq!(scene(&format!("layers = 100\n{table}\n[[case]]\nname = \"a\"")), unused(14, "linear-elastic"));
+    assert_eq!(scene(&format!("layers = 100\n[[case]]\nname = \"a\"\n{table}")), unused(16, "linear-elastic"));
+    let table = "hyperelastic = { preset = \"kevlar-km2-600\" }";
+    let case = "[[case]]\nname = \"a\"\nlaw = \"linear-elastic\"";
+    assert_eq!(scene(&format!("layers = 100\n{table}\n{case}")), unused(14, "hyperelastic"));
     assert_eq!(
         scene("layers = 100\nhyperelastic = { preset = \"kevlar-km2-600\", fibre = [0.0, 1.0, 0.0] }"),
         "scene.toml:14: hyperelastic has its fibres along [0, 1, 0]; allowed: along the yarn, [1, 0, 0]"

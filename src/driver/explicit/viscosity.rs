@@ -4,7 +4,7 @@
 //! and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930, 1955). Of a
 //! yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure for both would
 //! either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗ m), m being the
-//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇). Along the fibre ε̇ = −D_mm, and the linear term resists stretching
+//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇) and the element's length or breadth l as it stands. Along the fibre ε̇ = −D_mm, and the linear term resists stretching
 //! as well, so that fronts do not ring. Across it ε̇ = −(tr D − D_mm) counts in compression only: swelling, which the law
 //! leaves free, stays so.
 
@@ -20,7 +20,7 @@ pub struct Viscosity<T> {
     pub tension: Vec<T>,
     volume_ratio: Vec<T>,
     stretch_square: Vec<T>,
-    /// Along the fibre, and the side of a square as large as the section.
+    /// In the reference placement: along the fibre, and the side of a square as large as the section.
     length: Vec<T>,
     breadth: Vec<T>,
 }
@@ -82,8 +82,10 @@ impl<T: Number> Viscosity<T> {
             let (square, square_old) = (at(&measures.stretch_square), at(&self.stretch_square));
             let shortening = (square_old - square) / (square_old + square) * per_step;
             let narrowing = two * (ratio_old - ratio) / (ratio_old + ratio) * per_step - shortening;
-            let along = Direction { length: at(&self.length), linear: linear[0], quadratic };
-            let across = Direction { length: at(&self.breadth), linear: linear[1], quadratic };
+            let stretch = square.root();
+            let along = Direction { length: at(&self.length) * stretch, linear: linear[0], quadratic };
+            let breadth = at(&self.breadth) * (ratio / stretch).root();
+            let across = Direction { length: breadth, linear: linear[1], quadratic };
             let ((q_m, damping_along), (q_t, damping)) = (along.resist(shortening), across.resist(narrowing.max(zero)));
             let standing = measures.standing(intact, first);
             let pressure = (density / ratio * q_t).only_where(standing);
@@ -102,5 +104,77 @@ impl<T: Number> Viscosity<T> {
         }
         let most_damped = most_damped.0.into_iter().map(Into::into).fold(0.0, largest);
         (dissipated.0.into_iter().map(Into::into).sum(), most_damped)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::driver::explicit::element::Control;
+    use crate::driver::material::{Law, Material};
+    use crate::law::linear_elastic::{Criterion, Rotation};
+    use crate::law::parameters;
+
+    const STEP: f64 = 1e-8;
+    /// Of the brick below: along the fibre, and the side of a square as large as the section.
+    const LENGTH: f64 = 2e-3;
+    const BREADTH: f64 = 0.6e-3;
+
+    fn medium() -> Medium<f64> {
+        let preset = parameters::preset("kevlar-km2-600").expect("it exists");
+        let law = Law::new(preset.table, preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        let (values, density) = (preset.values.to_vec(), preset.density);
+        let material = Material { law, values, density: Some(density), label: String::new() };
+        Medium::new(&material, density, Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5 }).expect("valid")
+    }
+
+    /// q_m and q_t after one step to F = diag(along, across, 1), and what was dissipated by volume.
+    fn resist(along: f64, across: f64) -> [f64; 3] {
+        let corner = |i: usize, size: f64, bit: usize| if i >> bit & 1 == 1 { size } else { 0.0 };
+        let nodes: Vec<[f64; 3]> =
+            (0..8).map(|i| [corner(i, LENGTH, 0), corner(i, 0.4e-3, 1), corner(i, 0.9e-3, 2)]).collect();
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &nodes, 0.0);
+        let array = |value: f64| vec![value; shapes.stride];
+        let f: Vec<f64> =
+            [along, 0.0, 0.0, 0.0, across, 0.0, 0.0, 0.0, 1.0].iter().flat_map(|&entry| array(entry)).collect();
+        let [volume_ratio, stretch_square, spread, spread_along] = [0.0; 4].map(array);
+        let mut measures = Measures { volume_ratio, stretch_square, spread, spread_along };
+        shapes.measure(&f, &mut measures);
+        let mut viscosity = Viscosity::new(&shapes);
+        let (dissipated, _) = viscosity.advance(&medium(), &shapes, &measures, &array(1.0), STEP);
+        let (q_t, t) = (viscosity.pressure[0], viscosity.tension[0]);
+        [q_t - t * along / across, q_t, dissipated / shapes.volume[0]]
+    }
+
+    fn assert_close(found: f64, expected: f64) {
+        assert!((found / expected - 1.0).abs() < 1e-4, "{found}, expected {expected}");
+    }
+
+    #[test]
+    fn the_fibre_s_wave_damps_stretching_and_shortening() {
+        let Medium { density, wave_speed, .. } = medium();
+        let rate = 1e-6 / STEP;
+        let linear = density * LENGTH * 0.06 * wave_speed * rate;
+        let quadratic = density * LENGTH * LENGTH * 1.5 * rate * rate;
+        for (along, expected) in [(1.0 + 1e-6, -linear), (1.0 - 1e-6, linear + quadratic)] {
+            let [q_m, q_t, dissipated] = resist(along, 1.0);
+            assert_close(q_m, expected);
+            assert!(q_t.abs() < 1e-9 * linear, "{q_t}");
+            assert_close(dissipated, 0.5 * expected.abs() * 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_wave_of_compaction_damps_narrowing_alone() {
+        let Medium { density, compaction_speed, .. } = medium();
+        assert!((compaction_speed - 797.0).abs() < 1.0, "{compaction_speed}");
+        let rate = 1e-6 / STEP;
+        let expected = density * BREADTH * (BREADTH * 1.5 * rate + 0.06 * compaction_speed) * rate;
+        let [q_m, q_t, dissipated] = resist(1.0, 1.0 - 1e-6);
+        assert_close(q_t, expected);
+        assert_close(dissipated, 0.5 * expected * 1e-6);
+        assert!(q_m.abs() < 1e-4 * expected, "{q_m}");
+        let [q_m, q_t, dissipated] = resist(1.0, 1.0 + 1e-6);
+        assert!(q_m.abs() < 1e-4 * expected && q_t == 0.0 && dissipated.abs() < 1e-4 * expected * 1e-6);
     }
 }
