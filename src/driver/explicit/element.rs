@@ -26,22 +26,10 @@ pub trait Number:
     + AddAssign
     + SubAssign
 {
-    fn root(self) -> Self;
 }
 
-impl Number for f64 {
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
-}
-
-impl Number for f32 {
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
-}
+impl Number for f64 {}
+impl Number for f32 {}
 
 /// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
 #[derive(Clone, Copy)]
@@ -68,11 +56,6 @@ impl<T: Number> Lanes<T> {
             *a = of(*a, b);
         }
         result
-    }
-
-    #[inline(always)]
-    pub fn root(self) -> Self {
-        self.zip(self, |value, _| value.root())
     }
 
     /// These where the others are above 0, elsewhere 0.

@@ -4,7 +4,8 @@
 //! and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930, 1955). Of a
 //! yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure for both would
 //! either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗ m), m being the
-//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇) and the element's length or breadth l as it stands. Along the fibre ε̇ = −D_mm, and the linear term resists stretching
+//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇) and the element's length or breadth l at
+//! rest: what has collapsed is damped all the more. Along the fibre ε̇ = −D_mm, and the linear term resists stretching
 //! as well, so that fronts do not ring. Across it ε̇ = −(tr D − D_mm) counts in compression only: swelling, which the law
 //! leaves free, stays so.
 
@@ -82,10 +83,8 @@ impl<T: Number> Viscosity<T> {
             let (square, square_old) = (at(&measures.stretch_square), at(&self.stretch_square));
             let shortening = (square_old - square) / (square_old + square) * per_step;
             let narrowing = two * (ratio_old - ratio) / (ratio_old + ratio) * per_step - shortening;
-            let stretch = square.root();
-            let along = Direction { length: at(&self.length) * stretch, linear: linear[0], quadratic };
-            let breadth = at(&self.breadth) * (ratio / stretch).root();
-            let across = Direction { length: breadth, linear: linear[1], quadratic };
+            let along = Direction { length: at(&self.length), linear: linear[0], quadratic };
+            let across = Direction { length: at(&self.breadth), linear: linear[1], quadratic };
             let ((q_m, damping_along), (q_t, damping)) = (along.resist(shortening), across.resist(narrowing.max(zero)));
             let standing = measures.standing(intact, first);
             let pressure = (density / ratio * q_t).only_where(standing);
