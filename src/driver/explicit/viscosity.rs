@@ -4,10 +4,9 @@
 //! and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930, 1955). Of a
 //! yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure for both would
 //! either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗ m), m being the
-//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇) and the element's length or breadth l at
-//! rest: what has collapsed is damped all the more. Along the fibre ε̇ = −D_mm, and the linear term resists stretching
-//! as well, so that fronts do not ring. Across it ε̇ = −(tr D − D_mm) counts in compression only: swelling, which the law
-//! leaves free, stays so.
+//! fibre's direction, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇) and the element's length or breadth l at rest: what has collapsed
+//! is damped all the more. Along the fibre ε̇ = −D_mm, and the linear term resists stretching as well, so that fronts do not
+//! ring. Across it ε̇ = −(tr D − D_mm) counts in compression only: swelling, which the law leaves free, stays so.
 
 use super::element::{LANES, Lanes, Measures, Number, Shapes, store};
 use super::largest;

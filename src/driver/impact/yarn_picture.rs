@@ -176,7 +176,8 @@ fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
     area.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(NAME_TOP)))?;
     for step in 0..SCALE_STEPS {
         let x = |i: i32| fine(SCALE_LEFT) + fine(SCALE_WIDTH) * i / SCALE_STEPS;
-        let corners = [(x(step), fine(SCALE_TOP)), (x(step + 1), fine(SCALE_TOP + SCALE_HEIGHT))];
+        // To the end, each over the last: between neighbours the ground would shine through.
+        let corners = [(x(step), fine(SCALE_TOP)), (x(SCALE_STEPS), fine(SCALE_TOP + SCALE_HEIGHT))];
         let share = f64::from(step) / f64::from(SCALE_STEPS - 1);
         area.draw(&Rectangle::new(corners, colour(share).filled()))?;
     }
