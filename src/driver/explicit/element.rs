@@ -1,4 +1,4 @@
-//! The one-point hexahedron, many side by side: deformation gradient, nodal forces, hourglass control, bulk viscosity.
+//! The one-point hexahedron, many side by side: deformation gradient, nodal forces, hourglass control.
 //!
 //! Everything refers to the reference placement, so that nothing is computed anew in a step but what depends on the
 //! displacement. At an element's centre the gradient of a field is the sum of its nodal values, with the signs of ξ, η
@@ -34,28 +34,39 @@ impl Number for f32 {}
 /// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Lanes<T>([T; LANES]);
+pub struct Lanes<T>(pub [T; LANES]);
 
 impl<T: Number> Lanes<T> {
     #[inline(always)]
-    fn splat(value: T) -> Self {
+    pub fn splat(value: T) -> Self {
         Lanes([value; LANES])
     }
 
     #[inline(always)]
-    fn at(array: &[T], first: usize) -> Self {
+    pub fn at(array: &[T], first: usize) -> Self {
         let mut lanes = Lanes::splat(T::default());
         lanes.0.copy_from_slice(&array[first..][..LANES]);
         lanes
     }
 
     #[inline(always)]
-    fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
+    pub fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
         let mut result = self;
         for (a, b) in result.0.iter_mut().zip(other.0) {
             *a = of(*a, b);
         }
         result
+    }
+
+    /// These where the others are above 0, elsewhere 0.
+    #[inline(always)]
+    pub fn only_where(self, others: Self) -> Self {
+        self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
+    }
+
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
     }
 }
 
@@ -102,7 +113,7 @@ fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> 
 }
 
 #[inline(always)]
-fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
+pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
     array[first..][..LANES].copy_from_slice(&lanes.0);
 }
 
@@ -245,6 +256,11 @@ impl<T: Number> Shapes<T> {
         block
     }
 
+    /// Length of an element along axis 0: for a prism of this axis, 8 Σ(∂N/∂X)² is 4 over its square.
+    pub fn length(&self, element: usize) -> f64 {
+        2.0 / self.gradients[element].into().sqrt()
+    }
+
     /// An eighth of the element's mass rests on each corner.
     pub fn corner_volume(&self, element: usize) -> f64 {
         self.volume[element].into() / 8.0
@@ -301,9 +317,10 @@ impl<T: Number> Shapes<T> {
             let [volume] = load(&self.volume, stride, first);
             let [stiffness] = load(&self.stiffness, stride, first);
             let [pressure] = load(point.pressure, stride, first);
+            let [tension] = load(point.tension, stride, first);
             let [intact] = load(point.intact, stride, first);
             let k = stiffness * intact;
-            let p = first_piola_kirchhoff(&f, &stress, pressure);
+            let p = first_piola_kirchhoff(&f, &stress, pressure, tension);
             let zero = Lanes::splat(T::default());
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
@@ -342,20 +359,21 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// J, and the squares of the elements' highest frequencies over their wave speeds': the largest eigenvalue of
-    /// 8 Σ ∇N ⊗ ∇N in the current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J.
+    /// What the step's bound and bulk viscosity need to know of F, all elements.
     #[inline(always)]
-    pub fn volumes_and_spreads(&self, f: &[T], ratios: &mut [T], spreads: &mut [T]) {
+    pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
         for first in (0..self.stride).step_by(LANES) {
             let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
             let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
-            let ratio = dot(u, a);
+            let (ratio, square) = (dot(u, a), dot(u, u));
             let [aa, bb, cc, ab, bc, ca] = load(&self.gradients, self.stride, first);
             let (squares, products) =
                 (aa * dot(a, a) + bb * dot(b, b) + cc * dot(c, c), ab * dot(a, b) + bc * dot(b, c) + ca * dot(c, a));
-            store(ratio, ratios, first);
-            store((squares + products + products) / (ratio * ratio), spreads, first);
+            store(ratio, &mut to.volume_ratio, first);
+            store(square, &mut to.stretch_square, first);
+            store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
+            store(aa / square, &mut to.spread_along, first);
         }
     }
 
@@ -366,21 +384,48 @@ impl<T: Number> Shapes<T> {
     }
 }
 
+/// What F is measured by, one number an element.
+#[derive(Clone, Debug)]
+pub struct Measures<T> {
+    /// J, and the square of the stretch along axis 0, where the fibres are.
+    pub volume_ratio: Vec<T>,
+    pub stretch_square: Vec<T>,
+    /// The square of the highest frequency over that of the wave speed: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in the
+    /// current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J. And the trace's part along the fibre, where
+    /// m·∇N = ∂N/∂X over the stretch.
+    pub spread: Vec<T>,
+    pub spread_along: Vec<T>,
+}
+
+impl<T: Number> Measures<T> {
+    /// J of the elements that are intact and not inverted, 0 for the others.
+    #[inline(always)]
+    pub fn standing(&self, intact: &[T], first: usize) -> Lanes<T> {
+        Lanes::at(&self.volume_ratio, first).max(Lanes::splat(T::default())).only_where(Lanes::at(intact, first))
+    }
+}
+
 /// What the forces of a block follow from, component-major.
 pub struct Points<'a, T> {
     pub deformation_gradient: &'a [T],
     /// Amplitudes of the hourglass modes.
     pub modal: &'a [T],
-    /// Cauchy stress, and the pressure of bulk viscosity.
+    /// Cauchy stress, and bulk viscosity's part of P: −q cof F, and t times F's first column in P's.
     pub stress: &'a [T],
     pub pressure: &'a [T],
+    pub tension: &'a [T],
     /// 1 or 0: whether hourglass modes are held.
     pub intact: &'a [T],
 }
 
-/// The columns of P = (σ − q 1) cof F.
+/// The columns of P = (σ − q 1) cof F + t f1 ⊗ e1, f1 being F's first column.
 #[inline(always)]
-fn first_piola_kirchhoff<T: Number>(f: &[Lanes<T>; 9], stress: &[Lanes<T>; 6], q: Lanes<T>) -> [[Lanes<T>; 3]; 3] {
+fn first_piola_kirchhoff<T: Number>(
+    f: &[Lanes<T>; 9],
+    stress: &[Lanes<T>; 6],
+    q: Lanes<T>,
+    t: Lanes<T>,
+) -> [[Lanes<T>; 3]; 3] {
     let [s11, s22, s33, s12, s23, s31] = *stress;
     let (s11, s22, s33) = (s11 - q, s22 - q, s33 - q);
     let [a, b, c] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]];
@@ -388,6 +433,9 @@ fn first_piola_kirchhoff<T: Number>(f: &[Lanes<T>; 9], stress: &[Lanes<T>; 6], q
     for column in &mut p {
         let [x, y, z] = *column;
         *column = [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z];
+    }
+    for (p, f) in p[0].iter_mut().zip(a) {
+        *p = *p + t * f;
     }
     p
 }
@@ -438,12 +486,13 @@ mod tests {
 
     fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
         let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
-        let (pressure, intact) = (vec![0.0; shapes.stride], vec![1.0; shapes.stride]);
+        let (none, intact) = (vec![0.0; shapes.stride], vec![1.0; shapes.stride]);
         let point = Points {
             deformation_gradient: &state.f,
             modal: &state.modal,
             stress: &stress,
-            pressure: &pressure,
+            pressure: &none,
+            tension: &none,
             intact: &intact,
         };
         let mut forces = vec![[0.0; 3]; NODES.len()];

@@ -4,8 +4,9 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, LANES, Number, Points, Shapes};
+use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes};
 use super::largest;
+use super::viscosity::Viscosity;
 use crate::driver::Error;
 use crate::driver::material::{Law, Material};
 use crate::host::c_api::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
@@ -43,21 +44,27 @@ pub struct Medium<T> {
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
     strength: f64,
-    /// Wave speed at rest, for the bulk viscosity.
+    /// Wave speed at rest along the fibre, and a bound of it for the wave that compacts the section; for bulk viscosity.
     pub wave_speed: f64,
+    pub compaction_speed: f64,
 }
 
 impl<T: Number> Medium<T> {
     /// # Errors
     /// The frame is the spin's, which needs axes of its own.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
-        let (entry, modulus) = match &material.law {
+        let property = |name: &str| material.property(name).unwrap_or_default();
+        let (entry, along, across) = match &material.law {
             Law::Hyperelastic(_) => {
                 let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
                 for (to, &from) in properties.iter_mut().zip(&material.values) {
                     *to = T::from_f64(from);
                 }
-                (Entry::Hyperelastic(properties), material.property("k_el").unwrap_or_default())
+                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
+                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before.
+                let p = property("p");
+                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
+                (Entry::Hyperelastic(properties), property("k_el"), across)
             }
             Law::LinearElastic { law, frame, criterion } => {
                 let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
@@ -75,14 +82,21 @@ impl<T: Number> Medium<T> {
                     Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
                     Criterion::FibreStress => TORON_CRITERION_FIBRE,
                 };
-                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus())
+                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), property("e_2"))
             }
         };
-        let (fails, strength) = (material.can_fail(), material.property("sigma_lim").unwrap_or_default());
         // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let across = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
-        let (hourglass, wave_speed) = (control.hourglass * across, (modulus / density).sqrt());
-        Ok(Medium { entry, density, control, hourglass, fails, strength, wave_speed })
+        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        Ok(Medium {
+            entry,
+            density,
+            control,
+            hourglass: control.hourglass * distortion,
+            fails: material.can_fail(),
+            strength: property("sigma_lim"),
+            wave_speed: (along / density).sqrt(),
+            compaction_speed: (across / density).sqrt(),
+        })
     }
 
     /// The law's number of state variables, and where the latch stands among them.
@@ -100,8 +114,7 @@ pub struct Scratch<T> {
     deformation_gradient: Vec<T>,
     modal: Vec<T>,
     stress: Vec<T>,
-    pressure: Vec<T>,
-    spread: Vec<T>,
+    measures: Measures<T>,
     wave_speed: Vec<T>,
     status: Vec<i32>,
 }
@@ -113,8 +126,12 @@ impl<T: Number> Default for Scratch<T> {
             deformation_gradient: array(9),
             modal: array(12),
             stress: array(6),
-            pressure: array(1),
-            spread: array(1),
+            measures: Measures {
+                volume_ratio: array(1),
+                stretch_square: array(1),
+                spread: array(1),
+                spread_along: array(1),
+            },
             wave_speed: array(1),
             status: vec![0; BLOCK],
         }
@@ -184,13 +201,18 @@ impl<T: Number> WithSimd for Forces<'_, T> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Forces { block, medium, scratch, step, sums, forces } = self;
-        block.shapes.volumes_and_spreads(&scratch.deformation_gradient, &mut scratch.pressure, &mut scratch.spread);
-        block.add_viscosity(medium, scratch, step, sums);
+        block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
+        let (dissipated, damping) =
+            block.viscosity.advance(medium, &block.shapes, &scratch.measures, &block.intact, step);
+        sums.viscosity += dissipated;
+        sums.damping = largest(sums.damping, damping);
+        sums.stiffness = largest(sums.stiffness, block.stiffness(medium, scratch));
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             modal: &scratch.modal,
             stress: &scratch.stress,
-            pressure: &scratch.pressure,
+            pressure: &block.viscosity.pressure,
+            tension: &block.viscosity.tension,
             intact: &block.intact,
         };
         block.shapes.forces(&point, forces);
@@ -208,12 +230,9 @@ pub struct ElementBlock<T> {
     pub state: Vec<T>,
     /// 1, or 0 once the element is deleted.
     pub intact: Vec<T>,
-    volume_ratio: Vec<T>,
-    pressure: Vec<T>,
+    viscosity: Viscosity<T>,
     /// The linear elastic law's deformation gradient at the start of the step.
     f_old: Vec<T>,
-    /// The side of a cube as large, for the bulk viscosity.
-    side: Vec<T>,
 }
 
 impl<T: Number> ElementBlock<T> {
@@ -229,10 +248,8 @@ impl<T: Number> ElementBlock<T> {
             medium,
             state: vec![T::default(); of.state().0 * stride],
             intact: vec![one; stride],
-            volume_ratio: vec![one; stride],
-            pressure: vec![T::default(); stride],
+            viscosity: Viscosity::new(&shapes),
             f_old,
-            side: shapes.volume.iter().map(|&volume| T::from_f64(volume.into().cbrt())).collect(),
             shapes,
         }
     }
@@ -317,46 +334,18 @@ impl<T: Number> ElementBlock<T> {
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
-    /// von Neumann's and Landshoff's pressure, in compression only: q = ρ l (c2 l ε̇² + c1 c |ε̇|), ε̇ = J̇/J; and by how
-    /// much it and the law bound the step.
+    /// The largest square of a frequency, from the law's bound of the wave speed.
     #[inline(always)]
-    fn add_viscosity(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, step: f64, sums: &mut Sums) {
-        let stride = self.shapes.stride;
-        let Control { linear, quadratic, .. } = medium.control;
-        let (zero, half) = (T::default(), T::from_f64(0.5));
-        let per_step = if step > 0.0 { 1.0 / step } else { 0.0 };
-        let first = T::from_f64(linear * medium.wave_speed);
-        let second = T::from_f64(quadratic * per_step);
-        let density = T::from_f64(medium.density * per_step);
-        // As many sums as lanes, so that the loop need not wait for one.
-        let [mut dissipated, mut stiffest, mut most_damped] = [[zero; LANES]; 3];
-        let Scratch { pressure, spread, wave_speed, .. } = scratch;
-        let history = self.volume_ratio[..stride].iter_mut().zip(&mut self.pressure[..stride]);
-        let constant = self.side[..stride].iter().zip(&self.intact[..stride]).zip(&self.shapes.volume[..stride]);
-        let bounds = spread[..stride].iter().zip(&wave_speed[..stride]);
-        let elements = history.zip(constant).zip(&mut pressure[..stride]).zip(bounds).enumerate();
-        for (i, ((((old, q_old), ((&side, &intact), &volume)), ratio), (&spread, &speed))) in elements {
-            let standing = intact > zero && *ratio > zero;
-            let change = *old - *ratio;
-            let closing = if change > zero { change } else { zero };
-            // Over the mean volume ratio for the rate, and over the current one for the density.
-            let rate = side * closing / (half * (*old + *ratio));
-            let q = if standing { density * rate * (second * rate + first) / *ratio } else { zero };
-            dissipated[i % LANES] += half * (q + *q_old) * change * volume;
-            let stiffness = if standing { speed * speed * spread } else { zero };
-            // The slope of the pressure, which is what damps.
-            let damping = if standing { side * (second * (rate + rate) + first) * spread } else { zero };
-            stiffest[i % LANES] = if stiffness > stiffest[i % LANES] { stiffness } else { stiffest[i % LANES] };
-            most_damped[i % LANES] = if damping > most_damped[i % LANES] { damping } else { most_damped[i % LANES] };
-            *old = *ratio;
-            *q_old = q;
-            *ratio = q;
+    fn stiffness(&self, medium: &Medium<T>, scratch: &Scratch<T>) -> f64 {
+        let mut stiffest = Lanes::splat(T::default());
+        for first in (0..self.shapes.stride).step_by(LANES) {
+            let speed = Lanes::at(&scratch.wave_speed, first);
+            let stiffness = speed * speed * Lanes::at(&scratch.measures.spread, first);
+            let standing = scratch.measures.standing(&self.intact, first);
+            stiffest = stiffest.max(stiffness.only_where(standing));
         }
-        sums.viscosity += dissipated.into_iter().map(Into::into).sum::<f64>();
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
-        let hourglass = self.shapes.hourglass_frequency / medium.density;
-        sums.stiffness = stiffest.into_iter().map(|value| value.into() + hourglass).fold(sums.stiffness, largest);
-        sums.damping = most_damped.into_iter().map(Into::into).fold(sums.damping, largest);
+        stiffest.0.into_iter().map(Into::into).fold(0.0, largest) + self.shapes.hourglass_frequency / medium.density
     }
 
     /// Deletes the elements that are picked.
@@ -364,7 +353,7 @@ impl<T: Number> ElementBlock<T> {
         for i in 0..self.shapes.n {
             if picked(self, scratch, i) {
                 self.intact[i] = T::default();
-                self.pressure[i] = T::default();
+                self.viscosity.remove(i);
                 sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
                 sums.deleted.push(self.first + i);
             }

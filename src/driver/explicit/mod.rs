@@ -8,6 +8,7 @@ pub mod contact;
 pub mod element;
 pub mod material;
 pub mod mesh;
+pub mod viscosity;
 pub mod vtu;
 
 use std::time::{Duration, Instant};
@@ -428,14 +429,15 @@ impl<T: Number> Solver<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::driver::explicit::contact::Cylinder;
     use crate::driver::explicit::element::Control;
     use crate::driver::explicit::mesh::{Section, Yarn};
     use crate::driver::material::{Law, Material};
     use crate::law::linear_elastic::{Criterion, Rotation};
     use crate::law::parameters;
 
-    /// A cube of 1 mm whose top is driven through its bottom at 100 m/s.
-    fn press() -> Solver<f64> {
+    /// A cube of 1 mm whose nodes move as they are told.
+    fn cube(told: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
         let preset = parameters::preset("kevlar-km2-600").expect("it exists");
         let law = Law::new(preset.table, preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
         let (values, density) = (preset.values.to_vec(), preset.density);
@@ -446,15 +448,28 @@ mod tests {
         let medium = Medium::new(&material, density, control).expect("valid");
         let mut solver = Solver::new(yarn.mesh(), vec![medium], |_| 0);
         for node in 0..solver.mesh.nodes.len() {
-            let down = if solver.mesh.nodes[node][1] > 0.0 { -100.0 } else { 0.0 };
-            solver.support(node, Support { free: [false; 3], velocity: [0.0, down, 0.0] });
+            solver.support(node, told(solver.mesh.nodes[node]));
         }
         solver
     }
 
+    /// A node that has no choice.
+    fn driven(velocity: [f64; 3]) -> Support {
+        Support { free: [false; 3], velocity }
+    }
+
+    /// A step; returns the energies at its start.
+    fn step(solver: &mut Solver<f64>) -> Energies {
+        solver.accelerate(true, 1.0).expect("the step is stable");
+        let energies = solver.energies;
+        solver.displace();
+        energies
+    }
+
     #[test]
     fn a_collapsing_element_shortens_the_step_until_there_is_none() {
-        let mut solver = press();
+        // Its top is driven through its bottom at 100 m/s.
+        let mut solver = cube(|[_, y, _]| driven([0.0, if y > 0.0 { -100.0 } else { 0.0 }, 0.0]));
         let (mut first, mut worst, mut steps) = (None, 0.0, 0);
         let error = loop {
             if let Err(error) = solver.accelerate(true, 1.0) {
@@ -469,5 +484,50 @@ mod tests {
         assert!(error.contains("elements have collapsed") && solver.deleted.is_empty(), "{error}");
         let external = solver.energies.external;
         assert!(worst < 0.01 * external, "{worst} of {external}");
+    }
+
+    #[test]
+    fn a_held_projectile_works_on_the_body() {
+        let free = Support { free: [true; 3], velocity: [0.0; 3] };
+        let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });
+        let cylinder = Cylinder { radius: 0.01, stiffness: 1e13, friction: 0.0 };
+        let contact = Contact::new(cylinder, &solver.mesh.nodes, &solver.mesh.surface, solver.mass());
+        solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, contact));
+        let start = step(&mut solver).total();
+        let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());
+        while solver.time < 1e-5 {
+            let moved = solver.projectile.as_ref().expect("it is there").moved;
+            now = step(&mut solver);
+            let after = solver.projectile.as_ref().expect("it is there").force;
+            work -= 0.5 * (force + after) * moved;
+            force = after;
+        }
+        assert!(solver.projectile.is_some_and(|projectile| projectile.velocity == -10.0));
+        assert!(work > 0.0 && (now.external / work - 1.0).abs() < 1e-3, "{} is not {work}", now.external);
+        assert!((now.total() - start).abs() < 2e-3 * work, "{} of {work}", now.total() - start);
+    }
+
+    #[test]
+    fn a_deleted_element_keeps_its_energy() {
+        // Pulled at 10 m/s, one corner faster: it fails with energy in its hourglass modes.
+        let mut solver = cube(|[x, y, z]| {
+            let faster = if y > 0.0 && z > 0.0 { 12.0 } else { 10.0 };
+            driven([if x > 0.0 { faster } else { 0.0 }, 0.0, 0.0])
+        });
+        let start = step(&mut solver).total();
+        let mut before = Energies::default();
+        while solver.deleted.is_empty() {
+            before = step(&mut solver);
+            assert!(solver.time < 1e-5, "it is a tenth longer by now");
+        }
+        assert!(before.hourglass > 1e-6 * before.internal && before.hourglass > 0.0, "{before:?}");
+        assert!((before.total() - start).abs() < 0.01 * before.external, "{before:?}");
+        let failed = step(&mut solver);
+        let later = (0..10).fold(failed, |_, _| step(&mut solver));
+        assert_eq!(later, failed, "nothing moves any energy");
+        assert_eq!((failed.hourglass, failed.internal), (before.hourglass, before.internal));
+        // The last force goes on for half a step.
+        let half = failed.external - before.external;
+        assert!((failed.total() + half - before.total()).abs() < 1e-9 * before.external, "{before:?} {failed:?}");
     }
 }

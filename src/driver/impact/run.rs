@@ -17,6 +17,9 @@ use crate::driver::unit_names::number;
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 /// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
 const FITTED: [f64; 2] = [0.4, 0.85];
+/// The front of the elongation is where the strain has this part of what Smith's theory gives behind it: its foot, since its
+/// shoulder steepens on the way.
+const FOOT: f64 = 0.25;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 const PLATEAU: [f64; 2] = [0.3, 0.7];
 /// A run whose total energy moves by more than this part of itself is not stable.
@@ -124,7 +127,6 @@ pub fn run(case: &Case, observer: &mut dyn Observer) -> Result<Outcome, Error> {
 struct Run<'a, T> {
     case: &'a Case,
     solver: Solver<T>,
-    /// A front is where the strain has half of what Smith's theory gives behind it.
     smith: Smith,
     samples: Vec<Sample>,
     snapshots: Vec<Snapshot>,
@@ -334,7 +336,7 @@ impl<'a, T: Number> Run<'a, T> {
     fn measure_fronts(&self, sample: &mut Sample) {
         let layers = self.case.yarn.layers;
         let length = self.case.yarn.length / layers as f64;
-        let threshold = 0.5 * self.smith.strain.ln_1p();
+        let threshold = FOOT * self.smith.strain.ln_1p();
         let strains: Vec<f64> = (0..layers).map(|layer| self.elongation(layer)).collect();
         // Layers are measured in their middles.
         sample.longitudinal = front(&strains, threshold).map_or(0.0, |place| (place + 0.5) * length);

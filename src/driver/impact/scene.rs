@@ -104,6 +104,17 @@ enum LawName {
     Hybrid,
 }
 
+impl LawName {
+    /// Whether a yarn of this law has the material of that table.
+    fn has(self, table: &str) -> bool {
+        match self {
+            LawName::Hyperelastic => table == HYPERELASTIC,
+            LawName::LinearElastic => table == LINEAR_ELASTIC,
+            LawName::Hybrid => true,
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 enum FailureName {
@@ -172,6 +183,17 @@ struct CaseFile {
 }
 
 impl CaseFile {
+    fn law(&self) -> LawName {
+        self.law.unwrap_or(LawName::Hyperelastic)
+    }
+
+    /// The first table of a material that none of these laws has: its name and place.
+    fn unused_material(&self, laws: &[LawName]) -> Option<(&'static str, std::ops::Range<usize>)> {
+        let tables = [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)];
+        let unused = |name: &str| laws.iter().all(|law| !law.has(name));
+        tables.into_iter().find_map(|(name, table)| Some((name, table.as_ref()?.span())).filter(|_| unused(name)))
+    }
+
     /// This table completed by `base`.
     fn over(&self, base: &CaseFile) -> CaseFile {
         let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
@@ -237,7 +259,9 @@ impl Scene {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
         let mut cases: Vec<Case> = Vec::new();
+        let mut laws = Vec::new();
         if file.case.is_empty() {
+            laws.push(base.law());
             let reader = Reader { source: &source, units: &units, file: base, own: base, span: file.scene.span() };
             cases.push(reader.case("scene".to_string())?);
         }
@@ -245,9 +269,12 @@ impl Scene {
             let name = source.case_name(case, &cases)?;
             let merged = case.get_ref().over(base);
             let (own, span) = (case.get_ref(), case.span());
+            source.check_materials(own, &[merged.law()])?;
+            laws.push(merged.law());
             let reader = Reader { source: &source, units: &units, file: &merged, own, span };
             cases.push(reader.case(name)?);
         }
+        source.check_materials(base, &laws)?;
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
     }
@@ -268,6 +295,12 @@ impl Source<'_> {
         Ok(name.get_ref().clone())
     }
 
+    /// A material of a law that no case has would be ignored.
+    fn check_materials(&self, table: &CaseFile, laws: &[LawName]) -> Result<(), Error> {
+        let Some((name, span)) = table.unused_material(laws) else { return Ok(()) };
+        Err(self.error(span, &format!("{name} is not used; allowed: the material of a case's law")))
+    }
+
     /// A contact has its stiffness only where there is one.
     fn abscissa_of(&self, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
         let driven = cases.iter().find(|case| case.striker == Striker::Driven);
@@ -282,6 +315,9 @@ impl Source<'_> {
     }
 }
 
+/// Keys of the materials.
+const HYPERELASTIC: &str = "hyperelastic";
+const LINEAR_ELASTIC: &str = "linear-elastic";
 /// Names of the files that the cases have in common.
 const SUMMARIES: [&str; 2] = ["summary", "residual-speed"];
 
@@ -461,14 +497,12 @@ impl Reader<'_> {
 
     fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {
         let file = self.file;
-        let hyperelastic = || self.material("hyperelastic", &file.hyperelastic);
-        let linear = || self.material("linear-elastic", &file.linear_elastic);
-        Ok(match file.law {
-            None | Some(LawName::Hyperelastic) => Zones::One(Box::new(hyperelastic()?)),
-            Some(LawName::LinearElastic) => Zones::One(Box::new(linear()?)),
-            Some(LawName::Hybrid) => {
-                Zones::Two(Box::new([hyperelastic()?, linear()?]), self.hyperelastic_length(yarn)?)
-            }
+        let hyperelastic = || self.material(HYPERELASTIC, &file.hyperelastic);
+        let linear = || self.material(LINEAR_ELASTIC, &file.linear_elastic);
+        Ok(match file.law() {
+            LawName::Hyperelastic => Zones::One(Box::new(hyperelastic()?)),
+            LawName::LinearElastic => Zones::One(Box::new(linear()?)),
+            LawName::Hybrid => Zones::Two(Box::new([hyperelastic()?, linear()?]), self.hyperelastic_length(yarn)?),
         })
     }
 
@@ -486,7 +520,7 @@ impl Reader<'_> {
 
     /// The material of the table of this law or, without one, of its preset, with the failure that the case asks for.
     fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
-        let preset = if law == "hyperelastic" { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
+        let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
         let (file, span) = match table {
             Some(table) => (table.get_ref().clone(), table.span()),
             None => (MaterialFile::of_preset(preset, self.span.clone()), self.span.clone()),

@@ -23,6 +23,13 @@ const AXIS: f64 = 78.0;
 /// Air beside the pictures, and beside all text on the left.
 const AIR: i32 = 30;
 const LEFT: i32 = 24;
+/// Where the text of the headings lies below their tops.
+const TITLE_TOP: i32 = 16;
+const TIME_TOP: i32 = 50;
+const NAME_TOP: i32 = 8;
+const LABEL_TOP: i32 = 10;
+/// Air between the scale of colours and its label.
+const LABEL_AIR: i32 = 12;
 /// Corners of the projectile's circle.
 const CORNERS: usize = 72;
 /// The scale of colours: its place, width and height in the heading, and its steps.
@@ -34,6 +41,7 @@ const SCALE_STEPS: i32 = 40;
 /// Looking down by so much, the top is seen: a length across is drawn upwards in this proportion.
 const TILT: f64 = 1.0;
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
+
 /// Draws the yarn as it stood at an instant.
 ///
 /// # Errors
@@ -48,9 +56,9 @@ pub fn write(
 ) -> Result<(), Error> {
     picture::write(svg, png, SIZE, |root| {
         let title = format!("{}: {}", scene.title, case.name);
-        root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(16)))?;
+        root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let time = format!("at {} {}", number(snapshot.time), unit(&scene.units, TIME));
-        root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(50)))?;
+        root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         let drawing = Drawing { mesh: &result.mesh, case, snapshot };
         for mode in 0..MODES.len() {
             let top = TOP + ROW * mode as i32;
@@ -165,14 +173,15 @@ impl Drawing<'_> {
 
 /// The mode's name, and what its colours mean.
 fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
-    area.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(8)))?;
+    area.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(NAME_TOP)))?;
     for step in 0..SCALE_STEPS {
         let x = |i: i32| fine(SCALE_LEFT) + fine(SCALE_WIDTH) * i / SCALE_STEPS;
-        let corners = [(x(step), fine(SCALE_TOP)), (x(step + 1), fine(SCALE_TOP + SCALE_HEIGHT))];
+        // To the end, each over the last: between neighbours the ground would shine through.
+        let corners = [(x(step), fine(SCALE_TOP)), (x(SCALE_STEPS), fine(SCALE_TOP + SCALE_HEIGHT))];
         let share = f64::from(step) / f64::from(SCALE_STEPS - 1);
         area.draw(&Rectangle::new(corners, colour(share).filled()))?;
     }
     let label = format!("0 to {} {unit}", number(largest));
-    area.draw_text(&label, &text(TEXT, &INK), (fine(SCALE_LEFT + SCALE_WIDTH + 12), fine(10)))?;
+    area.draw_text(&label, &text(TEXT, &INK), (fine(SCALE_LEFT + SCALE_WIDTH + LABEL_AIR), fine(LABEL_TOP)))?;
     Ok(())
 }
