@@ -525,7 +525,7 @@ macro_rules! precision {
 
 // What a kernel is built for, so that a loop holds no decision about it.
 const ENERGIES: u8 = 1;
-const HISTORY: u8 = 2; // failure, and of energies and invariants what the block has: no stage of many operations knows of them
+const HISTORY: u8 = 2; // invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
 const ALIGNED: u8 = 16; // the property's fibre lies along the first axis
@@ -539,10 +539,10 @@ macro_rules! specialised {
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
         let usual = stress && !modes && !wave_modulus && $block.tangent.is_null();
         let latch = !$block.failure_old.is_null();
-        match (usual, energies, failure, invariants || latch) {
+        match (usual, energies, invariants && failure, invariants || latch) {
             (true, false, false, false) => wanting!(0, $kernel, $law, $block),
             (true, true, false, false) => wanting!(ENERGIES, $kernel, $law, $block),
-            (true, _, true, _) => wanting!(HISTORY, $kernel, $law, $block),
+            (true, true, true, true) => wanting!(ENERGIES + HISTORY, $kernel, $law, $block),
             _ => as_asked!($kernel, $law, $block),
         }
     }};
@@ -724,7 +724,6 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let zero = R::splat(0.0);
     let mut trouble = zero;
     let at = |k: usize| i + k * R::COUNT;
-    let request = request::<T, WANT>(block);
     // Codes that nobody wants go where nobody looks: a test in the stage would cost more.
     let mut nowhere = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
     let status = if block.status.is_null() { nowhere.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
@@ -754,15 +753,15 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         for k in 0..count {
             steps.put(k, Step { power: law.compaction(strains.get(k)) });
-            announce::<T, R, 4>(request.energies, block.energies, block.leading_dimension, at(k));
+            announce::<T, R, 4>(WANT & (ENERGIES | AS_ASKED) != 0, block.energies, block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
-            announce::<T, R, 4>(request.invariants, block.invariants, block.leading_dimension, at(k));
+            announce::<T, R, 4>(WANT & (HISTORY | AS_ASKED) != 0, block.invariants, block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { powered: steps.get(k).reduced.finish() });
-            announce::<T, R, 3>(request.failure, block.failure, block.leading_dimension, at(k));
+            announce::<T, R, 3>(WANT & (HISTORY | AS_ASKED) != 0, block.failure, block.leading_dimension, at(k));
         }
         for k in 0..count {
             let doubt = match axes(k).1 {
@@ -844,11 +843,11 @@ unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
 /// What a kernel is asked for.
 #[inline(always)]
 fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
-    let (asked, history) = (WANT & AS_ASKED != 0, WANT & HISTORY != 0);
+    let asked = WANT & AS_ASKED != 0;
     Request {
         stress: !asked || !block.stress[0].is_null(),
-        energies: if asked || history { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
-        invariants: (asked || history) && !block.invariants.is_null(),
+        energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
+        invariants: if asked { !block.invariants.is_null() } else { WANT & HISTORY != 0 },
         failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
         modes: asked && !block.modes.is_null(),
         wave_modulus: asked && !block.wave_speed.is_null(),
