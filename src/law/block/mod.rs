@@ -786,16 +786,9 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         if R::any(!ordinary) {
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
-                *worst = settle::<T, R, WANT>(
-                    law,
-                    block,
-                    at(k),
-                    stretches.get(k),
-                    usable,
-                    outcomes.get(k),
-                    status.wrapping_add(at(k)),
-                    *worst,
-                );
+                let code = settle::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k));
+                code.store_integers(status.wrapping_add(at(k)));
+                *worst = R::select(code.lt(*worst), code, *worst);
             }
         }
         if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
@@ -1070,8 +1063,8 @@ fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
-/// Says to `status` why points have kept their old state, drops what is not finite in it, and takes the stress of flawed ones away.
-/// Returns the worst code.
+/// Drops what is not finite in the old state of points that keep it, and takes the stress of flawed ones away. Returns the codes that
+/// say why.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`finish`] and before [`remember`].
@@ -1083,8 +1076,6 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     d: &Stretch<R>,
     usable: R::Mask,
     outcome: &Outcome<R>,
-    status: *mut i32,
-    worst: R,
 ) -> R {
     let (zero, stride) = (R::splat(0.0), block.leading_dimension);
     let request = request::<T, WANT>(block);
@@ -1123,9 +1114,7 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
         }
         let code = law.verdict(&gradient(block, i), d, usable, latch);
         let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
-        let code = R::select(outcome.new, zero, code);
-        code.store_integers(status);
-        R::select(code.lt(worst), code, worst)
+        R::select(outcome.new, zero, code)
     }
 }
 
