@@ -116,11 +116,11 @@ fn waves_spread_the_section_outside_the_contact() {
     // The wave passes the second station around 9 µs and widens the section there by a tenth and more.
     let growth = |time: f64| result.at(time).widths[1] / result.at(0.0).widths[1] - 1.0;
     assert_between(growth(0.006), 0.0, 0.08);
-    assert_between(growth(0.015), 0.05, 0.3);
+    assert_between(growth(0.015), 0.07, 0.18);
     let last = result.last();
     assert_between(last.largest[0], 25.0, 60.0);
     // Where neither the projectile nor the clamp touches it, the section swells without energy, but for some distortion that
-    // rings on: bulk viscosity damps no change of shape. On the full mesh it is 2 %.
+    // rings on: bulk viscosity damps no change of shape. It is 7 % here, 2 % on the full mesh.
     let most = |mode: usize, of: fn(&Sample) -> [f64; 5]| {
         result.samples.iter().map(|sample| of(sample)[mode]).fold(0.0, f64::max)
     };
@@ -185,12 +185,13 @@ fn events_of_the_short_period_are_in_order() {
         early.map(|sample| sample.largest[mode]).fold(0.0, f64::max)
     };
     assert!(peak(1, 0.00025) >= peak(1, 0.001), "compaction peaks before 0.25 µs");
-    // Of the whole yarn's energy elongation is a small part at first; its largest density passes the others' later.
+    // Of the whole yarn's energy elongation is a small part at first and most of it later; its largest density passes the others'
+    // for the first time in between.
     let [early, late] = [0.00015, 0.001].map(|time| result.at(time).parts);
     assert!(early[0] < 0.25 * (early[1] + early[2]) && late[0] > 5.0 * (late[1] + late[2]), "{early:?} {late:?}");
     let leading = result.samples.iter().find(|sample| sample.largest[0] > sample.largest[1].max(sample.largest[2]));
     assert_between(leading.expect("elongation comes to lead").time, 0.0004, 0.0006);
-    // A peak before 0.25 µs: it falls to half until the next one.
+    // A first peak before 0.25 µs, lower than later ones: it falls to less than 0.7 of itself until the next.
     let trough = result.samples.iter().filter(|sample| (0.00025..0.0004).contains(&sample.time));
     let trough = trough.map(|sample| sample.largest[2]).fold(f64::INFINITY, f64::min);
     assert!(trough < 0.7 * peak(2, 0.000255), "distortion peaks by 0.25 µs: {trough}");

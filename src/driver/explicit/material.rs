@@ -280,10 +280,12 @@ impl<T: Number> ElementBlock<T> {
         }
         sums.law += start.elapsed();
         // What cannot be evaluated goes before it weighs on its nodes; what has failed carries its last stress.
-        self.delete(scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
+        self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
         wide.dispatch(Forces { block: self, medium, scratch, step: wanted.step, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
-        self.delete(scratch, sums, |block, _, i| block.state[latch * stride + i] != T::default() && block.is_intact(i));
+        self.delete(medium, scratch, sums, |block, _, i| {
+            block.state[latch * stride + i] != T::default() && block.is_intact(i)
+        });
         if wanted.balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
@@ -348,11 +350,19 @@ impl<T: Number> ElementBlock<T> {
         stiffest.0.into_iter().map(Into::into).fold(0.0, largest) + self.shapes.hourglass_frequency / medium.density
     }
 
-    /// Deletes the elements that are picked.
-    fn delete(&mut self, scratch: &Scratch<T>, sums: &mut Sums, picked: impl Fn(&Self, &Scratch<T>, usize) -> bool) {
+    /// Deletes the elements that are picked, and latches those that the law has not.
+    fn delete(
+        &mut self,
+        medium: &Medium<T>,
+        scratch: &Scratch<T>,
+        sums: &mut Sums,
+        picked: impl Fn(&Self, &Scratch<T>, usize) -> bool,
+    ) {
+        let latch = medium.state().1 * self.shapes.stride;
         for i in 0..self.shapes.n {
             if picked(self, scratch, i) {
                 self.intact[i] = T::default();
+                self.state[latch + i] = T::from_f64(1.0);
                 self.viscosity.remove(i);
                 sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
                 sums.deleted.push(self.first + i);

@@ -530,4 +530,23 @@ mod tests {
         let half = failed.external - before.external;
         assert!((failed.total() + half - before.total()).abs() < 1e-9 * before.external, "{before:?} {failed:?}");
     }
+    #[test]
+    fn an_element_that_could_not_be_evaluated_stays_deleted() {
+        let mut solver = cube(|_| driven([0.0; 3]));
+        let pull = |solver: &mut Solver<f64>, factor: [f64; 3]| {
+            for (node, place) in solver.mesh.nodes.iter().enumerate() {
+                solver.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
+            }
+        };
+        pull(&mut solver, [1.01, 1.0, 1.0]);
+        let stretched = step(&mut solver);
+        assert!(stretched.internal > 0.0 && solver.deleted.is_empty());
+        pull(&mut solver, [1.01, -1.0, 1.0]);
+        step(&mut solver);
+        assert_eq!(solver.deleted, [0]);
+        pull(&mut solver, [1.02, 1.0, 1.0]);
+        let restored = step(&mut solver);
+        assert_eq!(restored.internal, stretched.internal, "it keeps the energy it had");
+        assert!(solver.forces.iter().all(|&force| force == [0.0; 3]), "{:?}", solver.forces);
+    }
 }
