@@ -279,6 +279,16 @@ fn errors_say_what_is_wrong() {
         scene("layers = 100\nhyperelastic = { preset = \"kevlar-km2-600-linear\" }"),
         "scene.toml:14: hyperelastic has a material of the law linear-elastic; allowed: hyperelastic"
     );
+    assert_eq!(
+        scene("layers = 100\nhyperelastic = { preset = \"kevlar-km2-600\", properties = { eps_lim = 0.03 } }"),
+        "scene.toml:14: eps_lim is 0.03, which the failure leaves out; allowed: 0, or failure uniaxial or multiaxial"
+    );
+    assert_eq!(
+        scene(
+            "layers = 100\nfailure = \"uniaxial\"\nhyperelastic = { preset = \"kevlar-km2-600\", properties = { alpha = 1.5 } }"
+        ),
+        "scene.toml:15: alpha is 1.5, which the failure leaves out; allowed: 0, or failure multiaxial"
+    );
     let unused = |line: usize, table: &str| {
         format!("scene.toml:{line}: {table} is not used; allowed: the material of a case's law")
     };

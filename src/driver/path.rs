@@ -542,6 +542,11 @@ impl StepFile {
 }
 
 impl MaterialFile {
+    /// A property that the file itself gives.
+    pub fn given(&self, name: &str) -> Option<&Spanned<f64>> {
+        self.properties.iter().find(|(key, _)| key.get_ref() == name).map(|(_, value)| value)
+    }
+
     /// The table that names a preset and nothing else.
     pub fn of_preset(name: &str, span: Range<usize>) -> MaterialFile {
         MaterialFile { preset: Some(Spanned::new(span, name.to_string())), ..MaterialFile::default() }

@@ -543,8 +543,18 @@ impl Reader<'_> {
         };
         let table = material.table();
         for (value, property) in material.values.iter_mut().zip(table) {
-            if off.contains(&property.name) {
-                *value = 0.0;
+            let name = property.name;
+            if !off.contains(&name) {
+                continue;
+            }
+            *value = 0.0;
+            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
+                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
+                let message = format!(
+                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
+                    given.get_ref()
+                );
+                return Err(self.source.error(given.span(), &message));
             }
         }
         let (frame, criterion) = match material.law {

@@ -87,10 +87,10 @@ fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(
         ("end", number(last.time, 5)),
         ("hourglass_share", number(result.hourglass_share(), 3)),
         ("index_max", number(result.largest_index(), 3)),
-        ("w_el_max", number(last.largest[0], 2)),
-        ("w_tc_max", number(last.largest[1], 2)),
-        ("w_td_max", number(last.largest[2], 2)),
-        ("work_max", number(last.largest[4], 2)),
+        ("w_el_at_end", number(last.largest[0], 2)),
+        ("w_tc_at_end", number(last.largest[1], 2)),
+        ("w_td_at_end", number(last.largest[2], 2)),
+        ("work_at_end", number(last.largest[4], 2)),
     ]);
 }
 
