@@ -28,7 +28,7 @@
 use super::elementary::{Asinh, Logarithm};
 use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
 
-/// F is near the reference where its diagonal is above this: F − 1 is then exact (from ½ on), and no strain far below it.
+/// F is near the reference where every entry of its diagonal is above this: F − 1 is exact from ½ on.
 const NEAR_REFERENCE: f64 = 0.6;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
