@@ -17,9 +17,8 @@ use crate::driver::unit_names::number;
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 /// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
 const FITTED: [f64; 2] = [0.4, 0.85];
-/// The front of the elongation is where the strain has this part of what Smith's theory gives behind it: its foot, since its
-/// shoulder steepens on the way.
-const FOOT: f64 = 0.25;
+/// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
+const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 const PLATEAU: [f64; 2] = [0.3, 0.7];
 /// A run whose total energy moves by more than this part of itself is not stable.
@@ -325,18 +324,21 @@ impl<'a, T: Number> Run<'a, T> {
         }
     }
 
-    /// Mean elongation of a layer's intact elements.
+    /// Mean elongation of a layer's intact elements by volume: what a wave carries, whichever elements it is in.
     fn elongation(&self, layer: usize) -> f64 {
         let per_layer = self.solver.mesh.elements_per_layer;
         let intact = (layer * per_layer..(layer + 1) * per_layer).filter(|&i| self.solver.is_intact(i));
-        let (sum, count) = intact.fold((0.0, 0), |(sum, count), i| (sum + self.solver.elongation(i), count + 1));
-        if count == 0 { 0.0 } else { sum / f64::from(count) }
+        let (sum, whole) = intact.fold((0.0, 0.0), |(sum, whole), i| {
+            let volume = self.solver.volume(i);
+            (sum + volume * self.solver.elongation(i), whole + volume)
+        });
+        if whole == 0.0 { 0.0 } else { sum / whole }
     }
 
     fn measure_fronts(&self, sample: &mut Sample) {
         let layers = self.case.yarn.layers;
         let length = self.case.yarn.length / layers as f64;
-        let threshold = FOOT * self.smith.strain.ln_1p();
+        let threshold = FRONT * self.smith.strain.ln_1p();
         let strains: Vec<f64> = (0..layers).map(|layer| self.elongation(layer)).collect();
         // Layers are measured in their middles.
         sample.longitudinal = front(&strains, threshold).map_or(0.0, |place| (place + 0.5) * length);
@@ -351,14 +353,16 @@ impl<'a, T: Number> Run<'a, T> {
         }
     }
 
-    /// Mean of a section's positions along the yarn and of its velocities along axis 1.
+    /// Mean of a section's positions along the yarn and of its velocities along axis 1, by mass.
     fn section_mean(&self, section: usize) -> (f64, f64) {
         let count = self.solver.mesh.nodes_per_section;
         let nodes = section * count..(section + 1) * count;
-        let (x, v) = nodes.fold((0.0, 0.0), |(x, v), node| {
-            (x + self.solver.position(node)[0], v + self.solver.velocity[node][1].into())
+        let (mass, x, v) = nodes.fold((0.0, 0.0, 0.0), |(sum, x, v), node| {
+            let mass = self.solver.mass()[node];
+            let [place, velocity] = [self.solver.position(node)[0], self.solver.velocity[node][1].into()];
+            (sum + mass, x + mass * place, v + mass * velocity)
         });
-        (x / count as f64, v / count as f64)
+        (x / mass, v / mass)
     }
 
     fn width(&self, station: f64) -> f64 {
