@@ -119,12 +119,11 @@ fn waves_spread_the_section_outside_the_contact() {
     assert_between(growth(0.015), 0.07, 0.18);
     let last = result.last();
     assert_between(last.largest[0], 25.0, 60.0);
-    // Where neither the projectile nor the clamp touches it, the section swells without energy, but for some distortion that
-    // rings on: bulk viscosity damps no change of shape. It is 7 % here, 2 % on the full mesh.
+    // Where neither the projectile nor the clamp touches it, the section swells without energy.
     let most = |mode: usize, of: fn(&Sample) -> [f64; 5]| {
         result.samples.iter().map(|sample| of(sample)[mode]).fold(0.0, f64::max)
     };
-    for (mode, share) in [(1, 1e-3), (2, 0.1)] {
+    for (mode, share) in [(1, 1e-3), (2, 0.02)] {
         let (free, largest) = (most(mode, |sample| sample.free), most(mode, |sample| sample.largest));
         assert!(free < share * largest && largest > 1.0, "mode {mode}: {free} of {largest}");
     }

@@ -64,9 +64,10 @@ impl<T: Number> Lanes<T> {
         self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
     }
 
+    /// The larger ones; a NaN stays.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
+        self.zip(other, |a, b| if a > b || a.partial_cmp(&a).is_none() { a } else { b })
     }
 }
 
@@ -104,7 +105,7 @@ impl<T: Number> Div for Lanes<T> {
 
 /// Components that begin at `first`, of an array with this leading dimension.
 #[inline(always)]
-fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
+pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
     let mut components = [Lanes::splat(T::default()); N];
     for (c, lanes) in components.iter_mut().enumerate() {
         *lanes = Lanes::at(array, c * stride + first);
@@ -209,9 +210,10 @@ impl Shape {
 pub struct Control {
     /// Fraction of the stiffness with which a material would resist the modes.
     pub hourglass: f64,
-    /// Coefficients of bulk viscosity: linear, quadratic.
+    /// Coefficients of viscosity: linear, quadratic, and against a change of the section's shape.
     pub linear: f64,
     pub quadratic: f64,
+    pub shape: f64,
 }
 
 impl<T: Number> Shapes<T> {
@@ -316,11 +318,11 @@ impl<T: Number> Shapes<T> {
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
             let [volume] = load(&self.volume, stride, first);
             let [stiffness] = load(&self.stiffness, stride, first);
-            let [pressure] = load(point.pressure, stride, first);
-            let [tension] = load(point.tension, stride, first);
+            let [along] = load(point.along, stride, first);
+            let section = load(point.section, stride, first);
             let [intact] = load(point.intact, stride, first);
             let k = stiffness * intact;
-            let p = first_piola_kirchhoff(&f, &stress, pressure, tension);
+            let p = first_piola_kirchhoff(&f, &stress, along, &section);
             let zero = Lanes::splat(T::default());
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
@@ -368,12 +370,16 @@ impl<T: Number> Shapes<T> {
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
             let (ratio, square) = (dot(u, a), dot(u, u));
             let [aa, bb, cc, ab, bc, ca] = load(&self.gradients, self.stride, first);
+            let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
             let (squares, products) =
-                (aa * dot(a, a) + bb * dot(b, b) + cc * dot(c, c), ab * dot(a, b) + bc * dot(b, c) + ca * dot(c, a));
+                (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
             store(ratio, &mut to.volume_ratio, first);
             store(square, &mut to.stretch_square, first);
             store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
             store(aa / square, &mut to.spread_along, first);
+            for (component, metric) in [second, third, Lanes::splat(T::default()) - both].into_iter().enumerate() {
+                store(metric / square, &mut to.metric, component * self.stride + first);
+            }
         }
     }
 
@@ -384,7 +390,7 @@ impl<T: Number> Shapes<T> {
     }
 }
 
-/// What F is measured by, one number an element.
+/// What F is measured by, one number an element where nothing else is said.
 #[derive(Clone, Debug)]
 pub struct Measures<T> {
     /// J, and the square of the stretch along axis 0, where the fibres are.
@@ -395,9 +401,27 @@ pub struct Measures<T> {
     /// m·∇N = ∂N/∂X over the stretch.
     pub spread: Vec<T>,
     pub spread_along: Vec<T>,
+    /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the first.
+    /// The cofactors of C have them, times the square of the stretch.
+    pub metric: Vec<T>,
+    /// The rate at which viscosity damps the highest frequency.
+    pub damping: Vec<T>,
 }
 
 impl<T: Number> Measures<T> {
+    /// Of as many elements.
+    pub fn new(stride: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * stride];
+        Measures {
+            volume_ratio: array(1),
+            stretch_square: array(1),
+            spread: array(1),
+            spread_along: array(1),
+            metric: array(3),
+            damping: array(1),
+        }
+    }
+
     /// J of the elements that are intact and not inverted, 0 for the others.
     #[inline(always)]
     pub fn standing(&self, intact: &[T], first: usize) -> Lanes<T> {
@@ -410,32 +434,39 @@ pub struct Points<'a, T> {
     pub deformation_gradient: &'a [T],
     /// Amplitudes of the hourglass modes.
     pub modal: &'a [T],
-    /// Cauchy stress, and bulk viscosity's part of P: −q cof F, and t times F's first column in P's.
+    /// Cauchy stress, and viscosity's: along the fibre, and of the section.
     pub stress: &'a [T],
-    pub pressure: &'a [T],
-    pub tension: &'a [T],
+    pub along: &'a [T],
+    pub section: &'a [T],
     /// 1 or 0: whether hourglass modes are held.
     pub intact: &'a [T],
 }
 
-/// The columns of P = (σ − q 1) cof F + t f1 ⊗ e1, f1 being F's first column.
+/// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
+/// without their parts along the first, which has minus as much of theirs as they slant.
 #[inline(always)]
-fn first_piola_kirchhoff<T: Number>(
+pub fn first_piola_kirchhoff<T: Number>(
     f: &[Lanes<T>; 9],
     stress: &[Lanes<T>; 6],
-    q: Lanes<T>,
-    t: Lanes<T>,
+    along: Lanes<T>,
+    section: &[Lanes<T>; 3],
 ) -> [[Lanes<T>; 3]; 3] {
     let [s11, s22, s33, s12, s23, s31] = *stress;
-    let (s11, s22, s33) = (s11 - q, s22 - q, s33 - q);
     let [a, b, c] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]];
     let mut p = [cross(b, c), cross(c, a), cross(a, b)];
     for column in &mut p {
         let [x, y, z] = *column;
         *column = [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z];
     }
-    for (p, f) in p[0].iter_mut().zip(a) {
-        *p = *p + t * f;
+    let [r22, r33, r23] = *section;
+    let square = dot(a, a);
+    let (slant_b, slant_c) = (dot(a, b) / square, dot(a, c) / square);
+    for i in 0..3 {
+        let (b, c) = (b[i] - slant_b * a[i], c[i] - slant_c * a[i]);
+        let (second, third) = (r22 * b + r23 * c, r23 * b + r33 * c);
+        p[0][i] = p[0][i] + slant_b * second + slant_c * third - along * a[i];
+        p[1][i] = p[1][i] - second;
+        p[2][i] = p[2][i] - third;
     }
     p
 }
@@ -486,13 +517,13 @@ mod tests {
 
     fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
         let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
-        let (none, intact) = (vec![0.0; shapes.stride], vec![1.0; shapes.stride]);
+        let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
         let point = Points {
             deformation_gradient: &state.f,
             modal: &state.modal,
             stress: &stress,
-            pressure: &none,
-            tension: &none,
+            along: &none,
+            section: &none,
             intact: &intact,
         };
         let mut forces = vec![[0.0; 3]; NODES.len()];

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes};
+use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes, store};
 use super::largest;
 use super::viscosity::Viscosity;
 use crate::driver::Error;
@@ -44,9 +44,11 @@ pub struct Medium<T> {
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
     strength: f64,
-    /// Wave speed at rest along the fibre, and a bound of it for the wave that compacts the section; for bulk viscosity.
+    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
+    /// changes its shape; for viscosity.
     pub wave_speed: f64,
     pub compaction_speed: f64,
+    pub distortion_speed: f64,
 }
 
 impl<T: Number> Medium<T> {
@@ -54,17 +56,17 @@ impl<T: Number> Medium<T> {
     /// The frame is the spin's, which needs axes of its own.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
         let property = |name: &str| material.property(name).unwrap_or_default();
-        let (entry, along, across) = match &material.law {
+        let (entry, along, across, shear) = match &material.law {
             Law::Hyperelastic(_) => {
                 let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
                 for (to, &from) in properties.iter_mut().zip(&material.values) {
                     *to = T::from_f64(from);
                 }
                 // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
-                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before.
+                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
                 let p = property("p");
                 let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
-                (Entry::Hyperelastic(properties), property("k_el"), across)
+                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
             }
             Law::LinearElastic { law, frame, criterion } => {
                 let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
@@ -82,7 +84,8 @@ impl<T: Number> Medium<T> {
                     Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
                     Criterion::FibreStress => TORON_CRITERION_FIBRE,
                 };
-                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), property("e_2"))
+                let [across, shear] = [property("e_2"), property("g")];
+                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
             }
         };
         // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
@@ -96,6 +99,7 @@ impl<T: Number> Medium<T> {
             strength: property("sigma_lim"),
             wave_speed: (along / density).sqrt(),
             compaction_speed: (across / density).sqrt(),
+            distortion_speed: (shear / density).sqrt(),
         })
     }
 
@@ -116,6 +120,8 @@ pub struct Scratch<T> {
     stress: Vec<T>,
     measures: Measures<T>,
     wave_speed: Vec<T>,
+    /// 1 where an element's own step is too short.
+    collapsed: Vec<T>,
     status: Vec<i32>,
 }
 
@@ -126,13 +132,9 @@ impl<T: Number> Default for Scratch<T> {
             deformation_gradient: array(9),
             modal: array(12),
             stress: array(6),
-            measures: Measures {
-                volume_ratio: array(1),
-                stretch_square: array(1),
-                spread: array(1),
-                spread_along: array(1),
-            },
+            measures: Measures::new(BLOCK),
             wave_speed: array(1),
+            collapsed: array(1),
             status: vec![0; BLOCK],
         }
     }
@@ -145,24 +147,26 @@ pub struct Wanted {
     pub law: bool,
     /// What else the balance of energies needs.
     pub balance: bool,
-    /// Length of the step that led here.
+    /// Length of the step that led here, and the shortest that an element which may fail is worth.
     pub step: f64,
+    pub shortest: f64,
 }
 
 /// What a turn adds to the sums of a step.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
-    /// Energy that bulk viscosity has dissipated.
+    /// Energy that viscosity has dissipated.
     pub viscosity: f64,
     /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
     pub hourglass: f64,
     pub released: f64,
     /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
-    /// which bulk viscosity damps one.
+    /// which viscosity damps one.
     pub stiffness: f64,
     pub damping: f64,
-    /// Elements deleted in this step.
+    /// Elements deleted in this step, and how many of them because they have collapsed.
     pub deleted: Vec<usize>,
+    pub collapsed: usize,
     /// The code of a law that has refused its call.
     pub refused: Option<i32>,
     /// Time spent inside the law's entries.
@@ -180,7 +184,7 @@ struct Forces<'a, T> {
     block: &'a mut ElementBlock<T>,
     medium: &'a Medium<T>,
     scratch: &'a mut Scratch<T>,
-    step: f64,
+    wanted: Wanted,
     sums: &'a mut Sums,
     forces: &'a mut [[T; 3]],
 }
@@ -200,19 +204,17 @@ impl<T: Number> WithSimd for Forces<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Forces { block, medium, scratch, step, sums, forces } = self;
+        let Forces { block, medium, scratch, wanted, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
-        let (dissipated, damping) =
-            block.viscosity.advance(medium, &block.shapes, &scratch.measures, &block.intact, step);
-        sums.viscosity += dissipated;
-        sums.damping = largest(sums.damping, damping);
-        sums.stiffness = largest(sums.stiffness, block.stiffness(medium, scratch));
+        let Wanted { step, shortest, .. } = wanted;
+        sums.viscosity += block.viscosity.advance(medium, &block.shapes, &mut scratch.measures, &block.intact, step);
+        block.bound_step(medium, scratch, shortest, sums);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             modal: &scratch.modal,
             stress: &scratch.stress,
-            pressure: &block.viscosity.pressure,
-            tension: &block.viscosity.tension,
+            along: &block.viscosity.along,
+            section: &block.viscosity.section,
             intact: &block.intact,
         };
         block.shapes.forces(&point, forces);
@@ -279,13 +281,18 @@ impl<T: Number> ElementBlock<T> {
             }
         }
         sums.law += start.elapsed();
-        // What cannot be evaluated goes before it weighs on its nodes; what has failed carries its last stress.
+        // What cannot be evaluated goes before it weighs on its nodes; what has failed or collapsed carries its last stress.
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
-        wide.dispatch(Forces { block: self, medium, scratch, step: wanted.step, sums, forces });
+        wide.dispatch(Forces { block: self, medium, scratch, wanted, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
             block.state[latch * stride + i] != T::default() && block.is_intact(i)
         });
+        let failed = sums.deleted.len();
+        self.delete(medium, scratch, sums, |block, scratch, i| {
+            medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
+        });
+        sums.collapsed += sums.deleted.len() - failed;
         if wanted.balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
@@ -336,18 +343,30 @@ impl<T: Number> ElementBlock<T> {
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
-    /// The largest square of a frequency, from the law's bound of the wave speed.
+    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping; which
+    /// elements have collapsed.
     #[inline(always)]
-    fn stiffness(&self, medium: &Medium<T>, scratch: &Scratch<T>) -> f64 {
-        let mut stiffest = Lanes::splat(T::default());
-        for first in (0..self.shapes.stride).step_by(LANES) {
-            let speed = Lanes::at(&scratch.wave_speed, first);
-            let stiffness = speed * speed * Lanes::at(&scratch.measures.spread, first);
-            let standing = scratch.measures.standing(&self.intact, first);
-            stiffest = stiffest.max(stiffness.only_where(standing));
-        }
+    fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
+        let splat = |value: f64| Lanes::splat(T::from_f64(value));
+        let (zero, one, four) = (splat(0.0), splat(1.0), splat(4.0));
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
-        stiffest.0.into_iter().map(Into::into).fold(0.0, largest) + self.shapes.hourglass_frequency / medium.density
+        let hourglass = splat(self.shapes.hourglass_frequency / medium.density);
+        let (square, twice) = (splat(shortest * shortest), splat(2.0 * shortest));
+        let [mut stiffest, mut most_damped] = [hourglass, zero];
+        for first in (0..self.shapes.stride).step_by(LANES) {
+            let at = |array: &[T]| Lanes::at(array, first);
+            let standing = scratch.measures.standing(&self.intact, first);
+            let speed = at(&scratch.wave_speed);
+            let stiffness = (hourglass + speed * speed * at(&scratch.measures.spread)).only_where(standing);
+            let damping = at(&scratch.measures.damping).only_where(standing);
+            (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
+            // As in the body's stable step.
+            let collapsed = one.only_where(square * stiffness + twice * damping - four);
+            store(collapsed, &mut scratch.collapsed, first);
+        }
+        let greatest = |lanes: Lanes<T>| lanes.0.into_iter().map(Into::into).fold(0.0, largest);
+        sums.stiffness = largest(sums.stiffness, greatest(stiffest));
+        sums.damping = largest(sums.damping, greatest(most_damped));
     }
 
     /// Deletes the elements that are picked, and latches those that the law has not.

@@ -49,7 +49,9 @@ pub struct Sample {
     pub least: f64,
     /// The largest failure index of what stands.
     pub index: f64,
+    /// Elements deleted so far, and how many of them had not failed but collapsed.
     pub deleted: usize,
+    pub collapsed: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.
     pub longitudinal: f64,
     pub transverse: f64,
@@ -282,7 +284,8 @@ impl<'a, T: Number> Run<'a, T> {
     /// # Errors
     /// The balance of energy is lost.
     fn sample(&mut self, time: f64) -> Result<(), Error> {
-        let mut sample = Sample { time, speed: self.speed(), deleted: self.solver.deleted.len(), ..Sample::default() };
+        let (deleted, collapsed) = (self.solver.deleted.len(), self.solver.collapsed);
+        let mut sample = Sample { time, speed: self.speed(), deleted, collapsed, ..Sample::default() };
         if let Some(projectile) = &self.solver.projectile {
             sample.travel = self.start - projectile.position;
             sample.force = projectile.force;

@@ -173,7 +173,7 @@ struct CaseFile {
     friction: Option<Spanned<f64>>,
     contact_stiffness: Option<Spanned<f64>>,
     hourglass: Option<Spanned<f64>>,
-    viscosity: Option<Spanned<[f64; 2]>>,
+    viscosity: Option<Spanned<[f64; 3]>>,
     end: Option<Spanned<f64>>,
     sample: Option<Spanned<f64>>,
     pictures: Option<Spanned<Vec<f64>>>,
@@ -482,17 +482,18 @@ impl Reader<'_> {
     }
 
     fn control(&self) -> Result<Control, Error> {
-        let [linear, quadratic] = match &self.file.viscosity {
-            None => [VISCOSITY.0, VISCOSITY.1],
-            Some(pair) => {
-                for &value in pair.get_ref() {
-                    let single = Some(Spanned::new(pair.span(), value));
+        let [linear, quadratic, shape] = match &self.file.viscosity {
+            None => VISCOSITY,
+            Some(given) => {
+                for &value in given.get_ref() {
+                    let single = Some(Spanned::new(given.span(), value));
                     self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
                 }
-                *pair.get_ref()
+                *given.get_ref()
             }
         };
-        Ok(Control { hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?, linear, quadratic })
+        let hourglass = self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?;
+        Ok(Control { hourglass, linear, quadratic, shape })
     }
 
     fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {
@@ -573,7 +574,7 @@ impl Reader<'_> {
     }
 }
 
-/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and bulk viscosity
-/// (linear, quadratic), as explicit solvers have them.
+/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and viscosity, linear and
+/// quadratic as explicit solvers have them, and of the section's shape.
 const HOURGLASS: f64 = 0.1;
-const VISCOSITY: (f64, f64) = (0.06, 1.5);
+const VISCOSITY: [f64; 3] = [0.06, 1.5, 0.2];

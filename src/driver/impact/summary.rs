@@ -84,6 +84,7 @@ fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, held: bool, cells
         ("broken_at", broken(|(time, _)| time, 5)),
         ("speed_then", broken(|(_, speed)| speed, 1)),
         ("deleted", last.deleted.to_string()),
+        ("collapsed", last.collapsed.to_string()),
         ("end", number(last.time, 5)),
         ("hourglass_share", number(result.hourglass_share(), 3)),
         ("index_max", number(result.largest_index(), 3)),
@@ -195,6 +196,7 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             "w_td_free",
             "failure_index_max",
             "deleted",
+            "collapsed",
             "longitudinal_front",
             "transverse_front",
             "strain",
@@ -214,6 +216,7 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             sample.largest,
             [sample.least, sample.free[1], sample.free[2], sample.index],
             sample.deleted,
+            sample.collapsed,
             [sample.longitudinal, sample.transverse, sample.strain],
             sample.widths,
         );
