@@ -50,7 +50,7 @@ fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
         ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), 0)),
     ];
     match case.striker {
-        Striker::Cylinder { cylinder, held, .. } => strike_cells(case, result, cylinder.stiffness, held, &mut cells),
+        Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
         Striker::Driven => smith_cells(length, result, &mut cells),
     }
     cells.extend([
@@ -71,15 +71,15 @@ fn maybe(value: Option<f64>, digits: usize) -> String {
     value.map_or(NONE.to_string(), |value| number(value, digits))
 }
 
-/// What a projectile's case has to say; one that is held has no residual speed.
-fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, held: bool, cells: &mut Vec<(&'static str, String)>) {
+/// What a projectile's case has to say.
+fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
     let last = result.last();
     let broken = |of: fn((f64, f64)) -> f64, digits| maybe(result.broken.map(of), digits);
     cells.extend([
         ("contact_stiffness", format!("{stiffness:.0e}")),
         ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), 5)),
         ("outcome", outcome(result).to_string()),
-        ("residual_speed", maybe(result.residual_speed().filter(|_| !held), 1)),
+        ("residual_speed", maybe(result.residual_speed(), 1)),
         ("speed_at_end", number(last.speed, 1)),
         ("broken_at", broken(|(time, _)| time, 5)),
         ("speed_then", broken(|(_, speed)| speed, 1)),
