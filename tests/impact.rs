@@ -226,6 +226,17 @@ fn a_driven_yarn_follows_smith() {
     }
 }
 
+/// A projectile whose speed is held breaks the yarn and leaves it, but has no residual speed.
+#[test]
+fn a_held_projectile_has_no_residual_speed() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    let Striker::Cylinder { cylinder, mass, .. } = case.striker else { panic!("a cylinder strikes") };
+    case.striker = Striker::Cylinder { cylinder, mass, held: true };
+    let result = run(&case);
+    assert_eq!((result.end, result.residual_speed()), (End::Left, None));
+    assert_eq!(result.last().speed, case.speed);
+}
+
 /// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single precision
 /// few.
 #[test]
@@ -318,6 +329,34 @@ fn errors_say_what_is_wrong() {
     assert_eq!(twice, format!("scene.toml:17: case \"a-yarn-1\"; allowed: {names}"));
     let summary = scene("layers = 100\n[[case]]\nname = \"summary\"");
     assert_eq!(summary, format!("scene.toml:15: case \"summary\"; allowed: {names}"));
+}
+
+/// A value of the wrong type is named by its key.
+#[test]
+fn types_are_told_by_key_and_value() {
+    for (line, message) in [
+        ("layers = \"many\"", "layers is \"many\"; allowed: a whole number"),
+        ("layers = 1.5", "layers is 1.5; allowed: a whole number"),
+        ("speed = \"fast\"", "speed is \"fast\"; allowed: a number"),
+        ("held = 1", "held is 1; allowed: true or false"),
+        ("name = 1", "name is 1; allowed: text in quotes"),
+        ("law = \"elastic\"", "law is \"elastic\"; allowed: hyperelastic, linear-elastic, hybrid"),
+        ("precision = \"f16\"", "precision is \"f16\"; allowed: f64 or f32"),
+        ("law = 3", "law is 3; allowed: a word in quotes"),
+        ("viscosity = 0.1", "viscosity is 0.1; allowed: a list of 2"),
+        ("viscosity = [0.1]", "viscosity is [0.1]; allowed: a list of 2"),
+        ("pictures = 0.1", "pictures is 0.1; allowed: a list"),
+        ("pictures = [0.1, \"end\"]", "an entry of pictures is \"end\"; allowed: a number"),
+        ("hyperelastic = \"kevlar\"", "hyperelastic is \"kevlar\"; allowed: a table"),
+        ("hyperelastic = { properties = { alpha = \"x\" } }", "alpha is \"x\"; allowed: a number"),
+        ("[case]", "case is [case]; allowed: [[case]]"),
+        ("layers = 1\nlayers = 1", "duplicate key"),
+    ] {
+        let text = format!("units = \"mm-g-ms\"\n[scene]\n{line}\n");
+        let error = Scene::parse("scene.toml", &text).expect_err(line).to_string();
+        let place = if line.contains('\n') { 4 } else { 3 };
+        assert_eq!(error, format!("scene.toml:{place}: {message}"));
+    }
 }
 
 /// The program's files: histories, plots, pictures, a series for ParaView, the table.

@@ -14,7 +14,7 @@ use toml::Spanned;
 use super::element::Hexahedron;
 use super::material::{Law, Material};
 use super::newton::COMPONENT_NAMES;
-use super::{Error, table};
+use super::{Error, file_error, table};
 use crate::host::units::UnitSystem;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{self, DENSITY, FIBRE, LINEAR_FIBRE, Preset, Property};
@@ -231,7 +231,9 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        toml::from_str(self.text).map_err(|error| self.error(error.span().unwrap_or(0..0), error.message().trim_end()))
+        let fault =
+            |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &file_error::message(self.text, &error));
+        toml::from_str(self.text).map_err(fault)
     }
 
     pub fn units(&self, name: &Spanned<String>) -> Result<UnitSystem, Error> {
