@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use toron::driver::impact::run::{self, End, Outcome, Sample};
 use toron::driver::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use toron::driver::material::Law;
+use toron::law::linear_elastic::Rotation;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/yarn_impact")
@@ -320,7 +322,11 @@ fn errors_say_what_is_wrong() {
     );
     assert_eq!(
         scene("layers = 100\npictures = [0.02, 0.04]"),
-        "scene.toml:14: a time of pictures is 0.04; allowed: a number > 0, up to end = 0.03"
+        "scene.toml:14: a time of pictures is 0.04; allowed: a number > 0, up to end = 0.03 of case \"scene\""
+    );
+    assert_eq!(
+        scene("layers = 100\npictures = [0.02]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nend = 0.01"),
+        "scene.toml:14: a time of pictures is 0.02; allowed: a number > 0, up to end = 0.01 of case \"b\""
     );
     let driven = scene("layers = 100\nstriker = \"driven\"");
     assert_eq!(driven, "scene.toml:8: mass belongs to a cylinder, and striker is driven; allowed: one of the two");
@@ -329,6 +335,72 @@ fn errors_say_what_is_wrong() {
     assert_eq!(twice, format!("scene.toml:17: case \"a-yarn-1\"; allowed: {names}"));
     let summary = scene("layers = 100\n[[case]]\nname = \"summary\"");
     assert_eq!(summary, format!("scene.toml:15: case \"summary\"; allowed: {names}"));
+}
+
+/// Ten lines of a scene that lacks what strikes, and the three of that.
+const YARN: &str = "units = \"mm-g-ms\"\n[scene]\nhalf-length = 12.7\nheight = 0.115\nwidth = 0.5337\nlayers = 100\nrows = 2\n\
+                    columns = 6\nspeed = 120.0\nend = 0.03\n";
+const CYLINDER: &str = "mass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6";
+
+/// What no case reads is refused, in [scene] as in a case.
+#[test]
+fn keys_that_nothing_reads_are_refused() {
+    let scene = |line: &str| {
+        Scene::parse("scene.toml", &format!("{YARN}{line}\n"))
+            .map(|scene| scene.cases.len())
+            .map_err(|error| error.to_string())
+    };
+    let cylinder = CYLINDER;
+    let one = "[[case]]\nname = \"a\"";
+    let hybrid = "[[case]]\nname = \"b\"\nlaw = \"hybrid\"";
+    let length = |line: usize| {
+        let allowed = "which only a yarn of two laws has; allowed: with law = \"hybrid\"";
+        Err(format!("scene.toml:{line}: hyperelastic-length is 2.54, {allowed}"))
+    };
+    let given = "hyperelastic-length = 2.54";
+    assert_eq!(scene(&format!("{cylinder}\n{given}")), length(14));
+    assert_eq!(scene(&format!("{cylinder}\n{given}\n{one}")), length(14));
+    assert_eq!(scene(&format!("{cylinder}\n{hybrid}\n{given}\n{one}\n{given}")), length(20));
+    assert_eq!(scene(&format!("{cylinder}\n{given}\n{one}\n{hybrid}")), Ok(2));
+    for key in ["mass", "radius", "friction", "contact-stiffness"] {
+        let refused = |line: usize| {
+            let reason = "belongs to a cylinder, and striker is driven; allowed: one of the two";
+            Err(format!("scene.toml:{line}: {key} {reason}"))
+        };
+        let (driven, given) = ("striker = \"driven\"", format!("{key} = 1.0"));
+        assert_eq!(scene(&format!("{driven}\n{given}\n{one}")), refused(12));
+        assert_eq!(scene(&format!("{given}\n{one}\n{driven}")), refused(11));
+        assert_eq!(scene(&format!("{driven}\n{one}\n{given}")), refused(14));
+    }
+    let driven = "[[case]]\nname = \"b\"\nstriker = \"driven\"";
+    assert_eq!(scene(&format!("{cylinder}\n{one}\n{driven}")), Ok(2));
+    assert_eq!(
+        scene(&format!("{driven}\nheld = true")),
+        Err("scene.toml:14: held belongs to a cylinder, and striker is driven; allowed: one of the two".to_string())
+    );
+    let fast = scene(&format!("{cylinder}\n{one}\nspeed = 20000.0")).expect_err("no yarn is that fast");
+    assert_eq!(fast, "scene.toml:16: speed is 20000; allowed: up to 4480, which stretches the yarn by 0.5");
+}
+
+/// A table of a material without a preset or a law of its own completes the yarn that is the default.
+#[test]
+fn a_material_s_table_completes_the_default() {
+    let with = |line: &str| {
+        let case =
+            Scene::parse("scene.toml", &format!("{YARN}{CYLINDER}\n{line}\n")).map(|mut scene| scene.cases.remove(0));
+        case.map(|case| case.zones.inner().clone()).map_err(|error| error.to_string())
+    };
+    let default = with("").expect("there is a default");
+    let own = with("hyperelastic = { density = 1e-3, properties = { p = 3.0 } }").expect("the rest is the default");
+    assert_eq!((own.property("p"), own.density), (Some(3.0), Some(1e-3)));
+    assert_eq!(own.property("k_el"), default.property("k_el"));
+    let polar =
+        with("law = \"linear-elastic\"\nlinear-elastic = { frame = \"polar\" }").expect("the rest is the default");
+    assert!(matches!(polar.law, Law::LinearElastic { frame: Rotation::Polar, .. }));
+    let afresh =
+        "hyperelastic = { law = \"hyperelastic\", properties = { k_el = 8e4, k_tc = 1e3, p = 2.2, k_td = 6e2 } }";
+    let error = with(afresh).expect_err("it has no density");
+    assert_eq!(error, "scene.toml:14: density is missing; allowed: a finite number > 0");
 }
 
 /// A value of the wrong type is named by its key.
