@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
+use toron::driver::impact::report::hourglass_warning;
 use toron::driver::impact::run::{self, End, Outcome, Sample};
 use toron::driver::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
 use toron::driver::material::Law;
@@ -239,6 +240,27 @@ fn a_held_projectile_has_no_residual_speed() {
     assert_eq!(result.last().speed, case.speed);
 }
 
+/// Hourglass modes that hold more than a tenth of the internal energy are warned of, once a wave has been at the clamp.
+#[test]
+fn much_hourglass_energy_is_warned_of() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    case.end = 0.004;
+    let mut result = run(&case);
+    assert_eq!(hourglass_warning(&case, &result), None, "{}", result.hourglass_share());
+    let largest = result.last().energies.internal;
+    result.samples.last_mut().expect("there are samples").energies.hourglass = 0.14 * largest;
+    let warning = hourglass_warning(&case, &result).expect("it is more than a tenth");
+    assert_eq!(
+        warning,
+        "warning: case mf-120: hourglass energy is 14 % of the largest internal energy, more than 10 %:\n  \
+         take a finer mesh, or another hourglass than 0.1\n"
+    );
+    // 12.7 mm at 7806 m/s are 1.63 µs.
+    result.samples.retain(|sample| sample.time < 0.0016);
+    result.samples.last_mut().expect("some are left").energies.hourglass = largest;
+    assert_eq!(hourglass_warning(&case, &result), None);
+}
+
 /// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single precision
 /// few.
 #[test]
@@ -445,7 +467,11 @@ fn the_program_writes_what_came_of_a_scene() {
     let output = program.output().expect("the program starts");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(said.contains("| a ") && said.contains("| b ") && said.contains("unbroken"), "{said}");
+    let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
+    assert!(said.contains(heading), "{said}");
+    assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
+    assert!(said.contains("Files in out:\n  summary.csv") && said.contains("NAME-yarn-1.svg, .png, …"), "{said}");
+    assert!(said.lines().all(|line| line.chars().count() <= 100), "{said}");
     let read = |name: &str| std::fs::read_to_string(directory.join("out").join(name)).expect(name);
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
