@@ -460,7 +460,8 @@ fn the_program_writes_what_came_of_a_scene() {
     std::fs::create_dir_all(&directory).expect("a directory can be made");
     let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.0\nheight = 0.115\nwidth = 0.5337\n\
                 layers = 8\nrows = 2\ncolumns = 4\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\n\
-                end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n";
+                end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n\
+                [[case]]\nname = \"c\"\nstriker = \"driven\"\n";
     std::fs::write(directory.join("scene.toml"), text).expect("the scene can be written");
     let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_toron"));
     program.args(["impact", "scene.toml", "-o", "out"]).current_dir(&directory);
@@ -470,12 +471,21 @@ fn the_program_writes_what_came_of_a_scene() {
     let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
     assert!(said.contains(heading), "{said}");
     assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
+    assert!(said.contains("case  longitudinal") && said.contains("\nc "), "{said}");
     assert!(said.contains("Files in out:\n  summary.csv") && said.contains("NAME-yarn-1.svg, .png, …"), "{said}");
     assert!(said.lines().all(|line| line.chars().count() <= 100), "{said}");
     let read = |name: &str| std::fs::read_to_string(directory.join("out").join(name)).expect(name);
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
+    let page =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/impact-files.md")).expect("a page");
+    for file in ["b.csv", "summary.csv"] {
+        for column in read(file).lines().next().expect("a heading").split(',') {
+            let known = page.contains(&format!("`{column}`")) || ["width_2", "width_3"].contains(&column);
+            assert!(known, "docs/impact-files.md does not know {column}");
+        }
+    }
     let history = read("b.csv");
     assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
     for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {
