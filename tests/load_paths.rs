@@ -229,6 +229,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
             4,
             "(fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero",
         ),
+        (format!("{HEAD}fibre = [1, 0, 0, 0]\n{step}"), 4, "fibre is [1, 0, 0, 0]; allowed: a list of 3 numbers"),
         (format!("{HEAD}density = 0\n{step}"), 4, "density is 0; allowed: a finite number > 0"),
         (format!("{HEAD}frame = \"polar\"\n{step}"), 4, "options of the linear elastic law"),
         (format!("{HEAD}frame = \"pole\"\n{step}"), 4, "frame is \"pole\"; allowed: fibre, polar, spin"),
@@ -242,6 +243,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
         (format!("{HEAD}{step}increments = -1\n"), 6, "increments is -1; allowed: a whole number >= 0"),
         (format!("{HEAD}{step}duration = -1\n"), 6, "duration is -1; allowed: a finite number > 0"),
         (format!("{HEAD}{step}rotation = {{ axis = [0, 0, 0], angle = 1 }}\n"), 6, "any vector but zero"),
+        (format!("{HEAD}{step}rotation = {{ axis = [0, 1], angle = 1 }}\n"), 6, "axis is [0, 1]; allowed: a list of 3"),
         (format!("{HEAD}{step}[[step]]\nname = \"idle\"\n"), 6, "the step does nothing"),
         (format!("{HEAD}{step}[[step]]\ncycles = 3\n"), 7, "a group of steps is not complete"),
         (

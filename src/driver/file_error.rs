@@ -47,7 +47,7 @@ fn allowed(message: &str, key: &str) -> Option<String> {
         return Some("a word in quotes".to_string());
     }
     let (found, expected) = message.split_once("expected ")?;
-    let length = expected.strip_prefix("an array of length ").map(|length| format!("a list of {length}"));
+    let length = expected.strip_prefix("an array of length ").map(|length| format!("a list of {length} numbers"));
     let words = match expected {
         "i64" => "a whole number",
         "usize" => "a whole number >= 0",

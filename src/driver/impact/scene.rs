@@ -13,7 +13,7 @@ use crate::driver::explicit::contact::Cylinder;
 use crate::driver::explicit::element::Control;
 use crate::driver::explicit::mesh::{Section, Yarn};
 use crate::driver::material::{Law, Material};
-use crate::driver::path::{MaterialFile, Source};
+use crate::driver::path::{MaterialFile, Numbers, Source};
 use crate::driver::unit_names::number;
 use crate::host::units::UnitSystem;
 use crate::law::linear_elastic::{Criterion, Rotation};
@@ -186,7 +186,7 @@ struct CaseFile {
     friction: Option<Spanned<f64>>,
     contact_stiffness: Option<Spanned<f64>>,
     hourglass: Option<Spanned<f64>>,
-    viscosity: Option<Spanned<[f64; 2]>>,
+    viscosity: Option<Spanned<Numbers<2>>>,
     end: Option<Spanned<f64>>,
     sample: Option<Spanned<f64>>,
     pictures: Option<Spanned<Vec<f64>>>,
@@ -527,11 +527,11 @@ impl Reader<'_> {
         let [linear, quadratic] = match &self.file.viscosity {
             None => [VISCOSITY.0, VISCOSITY.1],
             Some(pair) => {
-                for &value in pair.get_ref() {
+                for value in pair.get_ref().0 {
                     let single = Some(Spanned::new(pair.span(), value));
                     self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
                 }
-                *pair.get_ref()
+                pair.get_ref().0
             }
         };
         Ok(Control { hourglass: self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?, linear, quadratic })
