@@ -9,6 +9,8 @@ use crate::driver::unit_names::{SPEED, TIME, number, unit};
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
+/// A case's name of more letters is cut in the table.
+const LONGEST_NAME: usize = 30;
 /// What stands between two columns of the table.
 const GAP: &str = "  ";
 /// The columns of every table, which are never left out: the case, and one thing about it.
@@ -35,7 +37,7 @@ pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
     let at_clamp = case.yarn.length / result.smith.fastest;
     (share > LARGEST_HOURGLASS && measured_to >= at_clamp).then(|| {
         format!(
-            "warning: case {}: hourglass energy is {:.0} % of the largest internal energy, more than {:.0} %:\n  \
+            "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
              take a finer mesh, or another hourglass than {}\n",
             case.name,
             100.0 * share,
@@ -61,6 +63,15 @@ impl Column {
     }
 }
 
+/// A name that leaves room for something beside it.
+fn shortened(name: &str) -> String {
+    if name.len() <= LONGEST_NAME {
+        name.to_string()
+    } else {
+        name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
+    }
+}
+
 /// Builds a column of the cases that belong to a table.
 fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn(&Case, &Outcome) -> String) -> Column {
     let entries = cases.iter().map(|(case, result)| entry(case, result)).collect();
@@ -74,7 +85,7 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
     let at_end = |result: &Outcome| result.residual_speed().is_none().then(|| result.last().speed);
     let index = |result: &Outcome| Some(result.largest_index()).filter(|&index| index > 0.0);
     let mut columns = vec![
-        column(&cases, ["case", ""], |case, _| case.name.clone()),
+        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
         column(&cases, ["broken at", &time], |_, result| result.broken.map_or(NONE.into(), |(time, _)| number(time))),
         column(&cases, ["residual", &speed], |_, result| maybe(result.residual_speed(), number)),
@@ -94,7 +105,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let kink = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.transverse);
     let percent = |strain: f64| number(100.0 * strain);
     let mut columns = vec![
-        column(&cases, ["case", ""], |case, _| case.name.clone()),
+        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["longitudinal", &speed], |case, result| maybe(wave(case, result), number)),
         column(&cases, ["theory", &speed], |_, result| {
             format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest))

@@ -211,11 +211,10 @@ impl CaseFile {
 
     fn unused_material(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
         let tables = [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)];
-        tables.into_iter().filter(|(name, _)| cases.iter().all(|case| !case.law().has(name))).find_map(
-            |(name, table)| {
-                Some((table.as_ref()?.span(), format!("{name} is not used; allowed: the material of a case's law")))
-            },
-        )
+        let unused = |name: &str| cases.iter().all(|case| !case.law().has(name));
+        let (name, table) = tables.into_iter().find(|(name, table)| table.is_some() && unused(name))?;
+        let message = format!("{name} is not used; allowed: the material of a case's law");
+        Some((table.as_ref()?.span(), message))
     }
 
     fn unused_length(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
