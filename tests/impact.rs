@@ -4,8 +4,11 @@
 
 use std::path::{Path, PathBuf};
 
+use toron::driver::impact::report::hourglass_warning;
 use toron::driver::impact::run::{self, End, Outcome, Sample};
 use toron::driver::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use toron::driver::material::Law;
+use toron::law::linear_elastic::Rotation;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/yarn_impact")
@@ -230,6 +233,38 @@ fn a_driven_yarn_follows_smith() {
     }
 }
 
+/// A projectile whose speed is held breaks the yarn and leaves it, but has no residual speed.
+#[test]
+fn a_held_projectile_has_no_residual_speed() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    let Striker::Cylinder { cylinder, mass, .. } = case.striker else { panic!("a cylinder strikes") };
+    case.striker = Striker::Cylinder { cylinder, mass, held: true };
+    let result = run(&case);
+    assert_eq!((result.end, result.residual_speed()), (End::Left, None));
+    assert_eq!(result.last().speed, case.speed);
+}
+
+/// Hourglass modes that hold more than a tenth of the internal energy are warned of, once a wave has been at the clamp.
+#[test]
+fn much_hourglass_energy_is_warned_of() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    case.end = 0.004;
+    let mut result = run(&case);
+    assert_eq!(hourglass_warning(&case, &result), None, "{}", result.hourglass_share());
+    let largest = result.last().energies.internal;
+    result.samples.last_mut().expect("there are samples").energies.hourglass = 0.14 * largest;
+    let warning = hourglass_warning(&case, &result).expect("it is more than a tenth");
+    assert_eq!(
+        warning,
+        "warning: case mf-120: hourglass energy is 14.0 % of the largest internal energy, more than 10 %:\n  \
+         take a finer mesh, or another hourglass than 0.1\n"
+    );
+    // 12.7 mm at 7806 m/s are 1.63 µs.
+    result.samples.retain(|sample| sample.time < 0.0016);
+    result.samples.last_mut().expect("some are left").energies.hourglass = largest;
+    assert_eq!(hourglass_warning(&case, &result), None);
+}
+
 /// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single precision
 /// few.
 #[test]
@@ -313,7 +348,11 @@ fn errors_say_what_is_wrong() {
     );
     assert_eq!(
         scene("layers = 100\npictures = [0.02, 0.04]"),
-        "scene.toml:14: a time of pictures is 0.04; allowed: a number > 0, up to end = 0.03"
+        "scene.toml:14: a time of pictures is 0.04; allowed: a number > 0, up to end = 0.03 of case \"scene\""
+    );
+    assert_eq!(
+        scene("layers = 100\npictures = [0.02]\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nend = 0.01"),
+        "scene.toml:14: a time of pictures is 0.02; allowed: a number > 0, up to end = 0.01 of case \"b\""
     );
     let driven = scene("layers = 100\nstriker = \"driven\"");
     assert_eq!(driven, "scene.toml:8: mass belongs to a cylinder, and striker is driven; allowed: one of the two");
@@ -324,6 +363,101 @@ fn errors_say_what_is_wrong() {
     assert_eq!(summary, format!("scene.toml:15: case \"summary\"; allowed: {names}"));
 }
 
+/// Ten lines of a scene that lacks what strikes, and the three of that.
+const YARN: &str = "units = \"mm-g-ms\"\n[scene]\nhalf-length = 12.7\nheight = 0.115\nwidth = 0.5337\nlayers = 100\nrows = 2\n\
+                    columns = 6\nspeed = 120.0\nend = 0.03\n";
+const CYLINDER: &str = "mass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6";
+
+/// What no case reads is refused, in [scene] as in a case.
+#[test]
+fn keys_that_nothing_reads_are_refused() {
+    let scene = |line: &str| {
+        Scene::parse("scene.toml", &format!("{YARN}{line}\n"))
+            .map(|scene| scene.cases.len())
+            .map_err(|error| error.to_string())
+    };
+    let cylinder = CYLINDER;
+    let one = "[[case]]\nname = \"a\"";
+    let hybrid = "[[case]]\nname = \"b\"\nlaw = \"hybrid\"";
+    let length = |line: usize| {
+        let allowed = "which only a yarn of two laws has; allowed: with law = \"hybrid\"";
+        Err(format!("scene.toml:{line}: hyperelastic-length is 2.54, {allowed}"))
+    };
+    let given = "hyperelastic-length = 2.54";
+    assert_eq!(scene(&format!("{cylinder}\n{given}")), length(14));
+    assert_eq!(scene(&format!("{cylinder}\n{given}\n{one}")), length(14));
+    assert_eq!(scene(&format!("{cylinder}\n{hybrid}\n{given}\n{one}\n{given}")), length(20));
+    assert_eq!(scene(&format!("{cylinder}\n{given}\n{one}\n{hybrid}")), Ok(2));
+    for key in ["mass", "radius", "friction", "contact-stiffness"] {
+        let refused = |line: usize| {
+            let reason = "belongs to a cylinder, and striker is driven; allowed: one of the two";
+            Err(format!("scene.toml:{line}: {key} {reason}"))
+        };
+        let (driven, given) = ("striker = \"driven\"", format!("{key} = 1.0"));
+        assert_eq!(scene(&format!("{driven}\n{given}\n{one}")), refused(12));
+        assert_eq!(scene(&format!("{given}\n{one}\n{driven}")), refused(11));
+        assert_eq!(scene(&format!("{driven}\n{one}\n{given}")), refused(14));
+    }
+    let driven = "[[case]]\nname = \"b\"\nstriker = \"driven\"";
+    assert_eq!(scene(&format!("{cylinder}\n{one}\n{driven}")), Ok(2));
+    assert_eq!(
+        scene(&format!("{driven}\nheld = true")),
+        Err("scene.toml:14: held belongs to a cylinder, and striker is driven; allowed: one of the two".to_string())
+    );
+    let fast = scene(&format!("{cylinder}\n{one}\nspeed = 20000.0")).expect_err("no yarn is that fast");
+    assert_eq!(fast, "scene.toml:16: speed is 20000; allowed: up to 4480, which stretches the yarn by 0.5");
+}
+
+/// A table of a material without a preset or a law of its own completes the yarn that is the default.
+#[test]
+fn a_material_s_table_completes_the_default() {
+    let with = |line: &str| {
+        let case =
+            Scene::parse("scene.toml", &format!("{YARN}{CYLINDER}\n{line}\n")).map(|mut scene| scene.cases.remove(0));
+        case.map(|case| case.zones.inner().clone()).map_err(|error| error.to_string())
+    };
+    let default = with("").expect("there is a default");
+    let own = with("hyperelastic = { density = 1e-3, properties = { p = 3.0 } }").expect("the rest is the default");
+    assert_eq!((own.property("p"), own.density), (Some(3.0), Some(1e-3)));
+    assert_eq!(own.property("k_el"), default.property("k_el"));
+    let polar =
+        with("law = \"linear-elastic\"\nlinear-elastic = { frame = \"polar\" }").expect("the rest is the default");
+    assert!(matches!(polar.law, Law::LinearElastic { frame: Rotation::Polar, .. }));
+    let afresh =
+        "hyperelastic = { law = \"hyperelastic\", properties = { k_el = 8e4, k_tc = 1e3, p = 2.2, k_td = 6e2 } }";
+    let error = with(afresh).expect_err("it has no density");
+    assert_eq!(error, "scene.toml:14: density is missing; allowed: a finite number > 0");
+}
+
+/// A value of the wrong type is named by its key.
+#[test]
+fn types_are_told_by_key_and_value() {
+    for (line, message) in [
+        ("layers = \"many\"", "layers is \"many\"; allowed: a whole number"),
+        ("layers = 1.5", "layers is 1.5; allowed: a whole number"),
+        ("speed = \"fast\"", "speed is \"fast\"; allowed: a number"),
+        ("held = 1", "held is 1; allowed: true or false"),
+        ("name = 1", "name is 1; allowed: text in quotes"),
+        ("law = \"elastic\"", "law is \"elastic\"; allowed: hyperelastic, linear-elastic, hybrid"),
+        ("precision = \"f16\"", "precision is \"f16\"; allowed: f64 or f32"),
+        ("law = 3", "law is 3; allowed: a word in quotes"),
+        ("viscosity = 0.1", "viscosity is 0.1; allowed: a list"),
+        ("viscosity = [0.1]", "viscosity is [0.1]; allowed: a list of 3 numbers"),
+        ("viscosity = [0.1, 1.5, 2.0, 0]", "viscosity is [0.1, 1.5, 2.0, 0]; allowed: a list of 3 numbers"),
+        ("pictures = 0.1", "pictures is 0.1; allowed: a list"),
+        ("pictures = [0.1, \"end\"]", "an entry of pictures is \"end\"; allowed: a number"),
+        ("hyperelastic = \"kevlar\"", "hyperelastic is \"kevlar\"; allowed: a table"),
+        ("hyperelastic = { properties = { alpha = \"x\" } }", "alpha is \"x\"; allowed: a number"),
+        ("[case]", "case is [case]; allowed: [[case]]"),
+        ("layers = 1\nlayers = 1", "duplicate key"),
+    ] {
+        let text = format!("units = \"mm-g-ms\"\n[scene]\n{line}\n");
+        let error = Scene::parse("scene.toml", &text).expect_err(line).to_string();
+        let place = if line.contains('\n') { 4 } else { 3 };
+        assert_eq!(error, format!("scene.toml:{place}: {message}"));
+    }
+}
+
 /// The program's files: histories, plots, pictures, a series for ParaView, the table.
 #[test]
 fn the_program_writes_what_came_of_a_scene() {
@@ -331,18 +465,32 @@ fn the_program_writes_what_came_of_a_scene() {
     std::fs::create_dir_all(&directory).expect("a directory can be made");
     let text = "units = \"mm-g-ms\"\nabscissa = \"elements\"\n[scene]\nhalf-length = 1.0\nheight = 0.115\nwidth = 0.5337\n\
                 layers = 8\nrows = 2\ncolumns = 4\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\n\
-                end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n";
+                end = 2e-4\npictures = [1e-4]\nframes = 2\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nrows = 1\n\
+                [[case]]\nname = \"c-of-a-name-that-is-longer-than-a-table-has-room-for\"\nstriker = \"driven\"\n";
     std::fs::write(directory.join("scene.toml"), text).expect("the scene can be written");
     let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_toron"));
     program.args(["impact", "scene.toml", "-o", "out"]).current_dir(&directory);
     let output = program.output().expect("the program starts");
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    assert!(said.contains("| a ") && said.contains("| b ") && said.contains("unbroken"), "{said}");
+    let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
+    assert!(said.contains(heading), "{said}");
+    assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
+    assert!(said.contains("\nc-of-a-name-that-is-longer-th…  "), "{said}");
+    assert!(said.contains("Files in out:\n  summary.csv") && said.contains("NAME-yarn-1.svg, .png, …"), "{said}");
+    assert!(said.lines().all(|line| line.chars().count() <= 100), "{said}");
     let read = |name: &str| std::fs::read_to_string(directory.join("out").join(name)).expect(name);
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
+    let page =
+        std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/impact-files.md")).expect("a page");
+    for file in ["b.csv", "summary.csv"] {
+        for column in read(file).lines().next().expect("a heading").split(',') {
+            let known = page.contains(&format!("`{column}`")) || ["width_2", "width_3"].contains(&column);
+            assert!(known, "docs/impact-files.md does not know {column}");
+        }
+    }
     let history = read("b.csv");
     assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
     for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {

@@ -8,6 +8,7 @@ pub mod command;
 pub mod element;
 pub mod eval;
 pub mod explicit;
+mod file_error;
 pub mod impact;
 pub mod material;
 pub mod newton;

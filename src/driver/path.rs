@@ -7,14 +7,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use nalgebra::{Unit, Vector3};
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, Error as _};
+use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
 use super::element::Hexahedron;
 use super::material::{Law, Material};
 use super::newton::COMPONENT_NAMES;
-use super::{Error, table};
+use super::{Error, file_error, table};
 use crate::host::units::UnitSystem;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::parameters::{self, DENSITY, FIBRE, LINEAR_FIBRE, Preset, Property};
@@ -71,12 +71,25 @@ pub enum Target {
     Hold,
 }
 
+/// A list of so many numbers. The parser would pass over what comes after them.
+#[derive(Clone, Copy)]
+pub(super) struct Numbers<const N: usize>(pub [f64; N]);
+
+impl<'de, const N: usize> Deserialize<'de> for Numbers<N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let list = Vec::<f64>::deserialize(deserializer)?;
+        let wanted = format!("an array of length {N}");
+        let numbers = list.as_slice().try_into().map_err(|_| D::Error::invalid_length(list.len(), &wanted.as_str()))?;
+        Ok(Numbers(numbers))
+    }
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PathFile {
     title: Option<String>,
     units: Spanned<String>,
-    element: Option<Spanned<[f64; 3]>>,
+    element: Option<Spanned<Numbers<3>>>,
     material: Option<Spanned<MaterialFile>>,
     #[serde(default)]
     point: Vec<Spanned<PointFile>>,
@@ -98,7 +111,7 @@ struct PlotFile {
 pub(super) struct MaterialFile {
     preset: Option<Spanned<String>>,
     law: Option<Spanned<LawName>>,
-    fibre: Option<Spanned<[f64; 3]>>,
+    fibre: Option<Spanned<Numbers<3>>>,
     density: Option<Spanned<f64>>,
     frame: Option<Spanned<FrameName>>,
     criterion: Option<Spanned<CriterionName>>,
@@ -168,7 +181,7 @@ enum Word {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RotationFile {
-    axis: [f64; 3],
+    axis: Numbers<3>,
     /// Degrees.
     angle: f64,
 }
@@ -231,7 +244,9 @@ pub(super) struct Source<'a> {
 impl Source<'_> {
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        toml::from_str(self.text).map_err(|error| self.error(error.span().unwrap_or(0..0), error.message().trim_end()))
+        let fault =
+            |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &file_error::message(self.text, &error));
+        toml::from_str(self.text).map_err(fault)
     }
 
     pub fn units(&self, name: &Spanned<String>) -> Result<UnitSystem, Error> {
@@ -262,12 +277,12 @@ impl Source<'_> {
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number")))
     }
 
-    fn element(&self, size: Option<&Spanned<[f64; 3]>>) -> Result<Hexahedron, Error> {
+    fn element(&self, size: Option<&Spanned<Numbers<3>>>) -> Result<Hexahedron, Error> {
         let Some(size) = size else { return Ok(Hexahedron { size: Vector3::repeat(1.0) }) };
-        for &length in size.get_ref() {
+        for length in size.get_ref().0 {
             self.positive("an edge of the element", length, size.span())?;
         }
-        Ok(Hexahedron { size: Vector3::from(*size.get_ref()) })
+        Ok(Hexahedron { size: Vector3::from(size.get_ref().0) })
     }
 
     fn abscissa(&self, plot: &PlotFile, points: &[Point]) -> Result<String, Error> {
@@ -388,7 +403,7 @@ impl Source<'_> {
         }
         if let Some(fibre) = &file.fibre {
             let first = if std::ptr::eq(table, &parameters::HYPERELASTIC[..]) { FIBRE } else { LINEAR_FIBRE };
-            for (i, &component) in fibre.get_ref().iter().enumerate() {
+            for (i, &component) in fibre.get_ref().0.iter().enumerate() {
                 values[first + i] = Some(component);
                 spans[first + i] = fibre.span();
             }
@@ -518,7 +533,7 @@ impl Source<'_> {
     }
 
     fn rotation(&self, file: &Spanned<RotationFile>) -> Result<(Unit<Vector3<f64>>, f64), Error> {
-        let RotationFile { axis, angle } = file.get_ref();
+        let RotationFile { axis: Numbers(axis), angle } = file.get_ref();
         let angle = self.finite("the angle of a rotation", *angle, file.span())?;
         // An axis that overflows when it is squared is as useless as none.
         match Unit::try_new(Vector3::from(*axis), f64::MIN_POSITIVE) {

@@ -9,6 +9,8 @@ pub const ENERGY: Dimension = Dimension { mass: 1, length: 2, time: -2, name: "e
 pub const FORCE: Dimension = Dimension { mass: 1, length: 1, time: -2, name: "force" };
 
 pub const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1, name: "time" };
+/// A pressure by the depth of a contact.
+pub const CONTACT_STIFFNESS: Dimension = Dimension { mass: 1, length: -2, time: -2, name: "contact stiffness" };
 pub const SPEED: Dimension = Dimension { mass: 0, length: 1, time: -1, name: "speed" };
 
 /// Powers of ten that have a prefix.
@@ -24,9 +26,9 @@ pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {
             Some(joule) => format!("{joule}/{length}³"),
             None => unit(units, STRESS),
         },
-        STRESS => named(units, dimension, "Pa", &[(11, "Mbar"), (5, "bar")])
-            .or_else(|| imperial(units, ["psi", "psf"]))
-            .unwrap_or_else(|| format!("{mass}/({length} {time}²)")),
+        STRESS => pressure(units).unwrap_or_else(|| format!("{mass}/({length} {time}²)")),
+        CONTACT_STIFFNESS => pressure(units)
+            .map_or_else(|| format!("{mass}/({length}² {time}²)"), |pressure| format!("{pressure}/{length}")),
         ENERGY => named(units, dimension, "J", &[])
             .or_else(|| imperial(units, ["lbf in", "lbf ft"]))
             .unwrap_or_else(|| format!("{mass} {length}²/{time}²")),
@@ -38,6 +40,11 @@ pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {
         SPEED => format!("{length}/{time}"),
         _ => dimension.name.to_string(),
     }
+}
+
+/// The unit of stress that has a name of its own.
+fn pressure(units: &UnitSystem) -> Option<String> {
+    named(units, STRESS, "Pa", &[(11, "Mbar"), (5, "bar")]).or_else(|| imperial(units, ["psi", "psf"]))
 }
 
 /// An SI name with a prefix, or one of the `others` by their power of ten.
@@ -71,4 +78,54 @@ pub fn number(value: f64) -> String {
     }
     let digits = (3 - size.log10().floor() as i32).max(0) as usize;
     format!("{value:.digits$}")
+}
+
+/// A time for people, by the system's unit or by a finer one that makes it 1 at least: 30 µs where the unit is ms.
+pub fn time(units: &UnitSystem, value: f64) -> String {
+    let own = unit(units, TIME).replace("us", "µs");
+    let finer = ["s", "ms", "µs", "ns"].into_iter().skip_while(|&name| name != own);
+    let scaled = finer.enumerate().map(|(i, name)| (value * 1e3_f64.powi(i as i32), name));
+    let (value, name) = scaled.into_iter().find(|(value, _)| *value >= 1.0).unwrap_or((value, &own));
+    let digits = number(value);
+    let kept = if digits.contains('.') && !digits.contains('e') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &digits
+    };
+    format!("{kept} {name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn units(name: &str) -> UnitSystem {
+        UnitSystem::parse(name).expect("a unit system")
+    }
+
+    #[test]
+    fn times_have_the_digits_that_they_need() {
+        for (system, value, text) in [
+            ("mm-g-ms", 0.03, "30 µs"),
+            ("mm-g-ms", 0.030_000_4, "30 µs"),
+            ("mm-g-ms", 0.0125, "12.5 µs"),
+            ("mm-g-ms", 0.00025, "250 ns"),
+            ("mm-g-ms", 2.0, "2 ms"),
+            ("si", 3e-5, "30 µs"),
+            ("cm-g-us", 30.0, "30 µs"),
+            ("cm-g-us", 100.0, "100 µs"),
+            ("mm-g-ms", 0.0, "0 ms"),
+        ] {
+            assert_eq!(time(&units(system), value), text);
+        }
+    }
+
+    #[test]
+    fn contact_stiffness_is_a_pressure_by_length() {
+        for (system, name) in
+            [("mm-g-ms", "MPa/mm"), ("si", "Pa/m"), ("in-slinch-s", "psi/in"), ("ft-kg-s", "kg/(ft² s²)")]
+        {
+            assert_eq!(unit(&units(system), CONTACT_STIFFNESS), name);
+        }
+    }
 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::run::{self, Observer, Outcome};
 use super::scene::{Case, Scene};
-use super::{plot, summary, yarn_picture};
+use super::{plot, report, summary, yarn_picture};
 use crate::driver::explicit::vtu;
 use crate::driver::{Error, print};
 
@@ -52,7 +52,7 @@ fn write_comparison(scene: &Scene, results: &[(&Case, Outcome)], output: &Path) 
         plot::write_comparison(&svg, &png, scene, abscissa, results)?;
     }
     summary::write(&output.join("summary.csv"), results)?;
-    print(&format!("{}\n\n{}", scene.title, summary::table(results)));
+    print(&report::report(scene, results, output));
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod plot;
+pub mod report;
 pub mod run;
 pub mod scene;
 pub mod smith;

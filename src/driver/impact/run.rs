@@ -90,6 +90,8 @@ pub struct Outcome {
     pub snapshots: Vec<Snapshot>,
     pub mesh: Mesh,
     pub end: End,
+    /// Whether a projectile strikes whose speed is its own, neither held nor driven.
+    pub own_speed: bool,
     /// When the last line of elements along the fibre tore, and the projectile's speed then.
     pub broken: Option<(f64, f64)>,
     pub cost: Cost,
@@ -215,6 +217,7 @@ impl<'a, T: Number> Run<'a, T> {
             samples: self.samples,
             snapshots: self.snapshots,
             end,
+            own_speed: matches!(self.case.striker, Striker::Cylinder { held: false, .. }),
             broken: self.broken,
             cost: self.solver.cost,
             wall: begun.elapsed(),
@@ -452,12 +455,13 @@ impl Outcome {
         imbalance(&self.samples)
     }
 
-    /// What is left of the projectile's speed; none where the run has ended before that was settled.
+    /// What is left of the projectile's speed; none where the run has ended before that was settled, or where the speed is
+    /// not the projectile's own.
     pub fn residual_speed(&self) -> Option<f64> {
         match self.end {
-            End::Stopped => Some(0.0),
-            End::Left => Some(self.last().speed),
-            End::Time => None,
+            End::Stopped if self.own_speed => Some(0.0),
+            End::Left if self.own_speed => Some(self.last().speed),
+            _ => None,
         }
     }
 

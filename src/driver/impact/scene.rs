@@ -1,17 +1,20 @@
 //! A scene from its TOML file: a yarn, what strikes it, and the cases that differ from one another. The format is
 //! described in `docs/impact.md`.
 
+use std::ops::Range;
 use std::path::Path;
 
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::smith::{LARGEST_STRAIN, Tension};
 use crate::driver::Error;
 use crate::driver::explicit::contact::Cylinder;
 use crate::driver::explicit::element::Control;
 use crate::driver::explicit::mesh::{Section, Yarn};
 use crate::driver::material::{Law, Material};
-use crate::driver::path::{MaterialFile, Source};
+use crate::driver::path::{MaterialFile, Numbers, Source};
+use crate::driver::unit_names::number;
 use crate::host::units::UnitSystem;
 use crate::law::linear_elastic::{Criterion, Rotation};
 
@@ -104,6 +107,16 @@ enum LawName {
     Hybrid,
 }
 
+impl Zones {
+    /// The material at mid-span.
+    pub fn inner(&self) -> &Material {
+        match self {
+            Zones::One(material) => material,
+            Zones::Two(materials, _) => &materials[0],
+        }
+    }
+}
+
 impl LawName {
     /// Whether a yarn of this law has the material of that table.
     fn has(self, table: &str) -> bool {
@@ -167,13 +180,13 @@ struct CaseFile {
     columns: Option<Spanned<i64>>,
     striker: Option<StrikerName>,
     speed: Option<Spanned<f64>>,
-    held: Option<bool>,
+    held: Option<Spanned<bool>>,
     mass: Option<Spanned<f64>>,
     radius: Option<Spanned<f64>>,
     friction: Option<Spanned<f64>>,
     contact_stiffness: Option<Spanned<f64>>,
     hourglass: Option<Spanned<f64>>,
-    viscosity: Option<Spanned<[f64; 3]>>,
+    viscosity: Option<Spanned<Numbers<3>>>,
     end: Option<Spanned<f64>>,
     sample: Option<Spanned<f64>>,
     pictures: Option<Spanned<Vec<f64>>>,
@@ -187,11 +200,45 @@ impl CaseFile {
         self.law.unwrap_or(LawName::Hyperelastic)
     }
 
-    /// The first table of a material that none of these laws has: its name and place.
-    fn unused_material(&self, laws: &[LawName]) -> Option<(&'static str, std::ops::Range<usize>)> {
+    fn striker(&self) -> StrikerName {
+        self.striker.unwrap_or(StrikerName::Cylinder)
+    }
+
+    /// What this table gives and none of these cases reads: its place, and what is wrong.
+    fn unused(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
+        self.unused_material(cases).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
+    }
+
+    fn unused_material(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
         let tables = [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)];
-        let unused = |name: &str| laws.iter().all(|law| !law.has(name));
-        tables.into_iter().find_map(|(name, table)| Some((name, table.as_ref()?.span())).filter(|_| unused(name)))
+        let unused = |name: &str| cases.iter().all(|case| !case.law().has(name));
+        let (name, table) = tables.into_iter().find(|(name, table)| table.is_some() && unused(name))?;
+        let message = format!("{name} is not used; allowed: the material of a case's law");
+        Some((table.as_ref()?.span(), message))
+    }
+
+    fn unused_length(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
+        let length = self.hyperelastic_length.as_ref()?;
+        let message = format!(
+            "hyperelastic-length is {}, which only a yarn of two laws has; allowed: with law = \"hybrid\"",
+            length.get_ref()
+        );
+        cases.iter().all(|case| case.law() != LawName::Hybrid).then(|| (length.span(), message))
+    }
+
+    /// A driven section meets nothing.
+    fn unused_cylinder(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
+        let span = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
+        let keys = [
+            ("mass", span(&self.mass)),
+            ("radius", span(&self.radius)),
+            ("friction", span(&self.friction)),
+            ("contact-stiffness", span(&self.contact_stiffness)),
+            ("held", self.held.as_ref().map(Spanned::span)),
+        ];
+        let (key, span) = keys.into_iter().find_map(|(key, span)| Some((key, span?)))?;
+        let message = format!("{key} belongs to a cylinder, and striker is driven; allowed: one of the two");
+        cases.iter().all(|case| case.striker() == StrikerName::Driven).then_some((span, message))
     }
 
     /// This table completed by `base`.
@@ -258,23 +305,21 @@ impl Scene {
         if let Some(name) = &base.name {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
+        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
         let mut cases: Vec<Case> = Vec::new();
-        let mut laws = Vec::new();
         if file.case.is_empty() {
-            laws.push(base.law());
-            let reader = Reader { source: &source, units: &units, file: base, own: base, span: file.scene.span() };
+            source.check_used(base, &[base])?;
+            let reader = Reader { source: &source, units: &units, file: base, span: file.scene.span() };
             cases.push(reader.case("scene".to_string())?);
+        } else {
+            source.check_used(base, &tables.iter().collect::<Vec<_>>())?;
         }
-        for case in &file.case {
+        for (case, table) in file.case.iter().zip(&tables) {
             let name = source.case_name(case, &cases)?;
-            let merged = case.get_ref().over(base);
-            let (own, span) = (case.get_ref(), case.span());
-            source.check_materials(own, &[merged.law()])?;
-            laws.push(merged.law());
-            let reader = Reader { source: &source, units: &units, file: &merged, own, span };
+            source.check_used(case.get_ref(), &[table])?;
+            let reader = Reader { source: &source, units: &units, file: table, span: case.span() };
             cases.push(reader.case(name)?);
         }
-        source.check_materials(base, &laws)?;
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
     }
@@ -295,10 +340,9 @@ impl Source<'_> {
         Ok(name.get_ref().clone())
     }
 
-    /// A material of a law that no case has would be ignored.
-    fn check_materials(&self, table: &CaseFile, laws: &[LawName]) -> Result<(), Error> {
-        let Some((name, span)) = table.unused_material(laws) else { return Ok(()) };
-        Err(self.error(span, &format!("{name} is not used; allowed: the material of a case's law")))
+    /// What a table gives and none of its cases reads would be ignored.
+    fn check_used(&self, table: &CaseFile, cases: &[&CaseFile]) -> Result<(), Error> {
+        table.unused(cases).map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
     }
 
     /// A contact has its stiffness only where there is one.
@@ -335,10 +379,8 @@ struct Reader<'a> {
     source: &'a Source<'a>,
     units: &'a UnitSystem,
     file: &'a CaseFile,
-    /// What the case itself says, not the scene.
-    own: &'a CaseFile,
     /// What to blame for what is missing.
-    span: std::ops::Range<usize>,
+    span: Range<usize>,
 }
 
 impl Reader<'_> {
@@ -390,16 +432,17 @@ impl Reader<'_> {
             None => end / SAMPLES,
         };
         let yarn = self.yarn()?;
+        let zones = self.zones(&yarn)?;
         Ok(Case {
-            name,
             striker: self.striker()?,
-            speed: self.positive("speed", &file.speed)?,
+            speed: self.speed(zones.inner())?,
             end,
             sample,
-            pictures: self.pictures(end)?,
+            pictures: self.pictures(&name, end)?,
+            name,
             frames: self.count("frames", &file.frames, [0, MOST_FRAMES], Some(0))?,
             control: self.control()?,
-            zones: self.zones(&yarn)?,
+            zones,
             yarn,
             precision: file.precision.unwrap_or(Precision::F64),
             outputs: file.outputs.unwrap_or(Outputs::Full),
@@ -435,46 +478,44 @@ impl Reader<'_> {
         Ok(yarn)
     }
 
+    /// The speed, which stretches a yarn of this material at mid-span by no more than any fibre bears.
+    fn speed(&self, material: &Material) -> Result<f64, Error> {
+        let (key, value) = ("speed", &self.file.speed);
+        let speed = self.positive(key, value)?;
+        let most = Tension::of(material).fastest_strike(material.density.unwrap_or_default());
+        if speed > most {
+            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
+            let most = number(most);
+            let message =
+                format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+            return Err(self.source.error(span, &message));
+        }
+        Ok(speed)
+    }
+
     fn striker(&self) -> Result<Striker, Error> {
         let file = self.file;
-        if file.striker == Some(StrikerName::Driven) {
-            return self.driven();
+        if file.striker() == StrikerName::Driven {
+            return Ok(Striker::Driven);
         }
         let cylinder = Cylinder {
             radius: self.positive("radius", &file.radius)?,
             stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
             friction: self.zero_or_more("friction", &file.friction, 0.0)?,
         };
-        let held = file.held.unwrap_or(false);
+        let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         let mass = if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? };
         Ok(Striker::Cylinder { cylinder, mass, held })
     }
 
-    /// A driven section meets nothing: keys of a cylinder in the same table are a mistake.
-    fn driven(&self) -> Result<Striker, Error> {
-        let own = self.own;
-        let numbers = [
-            ("mass", &own.mass),
-            ("radius", &own.radius),
-            ("friction", &own.friction),
-            ("contact-stiffness", &own.contact_stiffness),
-        ];
-        let given = numbers.into_iter().find_map(|(key, value)| Some((key, value.as_ref()?.span())));
-        let given = given.or(own.held.as_ref().map(|_| ("held", self.span.clone())));
-        match given {
-            Some((key, span)) => {
-                let message = format!("{key} belongs to a cylinder, and striker is driven; allowed: one of the two");
-                Err(self.source.error(span, &message))
-            }
-            None => Ok(Striker::Driven),
-        }
-    }
-
-    fn pictures(&self, end: f64) -> Result<Vec<f64>, Error> {
+    /// The case is named: the times may be the scene's, the end its own.
+    fn pictures(&self, case: &str, end: f64) -> Result<Vec<f64>, Error> {
         let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
         for &time in times.get_ref() {
             if !(time > 0.0 && time <= end) {
-                let message = format!("a time of pictures is {time}; allowed: a number > 0, up to end = {end}");
+                let message = format!(
+                    "a time of pictures is {time}; allowed: a number > 0, up to end = {end} of case \"{case}\""
+                );
                 return Err(self.source.error(times.span(), &message));
             }
         }
@@ -485,11 +526,11 @@ impl Reader<'_> {
         let [linear, quadratic, shape] = match &self.file.viscosity {
             None => VISCOSITY,
             Some(given) => {
-                for &value in given.get_ref() {
+                for value in given.get_ref().0 {
                     let single = Some(Spanned::new(given.span(), value));
                     self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
                 }
-                *given.get_ref()
+                given.get_ref().0
             }
         };
         let hourglass = self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?;
@@ -519,12 +560,13 @@ impl Reader<'_> {
         Ok(length)
     }
 
-    /// The material of the table of this law or, without one, of its preset, with the failure that the case asks for.
+    /// The material of this law's table, which its preset completes, with the failure that the case asks for.
     fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
+        let default = MaterialFile::of_preset(preset, self.span.clone());
         let (file, span) = match table {
-            Some(table) => (table.get_ref().clone(), table.span()),
-            None => (MaterialFile::of_preset(preset, self.span.clone()), self.span.clone()),
+            Some(table) => (table.get_ref().over(&default), table.span()),
+            None => (default, self.span.clone()),
         };
         let mut material = self.source.material(&file, self.units, span.clone())?;
         let found = material.law_name().replace(' ', "-");

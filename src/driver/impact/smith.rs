@@ -60,10 +60,15 @@ impl Tension {
         }
     }
 
+    /// The transverse velocity that stretches a yarn of this reference density by [`LARGEST_STRAIN`].
+    pub fn fastest_strike(&self, density: f64) -> f64 {
+        self.velocities(LARGEST_STRAIN, density).0
+    }
+
     /// What the transverse velocity does to a yarn of this reference density; none where it needs more than
     /// [`LARGEST_STRAIN`].
     pub fn smith(&self, velocity: f64, density: f64) -> Option<Smith> {
-        if self.velocities(LARGEST_STRAIN, density).0 < velocity {
+        if self.fastest_strike(density) < velocity {
             return None;
         }
         let (mut low, mut high) = (0.0, LARGEST_STRAIN);

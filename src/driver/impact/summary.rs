@@ -1,4 +1,4 @@
-//! A line for every case: how it ended, with what speed, energies and cost.
+//! The files of figures: a line for every case, how it ended, with what speed, energies and cost; and a case's history.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use super::run::{End, Outcome};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::Smith;
 use crate::driver::Error;
-use crate::driver::unit_names::number as unit_number;
+use crate::driver::unit_names::number;
 
 /// A column that has nothing to say about a case.
-const NONE: &str = "-";
+pub(super) const NONE: &str = "-";
 
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {
@@ -27,7 +27,7 @@ fn law(case: &Case) -> String {
         Zones::One(material) => material.law_name().to_string(),
         Zones::Two(_, length) => {
             let layers = case.yarn.layers_to(*length) as f64;
-            format!("hyperelastic to {}", unit_number(layers / case.yarn.layers as f64 * case.yarn.length))
+            format!("hyperelastic to {}", number(layers / case.yarn.layers as f64 * case.yarn.length))
         }
     };
     if case.precision == Precision::F32 {
@@ -46,52 +46,53 @@ fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
         ("case", case.name.clone()),
         ("law", law(case)),
         ("elements", result.mesh.elements.len().to_string()),
-        ("speed", number(case.speed, 0)),
-        ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), 0)),
+        ("speed", number(case.speed)),
+        ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), number)),
     ];
     match case.striker {
-        Striker::Cylinder { cylinder, held, .. } => strike_cells(case, result, cylinder.stiffness, held, &mut cells),
+        Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
         Striker::Driven => smith_cells(length, result, &mut cells),
     }
     cells.extend([
         ("imbalance", format!("{:.0e}", result.imbalance())),
         ("steps", result.cost.steps.to_string()),
-        ("seconds", number(result.cost.total().as_secs_f64(), 2)),
-        ("ns_per_zone_cycle", number(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
-        ("law_share", number(result.cost.law.as_secs_f64() / result.cost.total().as_secs_f64(), 2)),
+        ("seconds", decimals(result.cost.total().as_secs_f64(), 2)),
+        ("ns_per_zone_cycle", decimals(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
+        ("law_share", decimals(result.cost.law.as_secs_f64() / result.cost.total().as_secs_f64(), 2)),
     ]);
     cells
 }
 
-fn number(value: f64, digits: usize) -> String {
+/// A number of so many decimals, for what has no unit or seconds.
+fn decimals(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
 }
 
-fn maybe(value: Option<f64>, digits: usize) -> String {
-    value.map_or(NONE.to_string(), |value| number(value, digits))
+pub(super) fn maybe(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    value.map_or(NONE.to_string(), text)
 }
 
-/// What a projectile's case has to say; one that is held has no residual speed.
-fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, held: bool, cells: &mut Vec<(&'static str, String)>) {
+/// What a projectile's case has to say.
+fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
     let last = result.last();
-    let broken = |of: fn((f64, f64)) -> f64, digits| maybe(result.broken.map(of), digits);
+    let broken = |of: fn((f64, f64)) -> f64| maybe(result.broken.map(of), number);
     cells.extend([
-        ("contact_stiffness", format!("{stiffness:.0e}")),
-        ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), 5)),
+        ("contact_stiffness", format!("{stiffness:e}")),
+        ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), number)),
         ("outcome", outcome(result).to_string()),
-        ("residual_speed", maybe(result.residual_speed().filter(|_| !held), 1)),
-        ("speed_at_end", number(last.speed, 1)),
-        ("broken_at", broken(|(time, _)| time, 5)),
-        ("speed_then", broken(|(_, speed)| speed, 1)),
+        ("residual_speed", maybe(result.residual_speed(), number)),
+        ("speed_at_end", number(last.speed)),
+        ("broken_at", broken(|(time, _)| time)),
+        ("speed_then", broken(|(_, speed)| speed)),
         ("deleted", last.deleted.to_string()),
         ("collapsed", last.collapsed.to_string()),
-        ("end", number(last.time, 5)),
-        ("hourglass_share", number(result.hourglass_share(), 3)),
-        ("index_max", number(result.largest_index(), 3)),
-        ("w_el_at_end", number(last.largest[0], 2)),
-        ("w_tc_at_end", number(last.largest[1], 2)),
-        ("w_td_at_end", number(last.largest[2], 2)),
-        ("work_at_end", number(last.largest[4], 2)),
+        ("end", number(last.time)),
+        ("hourglass_share", decimals(result.hourglass_share(), 3)),
+        ("index_max", decimals(result.largest_index(), 3)),
+        ("w_el_at_end", number(last.largest[0])),
+        ("w_tc_at_end", number(last.largest[1])),
+        ("w_td_at_end", number(last.largest[2])),
+        ("work_at_end", number(last.largest[4])),
     ]);
 }
 
@@ -99,11 +100,11 @@ fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, held: bool, cells
 fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, String)>) {
     let Smith { strain, fastest, slowest, transverse } = result.smith;
     cells.extend([
-        ("longitudinal_theory", format!("{fastest:.0}-{slowest:.0}")),
-        ("strain_percent", maybe(result.plateau(length).map(|strain| 100.0 * strain), 3)),
-        ("strain_theory", number(100.0 * strain, 3)),
-        ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), 1)),
-        ("transverse_theory", number(transverse, 1)),
+        ("longitudinal_theory", format!("{}-{}", number(fastest), number(slowest))),
+        ("strain_percent", maybe(result.plateau(length), |strain| number(100.0 * strain))),
+        ("strain_theory", number(100.0 * strain)),
+        ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), number)),
+        ("transverse_theory", number(transverse)),
     ]);
 }
 
@@ -121,27 +122,6 @@ fn lines(results: &[(&Case, Outcome)]) -> (Vec<&'static str>, Vec<Vec<String>>) 
     };
     let lines = cells.iter().map(|line| titles.iter().map(|title| entry(line, title)).collect()).collect();
     (titles, lines)
-}
-
-/// The table of all cases as Markdown, columns that say nothing left out.
-pub fn table(results: &[(&Case, Outcome)]) -> String {
-    let (titles, lines) = lines(results);
-    let kept: Vec<usize> = (0..titles.len()).filter(|&c| lines.iter().any(|line| line[c] != NONE)).collect();
-    let width = |c: usize| lines.iter().map(|line| line[c].chars().count()).fold(titles[c].len(), usize::max);
-    let mut text = String::new();
-    let mut row = |entry: &dyn Fn(usize) -> String| {
-        text.push('|');
-        for &c in &kept {
-            text.push_str(&format!(" {:<width$} |", entry(c), width = width(c)));
-        }
-        text.push('\n');
-    };
-    row(&|c| titles[c].to_string());
-    row(&|c| "-".repeat(width(c)));
-    for line in &lines {
-        row(&|c| line[c].clone());
-    }
-    text
 }
 
 /// Writes the table as CSV.

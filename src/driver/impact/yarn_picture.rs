@@ -9,7 +9,7 @@ use super::scene::{Case, Scene};
 use crate::driver::Error;
 use crate::driver::explicit::mesh::Mesh;
 use crate::driver::picture::{self, Area, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
-use crate::driver::unit_names::{TIME, number, unit};
+use crate::driver::unit_names::{number, time, unit};
 use crate::law::parameters::ENERGY_DENSITY;
 
 const SIZE: [u32; 2] = [1280, 900];
@@ -57,7 +57,7 @@ pub fn write(
     picture::write(svg, png, SIZE, |root| {
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
-        let time = format!("at {} {}", number(snapshot.time), unit(&scene.units, TIME));
+        let time = format!("at {}", time(&scene.units, snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         let drawing = Drawing { mesh: &result.mesh, case, snapshot };
         for mode in 0..MODES.len() {
