@@ -64,10 +64,10 @@ impl<T: Number> Lanes<T> {
         self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
     }
 
-    /// The larger ones; a NaN stays.
+    /// The larger ones; the others' where one is NaN.
     #[inline(always)]
     pub fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b || a.partial_cmp(&a).is_none() { a } else { b })
+        self.zip(other, |a, b| if a > b { a } else { b })
     }
 }
 
@@ -116,6 +116,13 @@ pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize)
 #[inline(always)]
 pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
     array[first..][..LANES].copy_from_slice(&lanes.0);
+}
+
+/// Where the groups of lanes of a block begin. Each group is worked on by itself: the compiler, which would otherwise take
+/// several at once and gather their numbers one by one, is not to see how far apart they are.
+#[inline(always)]
+pub fn groups(stride: usize) -> impl Iterator<Item = usize> {
+    (0..stride).step_by(LANES).map(std::hint::black_box)
 }
 
 /// The modes that are sums with the signs of one coordinate.
@@ -272,12 +279,12 @@ impl<T: Number> Shapes<T> {
     #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
-        for first in (0..stride).step_by(LANES) {
+        for first in groups(stride) {
             let u = self.gather(displacement, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
-            for (i, u) in u.into_iter().enumerate() {
-                let m = modes(u);
+            for (i, u) in u.iter().enumerate() {
+                let m = modes(*u);
                 // The displacement's gradient, row i.
                 let mut h = [Lanes::splat(T::default()); 3];
                 for j in 0..3 {
@@ -307,35 +314,48 @@ impl<T: Number> Shapes<T> {
         u
     }
 
-    /// Adds the elements' forces to the nodes'.
+    /// P by columns, all elements.
     #[inline(always)]
-    pub fn forces(&self, point: &Points<'_, T>, forces: &mut [[T; 3]]) {
+    pub fn nominal_stress(&self, point: &Points<'_, T>, nominal: &mut [T]) {
         let stride = self.stride;
-        for first in (0..stride).step_by(LANES) {
-            let f: [Lanes<T>; 9] = load(point.deformation_gradient, stride, first);
-            let stress: [Lanes<T>; 6] = load(point.stress, stride, first);
+        for first in groups(stride) {
+            let f = load(point.deformation_gradient, stride, first);
+            let stress = load(point.stress, stride, first);
+            let [along] = load(point.along, stride, first);
+            let section = load(point.section, stride, first);
+            let p = first_piola_kirchhoff(&f, &stress, along, &section);
+            for (component, &entry) in p.as_flattened().iter().enumerate() {
+                store(entry, nominal, component * stride + first);
+            }
+        }
+    }
+
+    /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements
+    /// (1, others 0) hold.
+    #[inline(always)]
+    pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
+        let stride = self.stride;
+        for first in groups(stride) {
+            let p: [Lanes<T>; 9] = load(nominal, stride, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
             let [volume] = load(&self.volume, stride, first);
             let [stiffness] = load(&self.stiffness, stride, first);
-            let [along] = load(point.along, stride, first);
-            let section = load(point.section, stride, first);
-            let [intact] = load(point.intact, stride, first);
+            let [intact] = load(intact, stride, first);
             let k = stiffness * intact;
-            let p = first_piola_kirchhoff(&f, &stress, along, &section);
             let zero = Lanes::splat(T::default());
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
                 let mut held = [zero; 4];
                 for (mode, held) in held.iter_mut().enumerate() {
-                    *held = k * Lanes::at(point.modal, (mode + 4 * i) * stride + first);
+                    *held = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
                 }
                 let mut force = [zero; 3];
                 for j in 0..3 {
                     // The linear field in the hourglass modes is none of theirs.
                     let [xy, yz, zx, xyz] = held;
                     let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
-                    let nominal = volume * p[j][i] - linear;
+                    let nominal = volume * p[i + 3 * j] - linear;
                     for m in 0..3 {
                         force[m] = force[m] + nominal * b[3 * j + m];
                     }
@@ -364,7 +384,7 @@ impl<T: Number> Shapes<T> {
     /// What the step's bound and bulk viscosity need to know of F, all elements.
     #[inline(always)]
     pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
-        for first in (0..self.stride).step_by(LANES) {
+        for first in groups(self.stride) {
             let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
             let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
@@ -373,12 +393,13 @@ impl<T: Number> Shapes<T> {
             let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
             let (squares, products) =
                 (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
+            let per_square = Lanes::splat(T::from_f64(1.0)) / square;
             store(ratio, &mut to.volume_ratio, first);
             store(square, &mut to.stretch_square, first);
             store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
-            store(aa / square, &mut to.spread_along, first);
+            store(aa * per_square, &mut to.spread_along, first);
             for (component, metric) in [second, third, Lanes::splat(T::default()) - both].into_iter().enumerate() {
-                store(metric / square, &mut to.metric, component * self.stride + first);
+                store(metric * per_square, &mut to.metric, component * self.stride + first);
             }
         }
     }
@@ -429,17 +450,13 @@ impl<T: Number> Measures<T> {
     }
 }
 
-/// What the forces of a block follow from, component-major.
+/// What P follows from, component-major.
 pub struct Points<'a, T> {
     pub deformation_gradient: &'a [T],
-    /// Amplitudes of the hourglass modes.
-    pub modal: &'a [T],
     /// Cauchy stress, and viscosity's: along the fibre, and of the section.
     pub stress: &'a [T],
     pub along: &'a [T],
     pub section: &'a [T],
-    /// 1 or 0: whether hourglass modes are held.
-    pub intact: &'a [T],
 }
 
 /// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
@@ -451,24 +468,44 @@ pub fn first_piola_kirchhoff<T: Number>(
     along: Lanes<T>,
     section: &[Lanes<T>; 3],
 ) -> [[Lanes<T>; 3]; 3] {
-    let [s11, s22, s33, s12, s23, s31] = *stress;
-    let [a, b, c] = [[f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]];
-    let mut p = [cross(b, c), cross(c, a), cross(a, b)];
-    for column in &mut p {
-        let [x, y, z] = *column;
-        *column = [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z];
-    }
+    let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
     let [r22, r33, r23] = *section;
-    let square = dot(a, a);
-    let (slant_b, slant_c) = (dot(a, b) / square, dot(a, c) / square);
-    for i in 0..3 {
-        let (b, c) = (b[i] - slant_b * a[i], c[i] - slant_c * a[i]);
-        let (second, third) = (r22 * b + r23 * c, r23 * b + r33 * c);
-        p[0][i] = p[0][i] + slant_b * second + slant_c * third - along * a[i];
-        p[1][i] = p[1][i] - second;
-        p[2][i] = p[2][i] - third;
-    }
-    p
+    let per_square = Lanes::splat(T::from_f64(1.0)) / dot(a, a);
+    let (slant_b, slant_c) = (dot(a, b) * per_square, dot(a, c) * per_square);
+    let (across_b, across_c) = (less(b, slant_b, a), less(c, slant_c, a));
+    let (second, third) = (combine(r22, across_b, r23, across_c), combine(r23, across_b, r33, across_c));
+    let [p1, p2, p3] = [times(stress, cross(b, c)), times(stress, cross(c, a)), times(stress, cross(a, b))];
+    let slanting = combine(slant_b, second, slant_c, third);
+    [add(less(p1, along, a), slanting), sub(p2, second), sub(p3, third)]
+}
+
+/// A symmetric matrix times a vector.
+#[inline(always)]
+fn times<T: Number>(matrix: &[Lanes<T>; 6], [x, y, z]: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    let [s11, s22, s33, s12, s23, s31] = *matrix;
+    [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z]
+}
+
+#[inline(always)]
+fn add<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+fn sub<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a − k b.
+#[inline(always)]
+fn less<T: Number>(a: [Lanes<T>; 3], k: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] - k * b[0], a[1] - k * b[1], a[2] - k * b[2]]
+}
+
+/// k a + l b.
+#[inline(always)]
+fn combine<T: Number>(k: Lanes<T>, a: [Lanes<T>; 3], l: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [k * a[0] + l * b[0], k * a[1] + l * b[1], k * a[2] + l * b[2]]
 }
 
 #[inline(always)]
@@ -518,16 +555,11 @@ mod tests {
     fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
         let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
         let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
-        let point = Points {
-            deformation_gradient: &state.f,
-            modal: &state.modal,
-            stress: &stress,
-            along: &none,
-            section: &none,
-            intact: &intact,
-        };
+        let mut nominal = vec![0.0; 9 * shapes.stride];
+        let point = Points { deformation_gradient: &state.f, stress: &stress, along: &none, section: &none };
+        shapes.nominal_stress(&point, &mut nominal);
         let mut forces = vec![[0.0; 3]; NODES.len()];
-        shapes.forces(&point, &mut forces);
+        shapes.forces(&nominal, &state.modal, &intact, &mut forces);
         forces
     }
 

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes, store};
+use super::element::{Control, Lanes, Measures, Number, Points, Shapes, groups, store};
 use super::largest;
 use super::viscosity::Viscosity;
 use crate::driver::Error;
@@ -118,6 +118,8 @@ pub struct Scratch<T> {
     deformation_gradient: Vec<T>,
     modal: Vec<T>,
     stress: Vec<T>,
+    /// P by columns.
+    nominal: Vec<T>,
     measures: Measures<T>,
     wave_speed: Vec<T>,
     /// 1 where an element's own step is too short.
@@ -132,6 +134,7 @@ impl<T: Number> Default for Scratch<T> {
             deformation_gradient: array(9),
             modal: array(12),
             stress: array(6),
+            nominal: array(9),
             measures: Measures::new(BLOCK),
             wave_speed: array(1),
             collapsed: array(1),
@@ -211,13 +214,12 @@ impl<T: Number> WithSimd for Forces<'_, T> {
         block.bound_step(medium, scratch, shortest, sums);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
-            modal: &scratch.modal,
             stress: &scratch.stress,
             along: &block.viscosity.along,
             section: &block.viscosity.section,
-            intact: &block.intact,
         };
-        block.shapes.forces(&point, forces);
+        block.shapes.nominal_stress(&point, &mut scratch.nominal);
+        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);
     }
 }
 
@@ -352,14 +354,16 @@ impl<T: Number> ElementBlock<T> {
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
         let hourglass = splat(self.shapes.hourglass_frequency / medium.density);
         let (square, twice) = (splat(shortest * shortest), splat(2.0 * shortest));
-        let [mut stiffest, mut most_damped] = [hourglass, zero];
-        for first in (0..self.shapes.stride).step_by(LANES) {
+        // A largest number drops what is NaN, a sum does not.
+        let [mut stiffest, mut most_damped, mut sum] = [hourglass, zero, zero];
+        for first in groups(self.shapes.stride) {
             let at = |array: &[T]| Lanes::at(array, first);
             let standing = scratch.measures.standing(&self.intact, first);
             let speed = at(&scratch.wave_speed);
             let stiffness = (hourglass + speed * speed * at(&scratch.measures.spread)).only_where(standing);
             let damping = at(&scratch.measures.damping).only_where(standing);
             (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
+            sum = sum + stiffness + damping;
             // As in the body's stable step.
             let collapsed = one.only_where(square * stiffness + twice * damping - four);
             store(collapsed, &mut scratch.collapsed, first);
@@ -367,6 +371,9 @@ impl<T: Number> ElementBlock<T> {
         let greatest = |lanes: Lanes<T>| lanes.0.into_iter().map(Into::into).fold(0.0, largest);
         sums.stiffness = largest(sums.stiffness, greatest(stiffest));
         sums.damping = largest(sums.damping, greatest(most_damped));
+        if sum.0.into_iter().any(|value| value.into().is_nan()) {
+            sums.stiffness = f64::NAN;
+        }
     }
 
     /// Deletes the elements that are picked, and latches those that the law has not.

@@ -13,7 +13,7 @@
 //! D̄ is told by the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
-use super::element::{LANES, Lanes, Measures, Number, Shapes, load, store};
+use super::element::{Lanes, Measures, Number, Shapes, groups, load, store};
 use super::material::Medium;
 
 /// What viscosity keeps of the last step, by element.
@@ -88,7 +88,7 @@ impl<T: Number> Viscosity<T> {
         let linear = [medium.wave_speed, medium.compaction_speed].map(|speed| splat(control.linear * speed));
         let shape = splat(control.shape * medium.distortion_speed);
         let (mut dissipated, stride) = (zero, shapes.stride);
-        for first in (0..stride).step_by(LANES) {
+        for first in groups(stride) {
             let at = |array: &[T]| Lanes::at(array, first);
             let standing = measures.standing(intact, first);
             let (ratio, square, square_old) =
