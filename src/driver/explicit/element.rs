@@ -381,7 +381,7 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// What the step's bound and bulk viscosity need to know of F, all elements.
+    /// What the step's bound and viscosity need to know of F, all elements.
     #[inline(always)]
     pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
         for first in groups(self.stride) {
