@@ -85,7 +85,7 @@ pub fn time(units: &UnitSystem, value: f64) -> String {
     let own = unit(units, TIME).replace("us", "µs");
     let finer = ["s", "ms", "µs", "ns"].into_iter().skip_while(|&name| name != own);
     let scaled = finer.enumerate().map(|(i, name)| (value * 1e3_f64.powi(i as i32), name));
-    let (value, name) = scaled.into_iter().find(|(value, _)| *value >= 1.0).unwrap_or((value, &own));
+    let (value, name) = scaled.into_iter().find(|(value, _)| *value >= 1.0 - 1e-6).unwrap_or((value, &own));
     let digits = number(value);
     let kept = if digits.contains('.') && !digits.contains('e') {
         digits.trim_end_matches('0').trim_end_matches('.')

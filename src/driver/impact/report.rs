@@ -30,12 +30,12 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
 
 /// What to do about hourglass modes that hold too much.
 ///
-/// Before a wave has been at the clamp, the yarn has hardly any internal energy that they could be held against.
+/// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held against.
 pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
     let share = result.hourglass_share();
     let measured_to = result.broken.map_or(result.last().time, |(time, _)| time);
     let at_clamp = case.yarn.length / result.smith.fastest;
-    (share > LARGEST_HOURGLASS && measured_to >= at_clamp).then(|| {
+    (share > LARGEST_HOURGLASS && measured_to >= 2.0 * at_clamp).then(|| {
         format!(
             "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
              take a finer mesh, or another hourglass than {}\n",
@@ -65,7 +65,7 @@ impl Column {
 
 /// A name that leaves room for something beside it.
 fn shortened(name: &str) -> String {
-    if name.len() <= LONGEST_NAME {
+    if name.chars().count() <= LONGEST_NAME {
         name.to_string()
     } else {
         name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
@@ -78,6 +78,10 @@ fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn
     Column { heading: [above.to_string(), below.to_string()], entries }
 }
 
+fn broken_at(_: &Case, result: &Outcome) -> String {
+    maybe(result.broken.map(|(time, _)| time), number)
+}
+
 /// The columns for what a projectile has struck, the most important first.
 fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
     let cases: Vec<_> = results.iter().filter(|(case, _)| case.striker != Striker::Driven).collect();
@@ -87,7 +91,7 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
-        column(&cases, ["broken at", &time], |_, result| result.broken.map_or(NONE.into(), |(time, _)| number(time))),
+        column(&cases, ["broken at", &time], broken_at),
         column(&cases, ["residual", &speed], |_, result| maybe(result.residual_speed(), number)),
         column(&cases, ["at end", &speed], |_, result| maybe(at_end(result), number)),
         column(&cases, ["failure", "index"], |_, result| maybe(index(result), |index| format!("{index:.3}"))),
@@ -104,16 +108,19 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let wave = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.longitudinal);
     let kink = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.transverse);
     let percent = |strain: f64| number(100.0 * strain);
+    let strain = |case: &Case, result: &Outcome| result.plateau(case.yarn.length);
+    // Theory stands only beside what was measured.
+    let beside = |measured: Option<f64>, theory: String| measured.map_or(NONE.to_string(), |_| theory);
+    let waves = |result: &Outcome| format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest));
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["longitudinal", &speed], |case, result| maybe(wave(case, result), number)),
-        column(&cases, ["theory", &speed], |_, result| {
-            format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest))
-        }),
-        column(&cases, ["strain", "%"], |case, result| maybe(result.plateau(case.yarn.length), percent)),
-        column(&cases, ["theory", "%"], |_, result| percent(result.smith.strain)),
+        column(&cases, ["theory", &speed], |case, result| beside(wave(case, result), waves(result))),
+        column(&cases, ["strain", "%"], |case, result| maybe(strain(case, result), percent)),
+        column(&cases, ["theory", "%"], |case, result| beside(strain(case, result), percent(result.smith.strain))),
         column(&cases, ["transverse", &speed], |case, result| maybe(kink(case, result), number)),
-        column(&cases, ["theory", &speed], |_, result| number(result.smith.transverse)),
+        column(&cases, ["theory", &speed], |case, result| beside(kink(case, result), number(result.smith.transverse))),
+        column(&cases, ["broken at", &unit(&scene.units, TIME)], broken_at),
     ];
     columns.extend(costs(&cases));
     columns

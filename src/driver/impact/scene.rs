@@ -431,6 +431,10 @@ impl Reader<'_> {
             Some(_) => self.positive("sample", &file.sample)?,
             None => end / SAMPLES,
         };
+        if let Some(given) = file.sample.as_ref().filter(|given| *given.get_ref() > end) {
+            let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
+            return Err(self.source.error(given.span(), &message));
+        }
         let yarn = self.yarn()?;
         let zones = self.zones(&yarn)?;
         Ok(Case {
@@ -560,6 +564,43 @@ impl Reader<'_> {
         Ok(length)
     }
 
+    /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
+    fn choose_failure(&self, material: &mut Material, file: &MaterialFile, span: &Range<usize>) -> Result<(), Error> {
+        let failure = self.file.failure.unwrap_or(FailureName::None);
+        let off: &[&str] = match failure {
+            FailureName::None => &["eps_lim", "sigma_lim"],
+            FailureName::Uniaxial => &["alpha", "beta"],
+            FailureName::Multiaxial => &[],
+        };
+        let table = material.table();
+        for (value, property) in material.values.iter_mut().zip(table) {
+            let name = property.name;
+            if !off.contains(&name) {
+                continue;
+            }
+            *value = 0.0;
+            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
+                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
+                let message = format!(
+                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
+                    given.get_ref()
+                );
+                return Err(self.source.error(given.span(), &message));
+            }
+        }
+        let is_zero = |name: &str| material.property(name) == Some(0.0);
+        let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
+        if let Some(name) = missing {
+            let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
+            return Err(self.source.error(file.given(name).map_or(span.clone(), Spanned::span), &message));
+        }
+        if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
+            let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
+            return Err(self.source.error(file.given("alpha").map_or(span.clone(), Spanned::span), message));
+        }
+        Ok(())
+    }
+
     /// The material of this law's table, which its preset completes, with the failure that the case asks for.
     fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
@@ -579,27 +620,8 @@ impl Reader<'_> {
             let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
             return Err(self.source.error(span, &message));
         }
-        let off: &[&str] = match self.file.failure {
-            None | Some(FailureName::None) => &["eps_lim", "sigma_lim"],
-            Some(FailureName::Uniaxial) => &["alpha", "beta"],
-            Some(FailureName::Multiaxial) => &[],
-        };
+        self.choose_failure(&mut material, &file, &span)?;
         let table = material.table();
-        for (value, property) in material.values.iter_mut().zip(table) {
-            let name = property.name;
-            if !off.contains(&name) {
-                continue;
-            }
-            *value = 0.0;
-            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
-                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
-                let message = format!(
-                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
-                    given.get_ref()
-                );
-                return Err(self.source.error(given.span(), &message));
-            }
-        }
         let (frame, criterion) = match material.law {
             Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
             Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),

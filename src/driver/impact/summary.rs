@@ -105,6 +105,11 @@ fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, Str
         ("strain_theory", number(100.0 * strain)),
         ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), number)),
         ("transverse_theory", number(transverse)),
+        ("outcome", outcome(result).to_string()),
+        ("broken_at", maybe(result.broken.map(|(time, _)| time), number)),
+        ("deleted", result.last().deleted.to_string()),
+        ("collapsed", result.last().collapsed.to_string()),
+        ("end", number(result.last().time)),
     ]);
 }
 

@@ -5,17 +5,20 @@ use std::path::Path;
 use plotters::prelude::*;
 
 use super::run::{Outcome, Snapshot};
-use super::scene::{Case, Scene};
+use super::scene::{Case, Scene, Zones};
 use crate::driver::Error;
 use crate::driver::explicit::mesh::Mesh;
+use crate::driver::material::Law;
 use crate::driver::picture::{self, Area, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use crate::driver::unit_names::{number, time, unit};
 use crate::law::parameters::ENERGY_DENSITY;
 
-const SIZE: [u32; 2] = [1280, 900];
+const WIDTH: u32 = 1280;
 /// The part of the width that the view of the whole yarn gets; the rest is the section's.
 const SIDE: i32 = 960;
 const ROW: i32 = 272;
+/// Air below the last row.
+const BOTTOM: i32 = 4;
 /// Where the first row starts, the height of a row's heading, and where the yarn's axis lies below that.
 const TOP: i32 = 80;
 const HEAD: i32 = 38;
@@ -42,6 +45,15 @@ const SCALE_STEPS: i32 = 40;
 const TILT: f64 = 1.0;
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
 
+/// What the rows show: the modes or, where there is none, the work of the linear law. Of two laws the first row has both.
+fn rows(case: &Case) -> Vec<&'static str> {
+    match &case.zones {
+        Zones::One(material) if matches!(material.law, Law::LinearElastic { .. }) => vec!["Work"],
+        Zones::One(_) => MODES.to_vec(),
+        Zones::Two(..) => vec!["Elongation*", MODES[1], MODES[2]],
+    }
+}
+
 /// Draws the yarn as it stood at an instant.
 ///
 /// # Errors
@@ -54,16 +66,19 @@ pub fn write(
     result: &Outcome,
     snapshot: &Snapshot,
 ) -> Result<(), Error> {
-    picture::write(svg, png, SIZE, |root| {
+    let rows = rows(case);
+    let size = [WIDTH, (TOP + ROW * rows.len() as i32 + BOTTOM) as u32];
+    picture::write(svg, png, size, |root| {
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
-        let time = format!("at {}", time(&scene.units, snapshot.time));
+        let laws = if matches!(case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
+        let time = format!("at {}{laws}", time(&scene.units, snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         let drawing = Drawing { mesh: &result.mesh, case, snapshot };
-        for mode in 0..MODES.len() {
+        for (mode, name) in rows.into_iter().enumerate() {
             let top = TOP + ROW * mode as i32;
             let row = root.margin(fine(top), 0, 0, 0);
-            drawing.draw_row(&row, mode, &unit(&scene.units, ENERGY_DENSITY))?;
+            drawing.draw_row(&row, mode, name, &unit(&scene.units, ENERGY_DENSITY))?;
         }
         Ok(())
     })
@@ -94,12 +109,12 @@ fn colour(share: f64) -> RGBColor {
 }
 
 impl Drawing<'_> {
-    fn draw_row(&self, area: &Area, mode: usize, unit: &str) -> Drawn<()> {
-        // The linear law's work, which has no modes, is elongation for the most part.
+    fn draw_row(&self, area: &Area, mode: usize, name: &str, unit: &str) -> Drawn<()> {
+        // The linear law has no modes.
         let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
         let values = self.snapshot.densities.iter().zip(&self.snapshot.intact);
         let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| density(w)).fold(0.0, f64::max);
-        draw_head(area, MODES[mode], largest, unit)?;
+        draw_head(area, name, largest, unit)?;
         let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
         let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
         self.draw_side(area, &shade)?;
@@ -147,8 +162,8 @@ impl Drawing<'_> {
         let nodes = 0..self.mesh.nodes_per_section;
         let centre = nodes.clone().map(|node| self.snapshot.positions[node][1]).sum::<f64>() / nodes.len() as f64;
         // Twice the section's width has room.
-        let scale = f64::from(SIZE[0] as i32 - SIDE - 2 * AIR) / (2.0 * yarn.width);
-        let origin = [f64::from(SIDE) + f64::from(SIZE[0] as i32 - SIDE) / 2.0, f64::from(HEAD + ROW) / 2.0];
+        let scale = f64::from(WIDTH as i32 - SIDE - 2 * AIR) / (2.0 * yarn.width);
+        let origin = [f64::from(SIDE) + f64::from(WIDTH as i32 - SIDE) / 2.0, f64::from(HEAD + ROW) / 2.0];
         let view = View { scale, origin };
         for element in (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]) {
             let face = [0, 2, 6, 4].map(|corner| self.mesh.elements[element][corner] as usize);
