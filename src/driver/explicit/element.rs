@@ -118,11 +118,10 @@ pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
     array[first..][..LANES].copy_from_slice(&lanes.0);
 }
 
-/// Where the groups of lanes of a block begin. Each group is worked on by itself: the compiler, which would otherwise take
-/// several at once and gather their numbers one by one, is not to see how far apart they are.
+/// Where the groups of lanes of a block begin.
 #[inline(always)]
 pub fn groups(stride: usize) -> impl Iterator<Item = usize> {
-    (0..stride).step_by(LANES).map(std::hint::black_box)
+    (0..stride).step_by(LANES)
 }
 
 /// The modes that are sums with the signs of one coordinate.

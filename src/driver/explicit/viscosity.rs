@@ -226,7 +226,7 @@ mod tests {
                 let scale = expected.norm().max(1.0);
                 // Rates are told from differences here, exact to their size.
                 let error = (found - expected).norm();
-                assert!(error < (1e-4 + 10.0 * size) * scale, "{found} expected {expected}");
+                assert!(error < 1e-4_f64.max(10.0 * size) * scale, "{found} expected {expected}");
             }
         }
     }

@@ -49,7 +49,7 @@ pub struct Sample {
     pub least: f64,
     /// The largest failure index of what stands.
     pub index: f64,
-    /// Elements deleted so far, and how many of them had not failed but collapsed.
+    /// Elements deleted so far, and how many of them for their own step.
     pub deleted: usize,
     pub collapsed: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.

@@ -73,6 +73,16 @@ pub enum Zones {
     Two(Box<[Material; 2]>, f64),
 }
 
+impl Zones {
+    /// The material at mid-span.
+    pub fn inner(&self) -> &Material {
+        match self {
+            Zones::One(material) => material,
+            Zones::Two(materials, _) => &materials[0],
+        }
+    }
+}
+
 /// What sets the yarn in motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Striker {
@@ -105,16 +115,6 @@ enum LawName {
     Hyperelastic,
     LinearElastic,
     Hybrid,
-}
-
-impl Zones {
-    /// The material at mid-span.
-    pub fn inner(&self) -> &Material {
-        match self {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
-        }
-    }
 }
 
 impl LawName {
