@@ -42,7 +42,7 @@
 #define TORON_BAD_ARGUMENT -105
 
 /*
- The host runs a small-strain analysis, which carries no deformation gradient.
+ The host passes no deformation gradient: a small-strain analysis, or F = 0.
  */
 #define TORON_NO_DEFORMATION_GRADIENT -106
 
@@ -65,6 +65,11 @@
  A direction among the properties has no length, or is parallel to the one it must differ from.
  */
 #define TORON_PROPERTY_DIRECTION -204
+
+/*
+ The fibre direction is neither in the plane of a two-dimensional element nor normal to it.
+ */
+#define TORON_FIBRE_OUT_OF_PLANE -205
 
 /*
  There are fewer state variables than the table's.
@@ -176,6 +181,26 @@
 #define TORON_TANGENT_NOMINAL 3
 
 /*
+ Instructions of a block: the best that the processor has.
+ */
+#define TORON_LEVEL_BEST 0
+
+/*
+ None that only some processors of the architecture have.
+ */
+#define TORON_LEVEL_BASELINE 1
+
+/*
+ At most AVX2 with fused multiply-add.
+ */
+#define TORON_LEVEL_AVX2 2
+
+/*
+ At most AVX-512.
+ */
+#define TORON_LEVEL_AVX512 3
+
+/*
  A row of the tables of properties and state variables. Texts are terminated UTF-8.
  */
 typedef struct {
@@ -260,13 +285,19 @@ typedef struct {
    */
   double *modes;
   /*
-   Out, 1: an upper bound of the wave speed.
+   Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
+   step and bulk viscosity may take it as it is.
    */
   double *wave_speed;
   /*
    Out: a status code for each point.
    */
   int32_t *status;
+  /*
+   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+   same bits, the baseline others.
+   */
+  int32_t level;
 } toron_block_f64;
 
 /*
@@ -320,13 +351,19 @@ typedef struct {
    */
   float *modes;
   /*
-   Out, 1: an upper bound of the wave speed.
+   Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
+   step and bulk viscosity may take it as it is.
    */
   float *wave_speed;
   /*
    Out: a status code for each point.
    */
   int32_t *status;
+  /*
+   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+   same bits, the baseline others.
+   */
+  int32_t level;
 } toron_block_f32;
 
 /*
@@ -367,6 +404,11 @@ typedef struct {
    Out: a status code for each point.
    */
   int32_t *status;
+  /*
+   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+   same bits, the baseline others.
+   */
+  int32_t level;
 } toron_linear_block_f64;
 
 /*
@@ -407,6 +449,11 @@ typedef struct {
    Out: a status code for each point.
    */
   int32_t *status;
+  /*
+   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+   same bits, the baseline others.
+   */
+  int32_t level;
 } toron_linear_block_f32;
 
 /*
@@ -638,7 +685,8 @@ size_t toron_hyperelastic_validate_f32(const float *values,
  - `state_old`: 11 values; null: all 0. `state_new`: room for 11; null: not wanted, and the point cannot fail. They may
    be the same array.
  - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second
-   Piola-Kirchhoff); `wave_speed`: room for 1, a bound at the reference density `density`; each may be null.
+   Piola-Kirchhoff); `wave_speed`: room for 1, an upper bound at the reference density `density`, for current lengths: a
+   solver's time step and bulk viscosity may take it as it is; each may be null.
 
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
 
@@ -1001,13 +1049,17 @@ int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
  `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
  `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
 
- Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code: no
- stress, energies and invariants as they were, the element failed.
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
+ or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
 
  # Safety
  Every pointer has as many values as said.
  */
-int32_t toron_lsdyna_umat_f64(const double *cm, double *sig, double *hsv, int32_t nhv, int *failel);
+int32_t toron_lsdyna_umat_f64(const double *cm,
+                              double *sig,
+                              double *hsv,
+                              int32_t nhv,
+                              int *failel);
 
 /*
  As `toron_lsdyna_umat_f64`, in single precision.
@@ -1025,7 +1077,8 @@ int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t n
  `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 
  Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
- `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or the most negative −3xx code of an element: that one
+ `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
+ and nothing is written; or the most negative −3xx code of an element: that one
  carries no stress, keeps its energies and invariants, and is failed.
 
  # Safety
@@ -1072,7 +1125,8 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
  them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
  may be null.
 
- Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code, and `es` is 0,
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
+ written; or a −3xx code, and `es` is 0,
  as it is for an element that has failed.
 
  # Safety

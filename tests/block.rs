@@ -5,6 +5,7 @@
 
 mod common;
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use common::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
@@ -256,12 +257,13 @@ fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
     let f = std::array::from_fn(|j| std::array::from_fn(|i| input.f[3 * j + i]));
     let (mut point, mut moduli) = (Point::nothing(), [f64::NAN; 21]);
     let sink = (&mut point, &mut moduli);
-    let call = point::Call { properties, f: &f, fibre: None, state: &input.old, tangent: Jaumann, sink };
+    let call = point::Call { properties, f: &f, fibre: None, state: &input.old.map(Cell::new), tangent: Jaumann, sink };
     f64::once(call).expect("valid properties");
     // Without the tangent the answer is the same.
     let (mut alone, mut nothing) = (Point::nothing(), []);
     let sink = (&mut alone, &mut nothing);
-    let call = point::Call { properties, f: &f, fibre: None, state: &input.old, tangent: StressAndState, sink };
+    let call =
+        point::Call { properties, f: &f, fibre: None, state: &input.old.map(Cell::new), tangent: StressAndState, sink };
     f64::once(call).expect("valid properties");
     assert_eq!(bits(&alone), bits(&point), "{input:?}");
     (point, moduli)
@@ -442,6 +444,48 @@ fn place_does_not_matter_f64() {
 fn place_does_not_matter_f32() {
     place_does_not_matter::<f32>([0.48, -0.6, 0.64]);
     place_does_not_matter::<f32>(AXIS);
+}
+
+/// F = diag(1, 1, J) for J with mantissas of all ones and of one, less and more by so many units in the last place: where
+/// reciprocals that are not divided may be rounded otherwise.
+fn hard_volumes<T: Number>() -> Vec<Input<T>> {
+    let ulp = 2.0 * T::ROUNDING;
+    let volumes =
+        (0..64).flat_map(|k| [2.0 - f64::from(k + 1) * ulp, 1.0 + f64::from(k) * ulp, 1.0 - f64::from(k) * ulp / 2.0]);
+    volumes.map(|j| Input::fresh([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, j], AXIS)).collect()
+}
+
+/// Every level with fused multiply-add gives the same bits: the answer does not depend on the processor. What this machine's
+/// does not have is left out; `reciprocals` in `law/block/tests.rs` are checked for all of them.
+fn fused_levels_agree<T: Number>() {
+    let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
+    let truth = cases();
+    let truth = truth.iter().map(|case| Input::fresh(by_columns(&case.deformation_gradient()), case.m));
+    let inputs: Vec<Input<T>> = [ordinary(160), extreme(), hard_volumes()].concat().into_iter().chain(truth).collect();
+    let fused: Vec<_> = levels().filter(|&level| level > Level::Baseline).collect();
+    println!("levels with fused arithmetic here: {fused:?}");
+    for asked in Asked::USUAL.into_iter().chain([Asked::ALL]) {
+        for fibres in [false, true] {
+            let answers =
+                fused.iter().map(|&level| run(&law, &inputs, &Call { asked, fibres, ..Call::<T>::new(level) }).0);
+            let answers: Vec<_> = answers.collect();
+            for (level, answer) in fused.iter().zip(&answers).skip(1) {
+                for ((one, other), input) in answers[0].iter().zip(answer).zip(&inputs) {
+                    assert_eq!(one, other, "{:?} and {level:?}: {input:?}", fused[0]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn fused_levels_agree_f64() {
+    fused_levels_agree::<f64>();
+}
+
+#[test]
+fn fused_levels_agree_f32() {
+    fused_levels_agree::<f32>();
 }
 
 /// Points that fail, have failed or cannot be evaluated, among good ones: each has its own code, and none disturbs another.

@@ -1,5 +1,17 @@
-//! The yarn under impact on coarse meshes, against the thesis and against theory. The bands are wide enough for any
-//! machine; `docs/impact.md` has the figures of the full scenes.
+//! The yarn under impact on coarse meshes, against the thesis, against another solver and against theory. `docs/impact.md` has
+//! the figures of the full scenes.
+//!
+//! Where the bands come from:
+//!
+//! | what | centre | width |
+//! |---|---|---|
+//! | MF at 120 m/s, 58 to 70 m/s left | 64, thesis Tab. 4.5 and OpenRadioss | what meshes, contact and damping move it by: 59.9 to 66 |
+//! | speeds without failure, ± 2 m/s | OpenRadioss with the same law on 1200 elements | 480 elements instead of 1200 |
+//! | waves of elongation and Smith's waves, ± 2 % | √(k_el/ρ), √(E1/ρ), Smith's theory | the demand on any host of the law |
+//! | transverse wave at the clamp, 17.5 to 19.5 µs | 18 in the thesis (section 4.6), 18.6 on 1200 elements | three elements, which the wave passes in 0.3 µs each |
+//! | growth of the section, W_el at 30 µs | thesis Fig. 4.17 to 4.23 | half of the value: that there is such a wave is tested |
+//! | times of the short period | thesis section 4.7; √(k_el/ρ) for the wave | a sample, 0.02 µs, or what the text gives |
+//! | balance of energy, 0.5 % | 0 | central differences: the square of the step |
 #![cfg(feature = "driver")]
 
 use std::path::{Path, PathBuf};
@@ -109,7 +121,8 @@ fn waves_spread_the_section_outside_the_contact() {
     let case = coarse("no_failure.toml", "hyperelastic");
     let result = run(&case);
     assert_eq!(result.end, End::Time);
-    for (time, speed) in [(0.01, 109.7), (0.02, 96.2), (0.03, 72.8)] {
+    // OpenRadioss, the same law through this library's block entry.
+    for (time, speed) in [(0.01, 109.7), (0.02, 96.2), (0.03, 72.3)] {
         assert_between(result.at(time).speed, speed - 2.0, speed + 2.0);
     }
     assert_between(result.transverse_at_clamp(case.yarn.length).expect("it arrives"), 0.0175, 0.0195);

@@ -16,6 +16,8 @@ use crate::law::status;
 pub enum Entry {
     /// `toron_hyperelastic_point_f64`.
     Law,
+    /// `toron_hyperelastic_point_f32`, inputs rounded to single precision.
+    LawF32,
     /// `toron_hyperelastic_block_f64`, the point amid others.
     Block,
     /// `toron_hyperelastic_block_f32`, inputs rounded to single precision.
@@ -139,6 +141,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
     let answer = match entry {
         Entry::Law => calls::point(&properties, &columns, tangent),
+        Entry::LawF32 => calls::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
         Entry::Block => calls::block(&properties, &columns, line, tangent, c_api::toron_hyperelastic_block_tangent_f64),
         Entry::BlockF32 => {
             let single = |x: f64| x as f32;

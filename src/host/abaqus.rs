@@ -15,6 +15,8 @@
 //! Solids: three-dimensional ones (NDI = 3, NSHR = 3) and, for a UMAT, plane strain and axisymmetric ones (3, 1). The symbols
 //! `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`.
 
+use core::cell::Cell;
+
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::parameters;
@@ -25,6 +27,7 @@ use crate::law::status;
 use crate::law::tangent::{Jaumann, Measure, Moduli};
 
 use super::c_api::properties;
+use super::environment::in_default_environment;
 
 /// What PNEWDT is lowered to where a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
@@ -88,25 +91,43 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     let (properties, f, state) = unsafe {
         (
             properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
-            *dfgrd1.cast::<[[f64; 3]; 3]>(),
-            *statev.cast::<[f64; HYPERELASTIC_STATE]>(),
+            &*dfgrd1.cast::<[[f64; 3]; 3]>(),
+            &*statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
         )
     };
     let properties = match properties {
         Ok(properties) => properties,
         Err(error) => return error.code(),
     };
-    let mut code = status::OK;
-    let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f: &f, shear: nshr, status: &mut code };
-    let result = if ddsdde.is_null() {
-        f64::once(Call { properties, f: &f, fibre: None, state: &state, tangent: StressAndState, sink })
-    } else {
-        f64::once(Call { properties, f: &f, fibre: None, state: &state, tangent: Jaumann, sink })
-    };
-    match result {
-        Ok(()) => code,
-        Err(error) => error.code(),
+    if nshr == 1 && in_default_environment(|| out_of_plane(properties)) {
+        return status::FIBRE_OUT_OF_PLANE;
     }
+    // Two calls: each function is built for what it is asked. The structures are made where they are read, number by number.
+    if ddsdde.is_null() {
+        in_default_environment(move || {
+            let mut status = status::OK;
+            let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
+            let call = Call { properties, f, fibre: None, state, tangent: StressAndState, sink };
+            f64::once(call).map_or_else(|error| error.code(), |()| status)
+        })
+    } else {
+        in_default_environment(move || {
+            let mut status = status::OK;
+            let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
+            let call = Call { properties, f, fibre: None, state, tangent: Jaumann, sink };
+            f64::once(call).map_or_else(|error| error.code(), |()| status)
+        })
+    }
+}
+
+/// Whether the fibre is neither in the plane of a plane-strain or axisymmetric element nor normal to it: its stress would have
+/// components that such an element has not. What is not a direction is not this function's business.
+fn out_of_plane(properties: &[f64]) -> bool {
+    /// A direction typed or computed to this many digits counts as in the plane.
+    const TOLERANCE: f64 = 1e-9;
+    let &[.., m_1, m_2, m_3] = properties else { return false };
+    let (across, along) = (m_1.abs().max(m_2.abs()), m_3.abs());
+    along > TOLERANCE * across && across > TOLERANCE * along
 }
 
 /// Where a UMAT's answer goes: Abaqus's arrays, which the caller answers for.
@@ -134,7 +155,9 @@ impl Umat<'_> {
                 *self.stress.add(4).cast() = [s31, s23];
             }
             if point.status == status::OK {
-                *self.statev.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
+                for (c, &variable) in point.state.iter().enumerate() {
+                    *self.statev.add(c) = variable;
+                }
                 let [w_el, w_tc, w_td, w_ld, ..] = point.state;
                 let energy = ((w_el + w_tc) + w_td) + w_ld;
                 let jacobian = dot(self.f[0], cross(self.f[1], self.f[2]));
@@ -418,7 +441,7 @@ unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vumat(block) }
+    in_default_environment(move || unsafe { vumat(block) })
 }
 
 /// As `toron_abaqus_vumat_f64`, for jobs in single precision.
@@ -428,5 +451,5 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_vumat_f32(block: *const Vumat<f32>) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vumat(block) }
+    in_default_environment(move || unsafe { vumat(block) })
 }

@@ -10,22 +10,25 @@
 //!
 //! Every function may be called from any thread at any time.
 
+use core::cell::Cell;
 use core::slice;
 
 use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
 use crate::law::block::linear::{LinearPointers, LinearPrecision};
-use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::block::{Level, Pointers, Precision, components, components_mut};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 use crate::law::parameters::{self, Dimension, Property};
+use crate::law::point::{Alone, Call, Point, Sink, StressAndState};
 use crate::law::real::Real;
 use crate::law::state::{self, StateVariable};
 use crate::law::status::{self, Error};
-use crate::law::tangent::Measure;
+use crate::law::tangent::{Measure, Moduli, Nine, Six};
 use crate::law::wave_speed;
 
+use super::environment::in_default_environment;
 use super::units::UnitSystem;
 
 /// Number of the interface. It changes when a caller compiled against an older header could no longer run.
@@ -63,6 +66,15 @@ pub const TORON_TANGENT_TRUESDELL: i32 = 1;
 pub const TORON_TANGENT_JAUMANN: i32 = 2;
 /// dP/dF, first Piola-Kirchhoff stress by deformation gradient, both 11 21 31 12 22 32 13 23 33; 9 x 9.
 pub const TORON_TANGENT_NOMINAL: i32 = 3;
+
+/// Instructions of a block: the best that the processor has.
+pub const TORON_LEVEL_BEST: i32 = 0;
+/// None that only some processors of the architecture have.
+pub const TORON_LEVEL_BASELINE: i32 = 1;
+/// At most AVX2 with fused multiply-add.
+pub const TORON_LEVEL_AVX2: i32 = 2;
+/// At most AVX-512.
+pub const TORON_LEVEL_AVX512: i32 = 3;
 
 const _: () = {
     assert!(TORON_HYPERELASTIC_PROPERTIES == parameters::HYPERELASTIC_PROPERTIES);
@@ -133,8 +145,10 @@ pub(super) unsafe fn properties<'a, T>(
     Ok(unsafe { slice::from_raw_parts(properties, count) })
 }
 
-fn code(result: Result<i32, Error>) -> i32 {
-    result.unwrap_or_else(|error| error.code())
+/// The body of an entry, in the default floating-point environment; its error as a code.
+#[inline(always)]
+pub(super) fn entry(body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+    in_default_environment(|| body().unwrap_or_else(|error| error.code()))
 }
 
 /// Copies results out, if the caller wants them.
@@ -371,6 +385,19 @@ pub unsafe extern "C" fn toron_preset_f64(
     density: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
+    in_default_environment(move || unsafe { self::preset(preset, units, values, count, density) })
+}
+
+/// # Safety
+/// As for `toron_preset_f64`.
+unsafe fn preset(
+    preset: *const c_char,
+    units: *const c_char,
+    values: *mut f64,
+    count: size_t,
+    density: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
     let (found, units) =
         unsafe { (name(preset).and_then(parameters::preset), name(units).and_then(UnitSystem::parse)) };
     let (Some(preset), Some(units)) = (found, units) else {
@@ -412,8 +439,8 @@ pub unsafe extern "C" fn toron_preset_f32(
         return status::PROPERTY_COUNT;
     }
     // SAFETY: as the caller promises; `wide` has room for MOST values.
-    unsafe {
-        let code = toron_preset_f64(preset, units, wide.as_mut_ptr(), count, &mut wide_density);
+    in_default_environment(move || unsafe {
+        let code = self::preset(preset, units, wide.as_mut_ptr(), count, &mut wide_density);
         if code == status::OK {
             for (i, &value) in wide.iter().take(count).enumerate() {
                 *values.add(i) = value as f32;
@@ -421,7 +448,7 @@ pub unsafe extern "C" fn toron_preset_f32(
             store(&[wide_density as f32], density);
         }
         code
-    }
+    })
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -457,19 +484,37 @@ pub struct Block<T> {
     pub failure: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
-    /// Out, 1: an upper bound of the wave speed.
+    /// Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
+    /// step and bulk viscosity may take it as it is.
     pub wave_speed: *mut T,
     /// Out: a status code for each point.
     pub status: *mut i32,
+    /// In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+    /// same bits, the baseline others.
+    pub level: i32,
+}
+
+fn level(level: i32) -> Result<Option<Level>, Error> {
+    match level {
+        TORON_LEVEL_BEST => Ok(None),
+        TORON_LEVEL_BASELINE => Ok(Some(Level::Baseline)),
+        TORON_LEVEL_AVX2 => Ok(Some(Level::Avx2)),
+        TORON_LEVEL_AVX512 => Ok(Some(Level::Avx512)),
+        _ => Err(Error::Argument {
+            name: "level",
+            value: f64::from(level),
+            wanted: "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)",
+        }),
+    }
 }
 
 impl<T> Block<T> {
-    fn pointers(&self) -> Pointers<T>
+    fn pointers(&self) -> Result<Pointers<T>, Error>
     where
         T: Copy,
     {
         let stride = self.leading_dimension;
-        Pointers {
+        Ok(Pointers {
             n: self.n,
             leading_dimension: stride,
             deformation_gradient: components(self.deformation_gradient, stride),
@@ -487,8 +532,8 @@ impl<T> Block<T> {
             tangent: core::ptr::null_mut(),
             measure: Measure::Material,
             status: self.status,
-            level: None,
-        }
+            level: level(self.level)?,
+        })
     }
 }
 
@@ -535,7 +580,7 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f64(
     status: *mut i32,
 ) -> size_t {
     // SAFETY: the caller's promise.
-    unsafe { validate(values, count, message, capacity, status) }
+    in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
 }
 
 /// As `toron_hyperelastic_validate_f64`, in single precision.
@@ -551,13 +596,95 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
     status: *mut i32,
 ) -> size_t {
     // SAFETY: the caller's promise.
-    unsafe { validate(values, count, message, capacity, status) }
+    in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
 }
 
-/// The scalar law between a caller's arrays.
+/// What one call about one point gets beside its properties: F by columns, the fibre direction if it is not the properties', and
+/// the old state, whose place the new one may take.
+struct PointArguments<'a, T> {
+    f: &'a [[T; 3]; 3],
+    fibre: Option<[T; 3]>,
+    state: &'a [Cell<T>; state::HYPERELASTIC_STATE],
+}
+
+impl<'a, T: Real> PointArguments<'a, T> {
+    /// With `fresh` in place of an old state that is null.
+    ///
+    /// # Safety
+    /// Every pointer is null or has as many values: 9, 3, 11.
+    #[inline(always)]
+    unsafe fn new(
+        deformation_gradient: *const T,
+        fibre: *const T,
+        state_old: *const T,
+        fresh: &'a [Cell<T>; state::HYPERELASTIC_STATE],
+    ) -> Result<Self, Error> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let f = deformation_gradient.cast::<[[T; 3]; 3]>().as_ref().ok_or(Error::Plain(status::NULL_ARGUMENT))?;
+            let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
+            Ok(PointArguments { f, fibre, state: state_old.cast::<[Cell<T>; _]>().as_ref().unwrap_or(fresh) })
+        }
+    }
+}
+
+/// Where the answer for one point goes: the caller's arrays. Null is left out.
+pub(super) struct PointAnswer<'a, T> {
+    pub stress: *mut T,
+    pub state: *mut T,
+    pub modes: *mut T,
+    pub density: T,
+    pub wave_speed: *mut T,
+    pub tangent: *mut T,
+    pub status: &'a mut i32,
+}
+
+impl<T: Real> PointAnswer<'_, T> {
+    #[inline(always)]
+    fn put(self, point: &Point<T>) {
+        *self.status = point.status;
+        // SAFETY: whoever makes the answer has arrays of these sizes, or null.
+        unsafe {
+            store(&point.state, self.state);
+            store(&point.stress, self.stress);
+            store(point.modes.as_flattened(), self.modes);
+            if !self.wave_speed.is_null() {
+                *self.wave_speed = wave_speed::wave_speed(point.wave_modulus, self.density);
+            }
+        }
+    }
+}
+
+impl<T: Real> Sink<T, 0> for PointAnswer<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, _: [T; 0]) {
+        self.put(&point);
+    }
+}
+
+impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, moduli: [T; 21]) {
+        // SAFETY: whoever makes the answer has room for the matrix.
+        unsafe { *self.tangent.cast() = Moduli(moduli).matrix() };
+        self.put(&point);
+    }
+}
+
+impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, nominal: [T; 81]) {
+        // SAFETY: whoever makes the answer has room for the matrix.
+        unsafe { *self.tangent.cast() = nominal };
+        self.put(&point);
+    }
+}
+
+/// The law between a caller's arrays.
 ///
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
+#[inline(always)]
 #[allow(clippy::too_many_arguments)]
 unsafe fn point<T: Precision>(
     values: *const T,
@@ -571,35 +698,42 @@ unsafe fn point<T: Precision>(
     density: T,
     wave_speed: *mut T,
 ) -> Result<i32, Error> {
+    let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE].map(Cell::new);
     // SAFETY: the caller's promise.
-    let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
-    if deformation_gradient.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
+    let (properties, PointArguments { f, fibre, state }) = unsafe {
+        (
+            properties(values, count, &parameters::HYPERELASTIC)?,
+            PointArguments::new(deformation_gradient, fibre, state_old, &fresh)?,
+        )
+    };
     if !wave_speed.is_null() {
         wave_speed::check_density(density)?;
     }
+    let kept = !state_new.is_null();
     let request = Request {
         stress: !stress.is_null(),
-        energies: !state_new.is_null(),
-        invariants: !state_new.is_null(),
-        failure: !state_new.is_null(),
+        energies: kept,
+        invariants: kept,
+        failure: kept,
         modes: !modes.is_null(),
         wave_modulus: !wave_speed.is_null(),
     };
-    // SAFETY: the caller's promise.
-    unsafe {
-        let f = *deformation_gradient.cast::<[[T; 3]; 3]>();
-        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
-        let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE];
-        let old = if state_old.is_null() { fresh } else { *state_old.cast() };
-        let point = law.point_along(&f, fibre, &old, request);
-        store(&point.state, state_new);
-        store(&point.stress, stress);
-        store(point.modes.as_flattened(), modes);
-        store(&[wave_speed::wave_speed(point.wave_modulus, density)], wave_speed);
-        Ok(point.status)
+    let mut status = status::OK;
+    let sink = PointAnswer {
+        stress,
+        state: state_new,
+        modes,
+        density,
+        wave_speed,
+        tangent: core::ptr::null_mut(),
+        status: &mut status,
+    };
+    if request == Request::STRESS_AND_STATE {
+        T::once(Call { properties, f, fibre, state, tangent: StressAndState, sink })?;
+    } else {
+        T::once(Call { properties, f, fibre, state, tangent: Alone(request), sink })?;
     }
+    Ok(status)
 }
 
 /// The hyperelastic law at one point.
@@ -610,7 +744,8 @@ unsafe fn point<T: Precision>(
 /// - `state_old`: 11 values; null: all 0. `state_new`: room for 11; null: not wanted, and the point cannot fail. They may
 ///   be the same array.
 /// - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second
-///   Piola-Kirchhoff); `wave_speed`: room for 1, a bound at the reference density `density`; each may be null.
+///   Piola-Kirchhoff); `wave_speed`: room for 1, an upper bound at the reference density `density`, for current lengths: a
+///   solver's time step and bulk viscosity may take it as it is; each may be null.
 ///
 /// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
 ///
@@ -631,7 +766,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
     wave_speed: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         point(values, count, deformation_gradient, fibre, state_old, state_new, stress, modes, density, wave_speed)
     })
 }
@@ -655,7 +790,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     wave_speed: *mut f32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         point(values, count, deformation_gradient, fibre, state_old, state_new, stress, modes, density, wave_speed)
     })
 }
@@ -688,34 +823,37 @@ unsafe fn point_tangent<T: Precision>(
     measure: i32,
     tangent: *mut T,
 ) -> Result<i32, Error> {
+    let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE].map(Cell::new);
     // SAFETY: the caller's promise.
-    let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
+    let (properties, PointArguments { f, fibre, state }) = unsafe {
+        (
+            properties(values, count, &parameters::HYPERELASTIC)?,
+            PointArguments::new(deformation_gradient, fibre, state_old, &fresh)?,
+        )
+    };
     let measure = self::measure(measure)?;
-    if deformation_gradient.is_null() || tangent.is_null() {
+    if tangent.is_null() {
         return Err(Error::Plain(status::NULL_ARGUMENT));
     }
     let kept = !state_new.is_null();
     let request =
         Request { stress: true, energies: kept, invariants: kept, failure: kept, modes: false, wave_modulus: false };
-    // SAFETY: the caller's promise.
-    unsafe {
-        let f = *deformation_gradient.cast::<[[T; 3]; 3]>();
-        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
-        let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE];
-        let old = if state_old.is_null() { fresh } else { *state_old.cast() };
-        let point = if measure == Measure::Nominal {
-            let (point, moduli) = law.point_with_nominal(&f, fibre, &old, request);
-            store(&moduli, tangent);
-            point
-        } else {
-            let (point, moduli) = law.point_with_moduli(&f, fibre, &old, request, measure);
-            store(moduli.matrix().as_flattened(), tangent);
-            point
-        };
-        store(&point.state, state_new);
-        store(&point.stress, stress);
-        Ok(point.status)
+    let mut status = status::OK;
+    let sink = PointAnswer {
+        stress,
+        state: state_new,
+        modes: core::ptr::null_mut(),
+        density: T::splat(1.0),
+        wave_speed: core::ptr::null_mut(),
+        tangent,
+        status: &mut status,
+    };
+    if measure == Measure::Nominal {
+        T::once(Call { properties, f, fibre, state, tangent: Nine(request), sink })?;
+    } else {
+        T::once(Call { properties, f, fibre, state, tangent: Six(request, measure), sink })?;
     }
+    Ok(status)
 }
 
 /// The hyperelastic law at one point, with a tangent.
@@ -747,7 +885,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f64(
     tangent: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         point_tangent(values, count, deformation_gradient, fibre, state_old, state_new, stress, measure, tangent)
     })
 }
@@ -770,7 +908,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f32(
     tangent: *mut f32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         point_tangent(values, count, deformation_gradient, fibre, state_old, state_new, stress, measure, tangent)
     })
 }
@@ -795,28 +933,21 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
     least: *mut f64,
     direction: *mut f64,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    let law = unsafe { properties(values, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new);
-    let law = match law {
-        Ok(law) => law,
-        Err(error) => return error.code(),
-    };
-    if deformation_gradient.is_null() || least.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    // SAFETY: the caller's promise.
-    unsafe {
-        let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[f64; 3]>()) };
-        match law.acoustic(&*deformation_gradient.cast(), fibre) {
-            Ok(acoustic) => {
-                let wave = acoustic.least();
-                store(&[wave.modulus], least);
-                store(&wave.direction, direction);
-                status::OK
-            }
-            Err(code) => code,
+    entry(move || {
+        // SAFETY: the caller's promise.
+        let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
+        if deformation_gradient.is_null() || least.is_null() {
+            return Err(Error::Plain(status::NULL_ARGUMENT));
         }
-    }
+        // SAFETY: the caller's promise.
+        unsafe {
+            let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[f64; 3]>()) };
+            let wave = law.acoustic(&*deformation_gradient.cast(), fibre).map_err(Error::Plain)?.least();
+            store(&[wave.modulus], least);
+            store(&wave.direction, direction);
+        }
+        Ok(status::OK)
+    })
 }
 
 /// # Safety
@@ -828,7 +959,7 @@ unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Blo
     // SAFETY: the caller's promise.
     unsafe {
         let law = Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?;
-        law.raw_block(&(*block).pointers())
+        law.raw_block(&(*block).pointers()?)
     }
 }
 
@@ -850,7 +981,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     block: *const Block<f64>,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { self::block(values, count, block) })
+    entry(move || unsafe { self::block(values, count, block) })
 }
 
 /// As `toron_hyperelastic_block_f64`, in single precision.
@@ -864,7 +995,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
     block: *const Block<f32>,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { self::block(values, count, block) })
+    entry(move || unsafe { self::block(values, count, block) })
 }
 
 /// # Safety
@@ -883,7 +1014,7 @@ unsafe fn block_tangent<T: Precision>(
     unsafe {
         let law = Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?;
         let measure = self::measure(measure)?;
-        law.raw_block(&Pointers { tangent, measure, ..(*block).pointers() })
+        law.raw_block(&Pointers { tangent, measure, ..(*block).pointers()? })
     }
 }
 
@@ -907,7 +1038,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f64(
     tangent: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { block_tangent(values, count, block, measure, tangent) })
+    entry(move || unsafe { block_tangent(values, count, block, measure, tangent) })
 }
 
 /// As `toron_hyperelastic_block_tangent_f64`, in single precision.
@@ -923,7 +1054,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f32(
     tangent: *mut f32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { block_tangent(values, count, block, measure, tangent) })
+    entry(move || unsafe { block_tangent(values, count, block, measure, tangent) })
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -985,7 +1116,7 @@ pub unsafe extern "C" fn toron_linear_elastic_validate_f64(
     status: *mut i32,
 ) -> size_t {
     // SAFETY: the caller's promise.
-    unsafe {
+    in_default_environment(move || unsafe {
         let error = linear_elastic(values, count).err();
         store(&[error.map_or(status::OK, |error| error.code())], status);
         write_text(message, capacity, |sink| {
@@ -993,7 +1124,7 @@ pub unsafe extern "C" fn toron_linear_elastic_validate_f64(
                 error.describe(sink);
             }
         })
-    }
+    })
 }
 
 /// The material axes of the linear elastic law in the reference placement: where the axes of
@@ -1009,11 +1140,10 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(values: *const f64, count
         return status::NULL_ARGUMENT;
     }
     // SAFETY: the caller's promise.
-    code(unsafe { linear_elastic(values, count) }.map(|law| {
-        // SAFETY: the caller's promise.
-        unsafe { store(law.reference_axes().as_slice(), axes) };
-        status::OK
-    }))
+    entry(move || unsafe {
+        store(linear_elastic(values, count)?.reference_axes().as_slice(), axes);
+        Ok(status::OK)
+    })
 }
 
 /// # Safety
@@ -1098,7 +1228,7 @@ pub unsafe extern "C" fn toron_linear_elastic_step_f64(
     axes: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, None)
     })
 }
@@ -1129,7 +1259,7 @@ pub unsafe extern "C" fn toron_linear_elastic_step_tangent_f64(
 ) -> i32 {
     let tangent = Some((measure, tangent));
     // SAFETY: the caller's promise.
-    code(unsafe {
+    entry(move || unsafe {
         linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, tangent)
     })
 }
@@ -1162,14 +1292,11 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
         return status::NULL_ARGUMENT;
     }
     // SAFETY: the caller's promise.
-    code(unsafe { linear_elastic(values, count) }.and_then(|law| {
-        let criterion = self::criterion(criterion)?;
-        // SAFETY: the caller's promise.
-        unsafe {
-            let point = law.increment(&load(strain), jacobian, &load(state_old), criterion);
-            Ok(store_linear(&point, state_new, stress))
-        }
-    }))
+    entry(move || unsafe {
+        let law = linear_elastic(values, count)?;
+        let point = law.increment(&load(strain), jacobian, &load(state_old), self::criterion(criterion)?);
+        Ok(store_linear(&point, state_new, stress))
+    })
 }
 
 /// A block of points of the linear elastic law: component-major arrays, component c of point i at
@@ -1196,6 +1323,9 @@ pub struct LinearBlock<T> {
     pub stress: *mut T,
     /// Out: a status code for each point.
     pub status: *mut i32,
+    /// In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+    /// same bits, the baseline others.
+    pub level: i32,
 }
 
 /// # Safety
@@ -1213,7 +1343,8 @@ unsafe fn linear_block<T: LinearPrecision>(
     // SAFETY: the caller's promise.
     unsafe {
         let law = linear_elastic(values, count)?;
-        let LinearBlock { n, leading_dimension, f_old, f_new, axes, state_old, state_new, stress, status } = *block;
+        let LinearBlock { n, leading_dimension, f_old, f_new, axes, state_old, state_new, stress, status, level } =
+            *block;
         law.raw_block(&LinearPointers {
             n,
             leading_dimension,
@@ -1226,7 +1357,7 @@ unsafe fn linear_block<T: LinearPrecision>(
             status,
             rotation: self::rotation(rotation)?,
             criterion: self::criterion(criterion)?,
-            level: None,
+            level: self::level(level)?,
         })
     }
 }
@@ -1252,7 +1383,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     criterion: i32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { linear_block(values, count, block, rotation, criterion) })
+    entry(move || unsafe { linear_block(values, count, block, rotation, criterion) })
 }
 
 /// As `toron_linear_elastic_block_f64`, in single precision.
@@ -1268,5 +1399,5 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     criterion: i32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    code(unsafe { linear_block(values, count, block, rotation, criterion) })
+    entry(move || unsafe { linear_block(values, count, block, rotation, criterion) })
 }

@@ -14,16 +14,20 @@
 //! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM,
 //! and no initial stress. The header does not declare the entry: CalculiX alone calls it.
 
+use core::cell::Cell;
 use core::ffi::c_char;
 
-use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::block::Precision;
+use crate::law::hyperelastic::Request;
 use crate::law::parameters;
+use crate::law::point::{Call, Point, Sink};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status::{self, Error};
-use crate::law::tangent::{Measure, Moduli};
+use crate::law::tangent::{Measure, Moduli, Six};
 use nalgebra::{Matrix3, Vector3};
 
 use super::c_api::properties;
+use super::environment::in_default_environment;
 
 /// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
 const CUTBACK: f64 = 0.25;
@@ -68,18 +72,40 @@ struct Arguments<'a> {
     /// Axes of `*ORIENTATION` and the place of the point, if there are any.
     orientation: Option<(&'a [f64; 7], &'a [f64; 3])>,
     state_count: i32,
+    old_state: &'a [Cell<f64>; HYPERELASTIC_STATE],
+    pnewdt: f64,
+}
+
+/// What goes back to CalculiX.
+#[derive(Default)]
+struct Answer {
+    stress: [f64; 6],
+    stiffness: [f64; 21],
+    state: [f64; HYPERELASTIC_STATE],
+    pnewdt: f64,
+    status: i32,
+}
+
+impl Sink<f64, 21> for &mut Answer {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+        let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
+        self.stress = COMPONENTS.map(|c| stress[c]);
+        self.stiffness = PLACES.map(|place| moduli[place]);
+        self.state = point.state;
+        self.status = point.status;
+    }
 }
 
 impl Arguments<'_> {
-    /// The law of the deck's properties, and the fibre direction where it is not theirs.
+    /// The law's answer.
     ///
     /// # Errors
     /// Whatever a deck may have wrong that the arguments show.
-    fn law(&self) -> Result<(Hyperelastic<f64>, Option<[f64; 3]>), Error> {
+    fn evaluate(&self) -> Result<Answer, Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
         // SAFETY: CalculiX's promise: as many constants as kode says.
         let properties = unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?;
-        let law = Hyperelastic::new(properties)?;
         if self.state_count < HYPERELASTIC_STATE as i32 {
             return Err(Error::Plain(status::STATE_COUNT));
         }
@@ -93,7 +119,21 @@ impl Arguments<'_> {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
         };
-        Ok((law, fibre))
+        let mut answer = Answer { pnewdt: self.pnewdt, ..Answer::default() };
+        let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
+        let tangent = Six(request, Measure::Material);
+        f64::once(Call { properties, f: self.f, fibre, state: self.old_state, tangent, sink: &mut answer })?;
+        if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
+            return Err(Error::Plain(answer.status)); // no smaller increment helps
+        }
+        if answer.status != status::OK {
+            answer.pnewdt = if self.pnewdt > 0.0 { self.pnewdt.min(CUTBACK) } else { CUTBACK };
+        }
+        if let (true, &[k_el, ..]) = (answer.stiffness.iter().all(|&c| c == 0.0), properties) {
+            let residual = RESIDUAL_STIFFNESS * 0.5 * k_el;
+            answer.stiffness = DIAGONAL.map(|diagonal| if diagonal { residual } else { 0.0 });
+        }
+        Ok(answer)
     }
 
     /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
@@ -128,25 +168,36 @@ fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place
     (e1 * m_1 + e2 * m_2 + e3 * m_3).into()
 }
 
-/// dS/dE as CalculiX stores it; `residual` times the identity where there is none.
-fn stiffness(moduli: &Moduli<f64>, residual: f64) -> [f64; 21] {
-    if moduli.0.iter().all(|&c| c == 0.0) {
-        return DIAGONAL.map(|diagonal| if diagonal { residual } else { 0.0 });
+/// An error in words: writing numbers is arithmetic, which has no place in CalculiX's environment.
+struct Message {
+    text: [u8; 400],
+    length: usize,
+}
+
+impl From<Error> for Message {
+    fn from(error: Error) -> Self {
+        let mut message = Message { text: [0; 400], length: 0 };
+        error.describe(&mut |piece| {
+            for (to, &from) in message.text.iter_mut().skip(message.length).zip(piece.as_bytes()) {
+                *to = from;
+                message.length += 1;
+            }
+        });
+        message
     }
-    PLACES.map(|place| moduli.0[place])
 }
 
 /// Prints what is wrong as CalculiX prints its own errors, and ends the job as it does.
-fn refuse(material: &[u8; 80], error: Error) -> ! {
-    let print = |text: &str| {
+fn refuse(material: &[u8; 80], message: &Message) -> ! {
+    let print = |text: &[u8]| {
         // SAFETY: the format takes a length and as many bytes.
         unsafe { libc::printf(c"%.*s".as_ptr(), text.len() as libc::c_int, text.as_ptr()) };
     };
-    print(" *ERROR: toron, material ");
-    print(core::str::from_utf8(material).unwrap_or("").trim_end());
-    print(": ");
-    error.describe(&mut |piece| print(piece));
-    print("\n");
+    print(b" *ERROR: toron, material ");
+    print(material.trim_ascii_end());
+    print(b": ");
+    print(message.text.get(..message.length).unwrap_or_default());
+    print(b"\n");
     // SAFETY: CalculiX's own way out, which writes what its files still lack.
     unsafe { libc::exit(EXIT_CODE) }
 }
@@ -191,9 +242,11 @@ pub unsafe extern "C" fn HYPERELASTIC(
     _ipkon: *const i32,
     _amat_length: i32,
 ) {
-    // SAFETY: CalculiX's promise.
-    let arguments = unsafe {
-        Arguments {
+    // SAFETY: CalculiX's promise; integration points and elements count from 1.
+    let (arguments, new) = unsafe {
+        let point = (*iel as usize - 1) * *mi as usize + (*iint as usize - 1);
+        let place = point * *nstate_ as usize;
+        let arguments = Arguments {
             kode: *kode,
             constants: elconloc,
             strain: &*emec.cast(),
@@ -201,33 +254,20 @@ pub unsafe extern "C" fn HYPERELASTIC(
             f: &*xkl.cast(),
             orientation: usize::try_from(*iorien - 1).ok().map(|i| (&*orab.cast::<[f64; 7]>().add(i), &*pgauss.cast())),
             state_count: *nstate_,
-        }
+            old_state: &*xstateini.add(place).cast(),
+            pnewdt: *pnewdt,
+        };
+        (arguments, xstate.add(place))
     };
-    let (law, fibre) = match arguments.law() {
-        Ok(law) => law,
+    match in_default_environment(|| arguments.evaluate().map_err(Message::from)) {
+        // SAFETY: CalculiX's promise.
+        Ok(answer) => unsafe {
+            *stre.cast() = answer.stress;
+            *stiff.cast() = answer.stiffness;
+            *new.cast() = answer.state;
+            *pnewdt = answer.pnewdt;
+        },
         // SAFETY: a material's name has 80 characters.
-        Err(error) => refuse(unsafe { &*amat.cast() }, error),
-    };
-    // SAFETY: CalculiX's promise; integration points and elements count from 1.
-    let (old, new) = unsafe {
-        let place = (*iel as usize - 1) * *mi as usize + (*iint as usize - 1);
-        let place = place * *nstate_ as usize;
-        (&*xstateini.add(place).cast::<[f64; HYPERELASTIC_STATE]>(), xstate.add(place))
-    };
-    let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
-    let (point, moduli) = law.point_with_moduli(arguments.f, fibre, old, request, Measure::Material);
-    if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&point.status) {
-        // No smaller increment helps. SAFETY: as above.
-        refuse(unsafe { &*amat.cast() }, Error::Plain(point.status));
-    }
-    let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
-    // SAFETY: as above.
-    unsafe {
-        *stre.cast::<[f64; 6]>() = COMPONENTS.map(|c| stress[c]);
-        *stiff.cast::<[f64; 21]>() = stiffness(&moduli, RESIDUAL_STIFFNESS * law.bulk_and_shear()[0]);
-        *new.cast::<[f64; HYPERELASTIC_STATE]>() = point.state;
-        if point.status != status::OK {
-            *pnewdt = if *pnewdt > 0.0 { (*pnewdt).min(CUTBACK) } else { CUTBACK };
-        }
+        Err(message) => refuse(unsafe { &*amat.cast() }, &message),
     }
 }

@@ -1,10 +1,11 @@
 //! The C entries as their hosts call them, behind safe functions: for the program's `eval` and `bench` and for the explicit
 //! host.
 
+use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 
 use super::c_api::{self, Block, LinearBlock};
-use super::{abaqus, lsdyna};
+use super::{abaqus, calculix, lsdyna};
 use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use crate::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
 use crate::law::status;
@@ -35,42 +36,34 @@ pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String
     String::from_utf8_lossy(&text[..length.min(511)]).into_owned()
 }
 
-pub fn point(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
-    let mut answer = Answer::default();
-    let mut modes = [[0.0; 6]; 4];
+/// One point in either precision: stress and state as a solver asks for them, the modes by a call of their own, DDSDDE by a third.
+pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> Answer {
+    let mut alone = OnePoint::default();
+    let status = alone.call(properties, f, false);
+    let mut modes = [[T::default(); 6]; 4];
+    let (values, count) = (properties.as_ptr(), properties.len());
+    let nothing = null_mut();
     // SAFETY: the arrays have the sizes that the entry asks for.
-    answer.status = unsafe {
-        c_api::toron_hyperelastic_point_f64(
-            properties.as_ptr(),
-            properties.len(),
-            f.as_ptr(),
-            null(),
-            null(),
-            answer.state.as_mut_ptr(),
-            answer.stress.as_mut_ptr(),
-            modes.as_mut_ptr().cast(),
-            1.0,
-            null_mut(),
-        )
+    unsafe {
+        let (old, modes) = (null(), modes.as_mut_ptr().cast());
+        T::POINT(values, count, f.as_ptr(), null(), old, nothing, nothing, modes, T::default(), nothing);
+    }
+    let mut answer = Answer {
+        status,
+        stress: alone.stress.map(Into::into),
+        state: alone.state.map(Into::into),
+        modes: Some(modes.map(|mode| mode.map(Into::into))),
+        ddsdde: None,
     };
-    answer.modes = Some(modes);
     if tangent {
-        let mut rows = [[0.0; 6]; 6];
+        let mut rows = [[T::default(); 6]; 6];
         // SAFETY: as above. The status is that of the call before, or the tangent's own.
         answer.status = unsafe {
-            c_api::toron_hyperelastic_point_tangent_f64(
-                properties.as_ptr(),
-                properties.len(),
-                f.as_ptr(),
-                null(),
-                null(),
-                null_mut(),
-                null_mut(),
-                c_api::TORON_TANGENT_JAUMANN,
-                rows.as_mut_ptr().cast(),
-            )
+            let measure = c_api::TORON_TANGENT_JAUMANN;
+            let (old, rows) = (null(), rows.as_mut_ptr().cast());
+            T::POINT_TANGENT(values, count, f.as_ptr(), null(), old, nothing, nothing, measure, rows)
         };
-        answer.ddsdde = Some(rows);
+        answer.ddsdde = Some(rows.map(|row| row.map(Into::into)));
     }
     answer
 }
@@ -131,6 +124,7 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
         modes: modes.as_mut_ptr(),
         wave_speed: null_mut(),
         status: codes.as_mut_ptr(),
+        level: c_api::TORON_LEVEL_BEST,
     };
     let mut rows = array(36);
     let wanted = if tangent { rows.as_mut_ptr() } else { null_mut() };
@@ -377,24 +371,253 @@ impl FromF64 for f32 {
     }
 }
 
-/// A precision of the block entries.
+/// A precision of the entries that there are in both.
 pub trait BlockPrecision: Copy + Default + Into<f64> + FromF64 + Send + Sync + 'static {
     const ENTRY: unsafe extern "C" fn(*const Self, usize, *const Block<Self>) -> i32;
     const LINEAR_ENTRY: LinearBlockEntry<Self>;
+    const POINT: PointEntry<Self>;
+    const POINT_TANGENT: PointTangentEntry<Self>;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<Self>) -> i32;
+    const LSDYNA: unsafe extern "C" fn(*const Self, *mut Self, *mut Self, i32, *mut c_int) -> i32;
+    const LSDYNA_VECTOR: LsdynaVectorEntry<Self>;
 }
 
 pub type LinearBlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const LinearBlock<T>, i32, i32) -> i32;
+pub type PointEntry<T> =
+    unsafe extern "C" fn(*const T, usize, *const T, *const T, *const T, *mut T, *mut T, *mut T, T, *mut T) -> i32;
+pub type PointTangentEntry<T> =
+    unsafe extern "C" fn(*const T, usize, *const T, *const T, *const T, *mut T, *mut T, i32, *mut T) -> i32;
+pub type LsdynaVectorEntry<T> = unsafe extern "C" fn(
+    *const T,
+    *mut T,
+    *mut T,
+    *mut T,
+    *mut T,
+    *mut T,
+    *mut T,
+    *mut T,
+    i32,
+    i32,
+    i32,
+    i32,
+    *mut c_int,
+) -> i32;
 
 impl BlockPrecision for f64 {
     const ENTRY: unsafe extern "C" fn(*const f64, usize, *const Block<f64>) -> i32 =
         c_api::toron_hyperelastic_block_f64;
     const LINEAR_ENTRY: LinearBlockEntry<f64> = c_api::toron_linear_elastic_block_f64;
+    const POINT: PointEntry<f64> = c_api::toron_hyperelastic_point_f64;
+    const POINT_TANGENT: PointTangentEntry<f64> = c_api::toron_hyperelastic_point_tangent_f64;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f64>) -> i32 = abaqus::toron_abaqus_vumat_f64;
+    const LSDYNA: unsafe extern "C" fn(*const f64, *mut f64, *mut f64, i32, *mut c_int) -> i32 =
+        lsdyna::toron_lsdyna_umat_f64;
+    const LSDYNA_VECTOR: LsdynaVectorEntry<f64> = lsdyna::toron_lsdyna_umat_vector_f64;
 }
 
 impl BlockPrecision for f32 {
     const ENTRY: unsafe extern "C" fn(*const f32, usize, *const Block<f32>) -> i32 =
         c_api::toron_hyperelastic_block_f32;
     const LINEAR_ENTRY: LinearBlockEntry<f32> = c_api::toron_linear_elastic_block_f32;
+    const POINT: PointEntry<f32> = c_api::toron_hyperelastic_point_f32;
+    const POINT_TANGENT: PointTangentEntry<f32> = c_api::toron_hyperelastic_point_tangent_f32;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f32>) -> i32 = abaqus::toron_abaqus_vumat_f32;
+    const LSDYNA: unsafe extern "C" fn(*const f32, *mut f32, *mut f32, i32, *mut c_int) -> i32 =
+        lsdyna::toron_lsdyna_umat_f32;
+    const LSDYNA_VECTOR: LsdynaVectorEntry<f32> = lsdyna::toron_lsdyna_umat_vector_f32;
+}
+
+/// One point through the C entry: stress and state, the old one on entry; with `tangent` dS/dE.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OnePoint<T> {
+    pub stress: [T; 6],
+    pub state: [T; HYPERELASTIC_STATE],
+    pub tangent: [[T; 6]; 6],
+}
+
+impl<T: BlockPrecision> OnePoint<T> {
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> i32 {
+        let (values, count, state) = (properties.as_ptr(), properties.len(), self.state.as_mut_ptr());
+        let stress = self.stress.as_mut_ptr();
+        // SAFETY: the arrays have the sizes that the entries ask for; the new state replaces the old one.
+        unsafe {
+            if tangent {
+                let rows = self.tangent.as_mut_ptr().cast();
+                let measure = c_api::TORON_TANGENT_MATERIAL;
+                T::POINT_TANGENT(values, count, f.as_ptr(), null(), state, state, stress, measure, rows)
+            } else {
+                let nothing = null_mut();
+                T::POINT(values, count, f.as_ptr(), null(), state, state, stress, nothing, T::default(), nothing)
+            }
+        }
+    }
+}
+
+/// One element through LS-DYNA's scalar entry: the state in the first eleven of its history, F behind it.
+#[derive(Clone, Copy, Debug)]
+pub struct LsdynaElement<T> {
+    pub stress: [T; 6],
+    pub history: [T; HYPERELASTIC_STATE + 9],
+}
+
+impl<T: BlockPrecision> LsdynaElement<T> {
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let (count, mut failed) = (HYPERELASTIC_STATE as i32, 0);
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe {
+            T::LSDYNA(properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr(), count, &mut failed)
+        }
+    }
+}
+
+/// A vector of elements as LS-DYNA keeps it: `history` has the eleven state variables and the nine entries of F, component-major.
+#[derive(Debug)]
+pub struct LsdynaVector<T> {
+    pub n: usize,
+    pub stress: Vec<T>,
+    pub history: Vec<T>,
+    pub failed: Vec<c_int>,
+}
+
+impl<T: BlockPrecision> LsdynaVector<T> {
+    pub fn new(n: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * n];
+        LsdynaVector { n, stress: array(6), history: array(HYPERELASTIC_STATE + 9), failed: vec![0; n] }
+    }
+
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let n = self.n;
+        let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| self.stress[c * n..].as_mut_ptr());
+        let (history, count, last) = (self.history.as_mut_ptr(), HYPERELASTIC_STATE as i32, n as i32);
+        let failed = self.failed.as_mut_ptr();
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe { T::LSDYNA_VECTOR(properties.as_ptr(), s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed) }
+    }
+}
+
+/// The arrays of a VUMAT, component-major; a step whose stretch does not change.
+#[derive(Debug)]
+pub struct VumatArrays<T> {
+    pub n: usize,
+    pub stretch: Vec<T>,
+    pub state_old: Vec<T>,
+    pub state_new: Vec<T>,
+    pub stress: Vec<T>,
+    /// Zeros and ones for what the law does not look at, or only at the value of.
+    zeros: Vec<T>,
+    ones: Vec<T>,
+    energies: [Vec<T>; 2],
+}
+
+impl<T: BlockPrecision> VumatArrays<T> {
+    pub fn new(n: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * n];
+        VumatArrays {
+            n,
+            stretch: array(6),
+            state_old: array(HYPERELASTIC_STATE),
+            state_new: array(HYPERELASTIC_STATE),
+            stress: array(6),
+            zeros: array(6),
+            ones: vec![T::from_f64(1.0); n],
+            energies: [array(1), array(1)],
+        }
+    }
+
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let (zeros, one) = (self.zeros.as_ptr(), T::from_f64(1.0));
+        let [internal, inelastic] = &mut self.energies;
+        let block = abaqus::Vumat {
+            nblock: self.n as i32,
+            ndir: 3,
+            nshr: 3,
+            nstatev: HYPERELASTIC_STATE as i32,
+            nprops: HYPERELASTIC_PROPERTIES as i32,
+            step_time: one,
+            total_time: one,
+            props: properties.as_ptr(),
+            density: self.ones.as_ptr(),
+            strain_inc: zeros,
+            stretch_old: self.stretch.as_ptr(),
+            stretch_new: self.stretch.as_ptr(),
+            stress_old: zeros,
+            state_old: self.state_old.as_ptr(),
+            ener_intern_old: zeros,
+            ener_inelas_old: zeros,
+            stress_new: self.stress.as_mut_ptr(),
+            state_new: self.state_new.as_mut_ptr(),
+            ener_intern_new: internal.as_mut_ptr(),
+            ener_inelas_new: inelastic.as_mut_ptr(),
+        };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { T::VUMAT(&block) }
+    }
+}
+
+/// One integration point as CalculiX hands it over: the old and the new state, second Piola–Kirchhoff stress and dS/dE.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CalculixPoint {
+    pub state_old: [f64; HYPERELASTIC_STATE],
+    pub state: [f64; HYPERELASTIC_STATE],
+    /// 11 22 33 12 13 23.
+    pub stress: [f64; 6],
+    /// The upper triangle in that order, by columns.
+    pub stiffness: [f64; 21],
+    pub pnewdt: f64,
+}
+
+impl CalculixPoint {
+    /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) {
+        let strain = |i: usize, j: usize| {
+            let product = (0..3).map(|k| f[3 * i + k] * f[3 * j + k]).sum::<f64>();
+            0.5 * (product - if i == j { 1.0 } else { 0.0 })
+        };
+        let strain = [strain(0, 0), strain(1, 1), strain(2, 2), strain(0, 1), strain(0, 2), strain(1, 2)];
+        let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
+        let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
+        let (i, d) = (&raw const none, zeros.as_ptr());
+        // SAFETY: the arrays have the sizes that CalculiX promises; what the entry does not look at is zero.
+        unsafe {
+            calculix::HYPERELASTIC(
+                name.as_ptr(),
+                &one,
+                &one,
+                &kode,
+                properties.as_ptr(),
+                strain.as_ptr(),
+                d,
+                d,
+                d,
+                d,
+                f.as_ptr(),
+                d,
+                i,
+                d,
+                d,
+                d,
+                d,
+                i,
+                i,
+                &one,
+                &state_count,
+                self.state_old.as_ptr(),
+                self.state.as_mut_ptr(),
+                self.stress.as_mut_ptr(),
+                self.stiffness.as_mut_ptr(),
+                i,
+                d,
+                d,
+                &mut self.pnewdt,
+                i,
+                80,
+            );
+        }
+    }
 }
 
 /// The arrays of an explicit solver, component-major with one leading dimension; the history is replaced in place.
@@ -450,6 +673,7 @@ pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBloc
         modes: null_mut(),
         wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
         status: status.as_mut_ptr(),
+        level: c_api::TORON_LEVEL_BEST,
     };
     // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly.
     unsafe { T::ENTRY(properties.as_ptr(), properties.len(), &arrays) }
@@ -498,6 +722,7 @@ pub fn linear_elastic_block<T: BlockPrecision>(
         state_new: state,
         stress: stress.as_mut_ptr(),
         status: status.as_mut_ptr(),
+        level: c_api::TORON_LEVEL_BEST,
     };
     let rotation = match frame {
         LinearFrame::Fibre => c_api::TORON_ROTATION_FIBRE,

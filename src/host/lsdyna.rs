@@ -12,16 +12,19 @@
 //!
 //! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
 
+use core::cell::Cell;
 use core::ffi::c_int;
 
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
+use crate::law::point::{Call, Point, Sink, StressAndState};
+use crate::law::real::dot;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status::{self, Error};
-use crate::law::tangent::Measure;
+use crate::law::tangent::{Measure, Six};
 
-use super::c_api::{properties, store};
+use super::c_api::{PointAnswer, entry, properties, store};
 
 /// Elements `first` to `last`, counted from 0, of a vector block.
 struct Elements<T> {
@@ -43,6 +46,35 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
     }
     // SAFETY: the caller's promise.
     Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
+}
+
+/// Whether the history of an element can be this law's, with F behind it: `history(j)` is hsv(j + 1), j below 20.
+///
+/// LS-DYNA hands the card's NHV to no routine. With IHYPER = 0 there is no F, and where NHV is not 11, F stands elsewhere, behind
+/// zeros: before the first call of an element it is a rotation, or nearly one, and two of its columns tell it. After a call
+/// `failed` and `alive` tell that the state is this law's, since every call writes 0 and 1 or 1 and 0. What is not finite is left
+/// to the law.
+fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
+    const F: usize = HYPERELASTIC_STATE;
+    let h = |j: usize| -> f64 { history(j).into() };
+    if (F..F + 9).all(|j| h(j) == 0.0) {
+        return false;
+    }
+    if [(0.0, 1.0), (1.0, 0.0)].contains(&(h(FAILED), h(ALIVE))) {
+        return true;
+    }
+    // No element starts flat.
+    let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
+    if (0..3).any(|k| zeros(F + 3 * k, 1) || zeros(F + k, 3)) {
+        return false;
+    }
+    let is_at = |start: usize| {
+        let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
+        [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)].iter().all(|x| x.abs() < 0.25)
+    };
+    let leading_zeros = (0..F + 2).take_while(|&j| h(j) == 0.0).count();
+    let mut elsewhere = if leading_zeros < F { 0..=leading_zeros } else { F + 1..=leading_zeros };
+    !elsewhere.any(is_at)
 }
 
 /// Runs the law over the elements in place, and fails those that have failed or could not be evaluated.
@@ -97,30 +129,75 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
     Ok(worst)
 }
 
+/// The card's properties, and F and the state of an element, for the number of history variables that the law needs.
+///
+/// # Errors
+/// A property that is wrong; −106 where F cannot be what LS-DYNA has written.
+///
 /// # Safety
-/// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Precision>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32, failel: *mut c_int) -> i32 {
-    if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
-        return status::NULL_ARGUMENT;
+/// `cm` has the law's properties, `hsv` its state and F.
+unsafe fn element<'a, T: Precision>(
+    cm: *const T,
+    hsv: *const T,
+    nhv: i32,
+) -> Result<(&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]), Error> {
+    if nhv != HYPERELASTIC_STATE as i32 {
+        return Err(Error::Plain(status::STATE_COUNT));
     }
     // SAFETY: the caller's promise.
     unsafe {
-        let law = match law(cm, nhv) {
-            Ok(law) => law,
-            Err(error) => return error.code(),
-        };
-        let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
-        let request = Request { modes: false, wave_modulus: false, ..Request::ALL };
-        let mut point = law.point_along(&f, None, &*hsv.cast(), request);
+        let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
+        if !is_plausible(|j| *hsv.add(j)) {
+            Hyperelastic::new(properties)?;
+            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        }
+        Ok((properties, &*hsv.add(HYPERELASTIC_STATE).cast(), &*hsv.cast()))
+    }
+}
+
+/// Where the scalar routine's answer goes.
+struct Element<'a, T> {
+    sig: *mut T,
+    hsv: *mut T,
+    failel: *mut c_int,
+    status: &'a mut i32,
+}
+
+impl<T: Precision> Sink<T, 0> for Element<'_, T> {
+    #[inline(always)]
+    fn take(self, mut point: Point<T>, _: [T; 0]) {
+        *self.status = point.status;
         if point.status != status::OK {
             point.state[FAILED] = T::splat(1.0);
             point.state[ALIVE] = T::splat(0.0);
         }
-        store(&point.stress, sig);
-        store(&point.state, hsv);
-        *failel = c_int::from(!point.state[FAILED].lt(T::splat(0.5)));
-        point.status
+        // SAFETY: whoever makes this has arrays of these sizes.
+        unsafe {
+            *self.sig.cast() = point.stress;
+            *self.hsv.cast() = point.state;
+            *self.failel = c_int::from(!point.state[FAILED].lt(T::splat(0.5)));
+        }
     }
+}
+
+/// # Safety
+/// As for `toron_lsdyna_umat_f64`.
+unsafe fn scalar<T: Precision>(
+    cm: *const T,
+    sig: *mut T,
+    hsv: *mut T,
+    nhv: i32,
+    failel: *mut c_int,
+) -> Result<i32, Error> {
+    if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    // SAFETY: the caller's promise.
+    let (properties, f, state) = unsafe { element(cm, hsv, nhv) }?;
+    let mut status = status::OK;
+    let sink = Element { sig, hsv, failel, status: &mut status };
+    T::once(Call { properties, f, fibre: None, state, tangent: StressAndState, sink })?;
+    Ok(status)
 }
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
@@ -128,8 +205,8 @@ unsafe fn scalar<T: Precision>(cm: *const T, sig: *mut T, hsv: *mut T, nhv: i32,
 /// `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
 /// `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
 ///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code: no
-/// stress, energies and invariants as they were, the element failed.
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
+/// or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
 ///
 /// # Safety
 /// Every pointer has as many values as said.
@@ -142,7 +219,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     failel: *mut c_int,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { scalar(cm, sig, hsv, nhv, failel) }
+    entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
 }
 
 /// As `toron_lsdyna_umat_f64`, in single precision.
@@ -158,7 +235,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
     failel: *mut c_int,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { scalar(cm, sig, hsv, nhv, failel) }
+    entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
 }
 
 /// # Safety
@@ -173,15 +250,15 @@ unsafe fn vector<T: Precision>(
     llt: i32,
     nlq: i32,
     failels: *mut c_int,
-) -> i32 {
+) -> Result<i32, Error> {
     if cm.is_null() || stress.iter().any(|component| component.is_null()) || hsvs.is_null() || failels.is_null() {
-        return status::NULL_ARGUMENT;
+        return Err(Error::Plain(status::NULL_ARGUMENT));
     }
     if lft < 1 || llt < lft - 1 {
-        return status::BAD_COUNT;
+        return Err(Error::Plain(status::BAD_COUNT));
     }
     if nlq < llt {
-        return status::BAD_LEADING_DIMENSION;
+        return Err(Error::Plain(status::BAD_LEADING_DIMENSION));
     }
     let elements = Elements {
         stress,
@@ -192,7 +269,14 @@ unsafe fn vector<T: Precision>(
         failed: failels,
     };
     // SAFETY: the caller's promise.
-    unsafe { law(cm, nhv).and_then(|law| evaluate(&law, &elements)) }.unwrap_or_else(|error| error.code())
+    unsafe {
+        let law = law(cm, nhv)?;
+        let first = elements.history.wrapping_add(elements.first);
+        if elements.count > 0 && !is_plausible(|j| *first.wrapping_add(j * elements.leading_dimension)) {
+            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        }
+        evaluate(&law, &elements)
+    }
 }
 
 /// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
@@ -202,7 +286,8 @@ unsafe fn vector<T: Precision>(
 /// `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 ///
 /// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
-/// `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or the most negative −3xx code of an element: that one
+/// `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
+/// and nothing is written; or the most negative −3xx code of an element: that one
 /// carries no stress, keeps its energies and invariants, and is failed.
 ///
 /// # Safety
@@ -225,7 +310,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
     failels: *mut c_int,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) }
+    entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
 }
 
 /// As `toron_lsdyna_umat_vector_f64`, in single precision.
@@ -250,26 +335,31 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
     failels: *mut c_int,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) }
+    entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
 }
 
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> i32 {
+unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
     if cm.is_null() || hsv.is_null() || es.is_null() {
-        return status::NULL_ARGUMENT;
+        return Err(Error::Plain(status::NULL_ARGUMENT));
     }
     // SAFETY: the caller's promise.
-    unsafe {
-        let law = match law(cm, nhv) {
-            Ok(law) => law,
-            Err(error) => return error.code(),
-        };
-        let f = *hsv.add(HYPERELASTIC_STATE).cast::<[[T; 3]; 3]>();
-        let (point, moduli) = law.point_with_moduli(&f, None, &*hsv.cast(), Request::default(), Measure::Truesdell);
-        store(moduli.matrix().as_flattened(), es);
-        point.status
-    }
+    let (properties, f, state) = unsafe { element(cm, hsv, nhv) }?;
+    let none = core::ptr::null_mut;
+    let mut status = status::OK;
+    let sink = PointAnswer {
+        stress: none(),
+        state: none(),
+        modes: none(),
+        density: T::splat(1.0),
+        wave_speed: none(),
+        tangent: es,
+        status: &mut status,
+    };
+    let tangent = Six(Request::default(), Measure::Truesdell);
+    T::once(Call { properties, f, fibre: None, state, tangent, sink })?;
+    Ok(status)
 }
 
 /// The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
@@ -278,7 +368,8 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
 /// them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
 /// may be null.
 ///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT` or a −2xx code, and nothing is written; or a −3xx code, and `es` is 0,
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
+/// written; or a −3xx code, and `es` is 0,
 /// as it is for an element that has failed.
 ///
 /// # Safety
@@ -286,7 +377,7 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { scalar_tangent(cm, hsv, nhv, es) }
+    entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
 }
 
 /// As `toron_lsdyna_utan_f64`, in single precision.
@@ -296,7 +387,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { scalar_tangent(cm, hsv, nhv, es) }
+    entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
 }
 
 /// # Safety
@@ -309,15 +400,15 @@ unsafe fn vector_tangent<T: Precision>(
     llt: i32,
     nlq: i32,
     dsave: *mut T,
-) -> i32 {
+) -> Result<i32, Error> {
     if cm.is_null() || hsvs.is_null() || dsave.is_null() {
-        return status::NULL_ARGUMENT;
+        return Err(Error::Plain(status::NULL_ARGUMENT));
     }
     if lft < 1 || llt < lft - 1 {
-        return status::BAD_COUNT;
+        return Err(Error::Plain(status::BAD_COUNT));
     }
     if nlq < llt {
-        return status::BAD_LEADING_DIMENSION;
+        return Err(Error::Plain(status::BAD_LEADING_DIMENSION));
     }
     let (start, stride) = ((lft - 1) as usize, nlq as usize);
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
@@ -343,7 +434,13 @@ unsafe fn vector_tangent<T: Precision>(
         level: None,
     };
     // SAFETY: the caller's promise.
-    unsafe { law(cm, nhv).and_then(|law| law.raw_block(&pointers)) }.unwrap_or_else(|error| error.code())
+    unsafe {
+        let law = law(cm, nhv)?;
+        if pointers.n > 0 && !is_plausible(|j| *row(j)) {
+            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        }
+        law.raw_block(&pointers)
+    }
 }
 
 /// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
@@ -366,7 +463,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     dsave: *mut f64,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) }
+    entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
 /// As `toron_lsdyna_utan_vector_f64`, in single precision.
@@ -384,7 +481,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     dsave: *mut f32,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) }
+    entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
 /// Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
@@ -404,17 +501,15 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     if bulk.is_null() || shear.is_null() {
         return status::NULL_ARGUMENT;
     }
-    // SAFETY: the caller's promise.
-    match unsafe { properties(values, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new) {
-        Ok(law) => {
-            let [k, g] = law.bulk_and_shear();
-            // SAFETY: not null, and the caller's promise.
-            unsafe {
-                store(&[k], bulk);
-                store(&[g], shear);
-            }
-            status::OK
+    entry(move || {
+        // SAFETY: the caller's promise.
+        let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
+        let [k, g] = law.bulk_and_shear();
+        // SAFETY: not null, and the caller's promise.
+        unsafe {
+            store(&[k], bulk);
+            store(&[g], shear);
         }
-        Err(error) => error.code(),
-    }
+        Ok(status::OK)
+    })
 }

@@ -5,5 +5,6 @@ pub mod c_api;
 pub mod calculix;
 #[cfg(feature = "driver")]
 pub mod calls;
+pub mod environment;
 pub mod lsdyna;
 pub mod units;

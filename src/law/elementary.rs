@@ -82,35 +82,36 @@ fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     sum
 }
 
-/// The same in a chain of logarithmic length (Estrin): neighbours are joined, then neighbours of those. For as many
-/// coefficients as the functions have in double precision, 7 or 10.
+/// The same in a chain of logarithmic length (Estrin): neighbours are joined, then neighbours of those. For up to twelve
+/// coefficients.
 #[inline(always)]
 fn halved_polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
     let square = x * x;
-    let fourth = square * square;
     let low = four(coefficients, 0, x, square);
-    if coefficients.len() > 8 {
-        let middle = four(coefficients, 4, x, square);
-        return pair(coefficients, 8, x).mul_add(fourth * fourth, middle.mul_add(fourth, low));
+    if coefficients.len() <= 4 {
+        return low;
     }
-    four(coefficients, 4, x, square).mul_add(fourth, low)
+    let fourth = square * square;
+    let middle = four(coefficients, 4, x, square);
+    if coefficients.len() <= 8 {
+        return middle.mul_add(fourth, low);
+    }
+    four(coefficients, 8, x, square).mul_add(fourth * fourth, middle.mul_add(fourth, low))
 }
 
-/// Four terms from the k-th on, over x^k.
+/// Up to four terms from the k-th on, over x^k.
 #[inline(always)]
 fn four<R: Real>(coefficients: &[f64], k: usize, x: R, square: R) -> R {
     let low = pair(coefficients, k, x);
-    match coefficients.get(k + 3) {
-        Some(_) => pair(coefficients, k + 2, x).mul_add(square, low),
-        None => R::splat(coefficients.get(k + 2).copied().unwrap_or(0.0)).mul_add(square, low),
-    }
+    if coefficients.len() <= k + 2 { low } else { pair(coefficients, k + 2, x).mul_add(square, low) }
 }
 
-/// Two terms from the k-th on, over x^k.
+/// One or two terms from the k-th on, over x^k.
 #[inline(always)]
 fn pair<R: Real>(coefficients: &[f64], k: usize, x: R) -> R {
-    match coefficients.get(k..k + 2) {
-        Some(&[c0, c1]) => R::splat(c1).mul_add(x, R::splat(c0)),
+    match coefficients.get(k..) {
+        Some(&[c0, c1, ..]) => R::splat(c1).mul_add(x, R::splat(c0)),
+        Some(&[c0]) => R::splat(c0),
         _ => R::splat(0.0),
     }
 }
@@ -237,11 +238,9 @@ pub struct Exponent<R> {
     /// low · ln 2.
     low_ln_2: R,
     over_ln_2: R,
-    /// The least base whose power is a normal number with room to spare.
-    least: R,
 }
 
-impl<R: Real + Into<f64>> Exponent<R> {
+impl<R: Real> Exponent<R> {
     /// For q > 0.
     #[inline(always)]
     pub fn new(q: R) -> Self {
@@ -249,14 +248,7 @@ impl<R: Real + Into<f64>> Exponent<R> {
         let factor = R::splat(8193.0);
         let big = factor * q;
         let high = big - (big - q);
-        let least = rough_power_of_two(R::EXPONENTS.0 / q.into()).max(R::MIN_POSITIVE);
-        Exponent {
-            value: q,
-            high,
-            low_ln_2: (q - high) * R::splat(LN_2),
-            over_ln_2: q * R::splat(LOG2_E),
-            least: R::splat(least),
-        }
+        Exponent { value: q, high, low_ln_2: (q - high) * R::splat(LN_2), over_ln_2: q * R::splat(LOG2_E) }
     }
 
     /// The same exponent in another number.
@@ -267,19 +259,8 @@ impl<R: Real + Into<f64>> Exponent<R> {
             high: lane(self.high),
             low_ln_2: lane(self.low_ln_2),
             over_ln_2: lane(self.over_ln_2),
-            least: lane(self.least),
         }
     }
-}
-
-/// 2^x for x ≤ 0 to four digits, all that the end of a range needs: a cubic of the fraction. 0 from the least normal
-/// number down.
-#[inline(always)]
-fn rough_power_of_two(x: f64) -> f64 {
-    const CUBIC: [f64; 4] = [1.0, 0.69512, 0.22764, 0.07707];
-    let x = x.max(f64::from(f64::MIN_EXP) - 1.0);
-    let octave = x as i32 - 1;
-    polynomial(&CUBIC, x - f64::from(octave)).times_power_of_two(octave.into())
 }
 
 /// i^q in three steps, each with a chain of operations short enough for a processor to overlap several.
@@ -293,11 +274,12 @@ pub struct Power<R: Real> {
 }
 
 impl<R: Real> Power<R> {
-    /// The first step, for i ≥ 0.
+    /// The first step, for i ≥ 0; what is negative or below the normal numbers counts as 0.
     #[inline(always)]
-    pub fn new(i: R, q: &Exponent<R>) -> Self {
-        let logarithm = Logarithm::new(i.max(q.least));
-        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), remains: q.least.le(i) }
+    pub fn new(i: R) -> Self {
+        let least = R::splat(R::MIN_POSITIVE);
+        let logarithm = Logarithm::new(i.max(least));
+        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), remains: least.le(i) }
     }
 
     /// The second: i^q = 2^n e^r, |r| ≤ ½ ln 2.
@@ -307,7 +289,7 @@ impl<R: Real> Power<R> {
         let n = q.over_ln_2.mul_add(ln_z, q.value * k).round();
         let d = q.high.mul_add(k, -n);
         let r = d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z));
-        Reduced { n, r, remains: self.remains }
+        Reduced { n, r, remains: self.remains & R::splat(R::EXPONENTS.0).le(n) }
     }
 }
 
@@ -332,5 +314,5 @@ impl<R: Real> Reduced<R> {
 /// i^q for i ≥ 0 and q > 0.
 #[inline(always)]
 pub fn power<R: Real>(i: R, q: &Exponent<R>) -> R {
-    Power::new(i, q).reduce(q).finish()
+    Power::new(i).reduce(q).finish()
 }

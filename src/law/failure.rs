@@ -21,6 +21,14 @@ pub struct Failure<R> {
 }
 
 impl<R: Real> Failure<R> {
+    /// No point fails.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let threshold = R::splat(f64::INFINITY);
+        Failure { limit: one, inverse_limit: one, threshold, alpha: zero, beta: zero }
+    }
+
     /// From the property ε_lim, 0 for no failure, and the weights.
     #[inline(always)]
     pub fn new(eps_lim: R, alpha: R, beta: R) -> Self {

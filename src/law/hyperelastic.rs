@@ -34,7 +34,7 @@ pub struct Hyperelastic<R> {
     /// W″ of a compaction of at most `held_below`, where an exponent p ≤ 2 would make it infinite or 0/0.
     pub(super) held_below: R,
     pub(super) greatest_curvature: R,
-    failure: Failure<R>,
+    pub(super) failure: Failure<R>,
     pub(super) frame: FibreFrame<R>,
     /// Whether the fibre lies along the first axis, so that most products with the frame need not be computed.
     pub(super) aligned: bool,
@@ -92,10 +92,22 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
     ///
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
-    // A scalar call prepares the law anew: inlined, its numbers go where they are wanted as they come. Copied as a whole they
-    // would all have to be there first.
     #[inline(always)]
     pub fn new(properties: &[T]) -> Result<Self, Error> {
+        let mut law = Self::prepare(properties, &PropertyFrame::new(properties))?;
+        law.failure = Self::prepare_failure(properties);
+        Ok(law)
+    }
+
+    /// Likewise, given the frame of the properties' fibre direction; without failure, which
+    /// [`prepare_failure`](Self::prepare_failure) adds.
+    ///
+    /// # Errors
+    /// The first property that is wrong, the failure's among them.
+    // A call about one point prepares the law anew: inlined, its numbers go where they are wanted as they come. Copied as a whole
+    // they would all have to be there first.
+    #[inline(always)]
+    pub(super) fn prepare(properties: &[T], frame: &PropertyFrame<T>) -> Result<Self, Error> {
         const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = parameters::limits(&parameters::HYPERELASTIC);
         let Ok(properties) = <&[T; HYPERELASTIC_PROPERTIES]>::try_from(properties) else {
             parameters::check(&parameters::HYPERELASTIC, properties)?;
@@ -104,9 +116,15 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         if !parameters::within(&LIMITS, properties) {
             parameters::check(&parameters::HYPERELASTIC, properties)?;
         }
-        let &[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3] = properties;
-        let aligned = m_2.into() == 0.0 && m_3.into() == 0.0 && m_1.into() >= T::MIN_POSITIVE;
-        let frame = if aligned { FibreFrame::first_axis() } else { fibre_frame([m_1, m_2, m_3])? };
+        let &[k_el, k_tc, p, k_td, k_ld, _, _, _, m_1, m_2, m_3] = properties;
+        if !frame.usable {
+            return Err(Error::Direction {
+                index: FIBRE,
+                name: "fibre direction",
+                value: [m_1.into(), m_2.into(), m_3.into()],
+                wanted: "any vector but zero",
+            });
+        }
         let one = T::splat(1.0);
         let exponent = Exponent::new(p - one);
         let [held_below, greatest_curvature] = held_stiffness(k_tc, p, &exponent);
@@ -119,26 +137,47 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             exponent,
             held_below,
             greatest_curvature,
-            failure: Failure::new(eps_lim, alpha, beta),
-            frame,
-            aligned,
+            failure: Failure::none(),
+            frame: frame.frame,
+            aligned: frame.aligned,
         })
+    }
+
+    /// The failure of properties that have been checked.
+    #[inline(always)]
+    pub(super) fn prepare_failure(properties: &[T]) -> Failure<T> {
+        match properties {
+            &[_, _, _, _, _, eps_lim, alpha, beta, ..] => Failure::new(eps_lim, alpha, beta),
+            _ => Failure::none(), // not reached: their number has been checked
+        }
     }
 }
 
-/// The frame of the property's fibre direction.
-#[inline(always)]
-fn fibre_frame<T: Real + Into<f64>>(direction: [T; 3]) -> Result<FibreFrame<T>, Error> {
-    let (frame, usable) = FibreFrame::new(direction);
-    if T::select(usable, T::splat(0.0), T::splat(1.0)).into() == 0.0 {
-        return Ok(frame);
+/// The frame of the fibre direction among the properties.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PropertyFrame<T> {
+    pub frame: FibreFrame<T>,
+    /// Whether the fibre lies along the first axis.
+    pub aligned: bool,
+    /// Whether the direction has a length.
+    pub usable: bool,
+}
+
+impl<T: Real + Into<f64>> PropertyFrame<T> {
+    #[inline(always)]
+    pub fn new(properties: &[T]) -> Self {
+        let direction = match properties {
+            &[.., m_1, m_2, m_3] if properties.len() == HYPERELASTIC_PROPERTIES => [m_1, m_2, m_3],
+            _ => [T::splat(0.0); 3], // no law will be made of them
+        };
+        let [m_1, m_2, m_3] = direction.map(T::into);
+        if m_2 == 0.0 && m_3 == 0.0 && m_1 >= T::MIN_POSITIVE {
+            return PropertyFrame { frame: FibreFrame::first_axis(), aligned: true, usable: true };
+        }
+        let (frame, usable) = FibreFrame::new(direction);
+        let usable = T::select(usable, T::splat(1.0), T::splat(0.0)).into() == 1.0;
+        PropertyFrame { frame, aligned: false, usable }
     }
-    Err(Error::Direction {
-        index: FIBRE,
-        name: "fibre direction",
-        value: direction.map(T::into),
-        wanted: "any vector but zero",
-    })
 }
 
 /// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
@@ -201,7 +240,7 @@ impl<R: Real> Hyperelastic<R> {
     /// The first step of the compaction's power.
     #[inline(always)]
     pub fn compaction(&self, strain: &Strain<R>) -> Power<R> {
-        Power::new(-strain.i_tc, &self.exponent)
+        Power::new(-strain.i_tc)
     }
 
     /// The factors of the four modes in the Kirchhoff stress, given ⟨−I_tc⟩^(p−1).

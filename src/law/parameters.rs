@@ -183,12 +183,17 @@ pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
 /// Whether all values stand within their limits: what [`check`] finds, without a decision about each.
 #[inline(always)]
 pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
-    let mut all = true;
-    for ((&value, &least), &greatest) in values.iter().zip(least).zip(greatest) {
+    // Two sums of the same kind each, which the compiler takes several at a time.
+    let (mut enough, mut too_much) = (true, false);
+    for (&value, &least) in values.iter().zip(least) {
         let value: f64 = value.into();
-        all &= (least <= value) & (value <= greatest);
+        enough &= least <= value;
     }
-    all
+    for (&value, &greatest) in values.iter().zip(greatest) {
+        let value: f64 = value.into();
+        too_much |= greatest < value;
+    }
+    enough & !too_much
 }
 
 /// Checks number, finiteness and bounds of `values` against a table; directions are the laws' own business.

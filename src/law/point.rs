@@ -1,8 +1,11 @@
 //! The yarn law at one point: the stages one after the other, then what failure and errors make of the answer.
 
+use core::cell::Cell;
+
 use nalgebra::Matrix3;
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
+use super::failure::Failure;
+use super::hyperelastic::{Hyperelastic, Kirchhoff, PropertyFrame, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::real::{Real, Single};
 use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
@@ -31,11 +34,18 @@ pub struct Point<T> {
 pub trait Derivative<const N: usize>: Copy {
     /// What the tangent needs and can be had before the invariants.
     type Early<R: Real>;
+    /// The one of these that the law's own functions are built for, and that asks for the same.
+    type General: Derivative<N>;
+
+    fn general(self) -> Self::General;
 
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Self::Early<R>;
 
     /// What is wanted of the law itself.
     fn request(self) -> Request;
+
+    /// Whether an entry may leave the range of R at a point whose strains are within it.
+    fn overflows<R: Real>(self, shear: bool) -> bool;
 
     fn of<R: Real>(
         self,
@@ -70,6 +80,11 @@ pub struct StressAndState;
 
 impl Derivative<0> for Alone {
     type Early<R: Real> = ();
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
@@ -77,6 +92,11 @@ impl Derivative<0> for Alone {
     #[inline(always)]
     fn request(self) -> Request {
         self.0
+    }
+
+    #[inline(always)]
+    fn overflows<R: Real>(self, _: bool) -> bool {
+        false
     }
 
     #[inline(always)]
@@ -95,6 +115,11 @@ impl Derivative<0> for Alone {
 
 impl Derivative<0> for StressAndState {
     type Early<R: Real> = ();
+    type General = Alone;
+
+    fn general(self) -> Alone {
+        Alone(Request::STRESS_AND_STATE)
+    }
 
     #[inline(always)]
     fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
@@ -102,6 +127,11 @@ impl Derivative<0> for StressAndState {
     #[inline(always)]
     fn request(self) -> Request {
         Request::STRESS_AND_STATE
+    }
+
+    #[inline(always)]
+    fn overflows<R: Real>(self, _: bool) -> bool {
+        false
     }
 
     #[inline(always)]
@@ -149,7 +179,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 
     /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
     /// and where the point cannot be evaluated, which it cannot where the tangent is not finite.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn point_with<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
@@ -158,53 +188,108 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         tangent: D,
     ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
-        evaluate::<T, T, D, _, N>(self, f, fibre, state, tangent, (&mut point, &mut entries));
+        let sink = (&mut point, &mut entries);
+        let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &state.map(Cell::new), tangent, sink);
+        debug_assert!(evaluated.is_ok()); // the law is there
         (point, entries)
     }
 }
 
-/// As [`Hyperelastic::point_with`], computed in R.
+/// Where the law of a point comes from: it has been prepared, or comes as properties with the call.
+pub(super) trait Source<T> {
+    fn frame(&self) -> PropertyFrame<T>;
+
+    /// # Errors
+    /// The first property that is wrong.
+    fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error>;
+
+    /// The law's failure, which is wanted later.
+    fn failure(&self) -> Failure<T>;
+}
+
+impl<T: Real> Source<T> for &Hyperelastic<T> {
+    #[inline(always)]
+    fn frame(&self) -> PropertyFrame<T> {
+        PropertyFrame { frame: self.frame, aligned: self.aligned, usable: true }
+    }
+
+    #[inline(always)]
+    fn law(&self, _: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
+        Ok(**self)
+    }
+
+    #[inline(always)]
+    fn failure(&self) -> Failure<T> {
+        self.failure
+    }
+}
+
+impl<T: Real + Into<f64>> Source<T> for &[T] {
+    #[inline(always)]
+    fn frame(&self) -> PropertyFrame<T> {
+        PropertyFrame::new(self)
+    }
+
+    #[inline(always)]
+    fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
+        Hyperelastic::prepare(self, frame)
+    }
+
+    #[inline(always)]
+    fn failure(&self) -> Failure<T> {
+        Hyperelastic::prepare_failure(self)
+    }
+}
+
+/// The law at one point, computed in R; see [`Hyperelastic::point_with`].
+///
+/// # Errors
+/// The first property that is wrong; nothing is handed to the sink.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) fn evaluate<
+fn evaluate<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
+    L: Source<T>,
     D: Derivative<N>,
     S: Sink<T, N>,
     const N: usize,
 >(
-    law: &Hyperelastic<T>,
+    source: L,
     f: &[[T; 3]; 3],
     fibre: Option<[T; 3]>,
-    state: &[T; HYPERELASTIC_STATE],
+    state: &[Cell<T>; HYPERELASTIC_STATE],
     tangent: D,
     sink: S,
-) {
-    let (shear, law) = (law.shears(), law.lanes::<R>());
+) -> Result<(), Error> {
     let vector = |v: [T; 3]| [R::of(v[0]), R::of(v[1]), R::of(v[2])];
     let f = [vector(f[0]), vector(f[1]), vector(f[2])];
     let everywhere = R::splat(0.0).le(R::splat(0.0));
-    match fibre {
-        Some(direction) => {
-            let (frame, usable) = FibreFrame::new(vector(direction));
-            law.point_in(&f, &frame, &frame, usable, state, shear, tangent, sink);
-        }
-        None if law.aligned => {
-            law.point_in(&f, &FirstAxis, &law.frame, everywhere, state, shear, tangent, sink);
-        }
-        None => law.point_in(&f, &law.frame, &law.frame, everywhere, state, shear, tangent, sink),
+    let own = source.frame();
+    if own.aligned && fibre.is_none() {
+        let frame = FibreFrame::first_axis();
+        return point_in(source, &own, &f, &FirstAxis, &frame, everywhere, state, tangent, sink);
     }
+    let (frame, usable) = match fibre {
+        Some(direction) => FibreFrame::new(vector(direction)),
+        None => {
+            let FibreFrame { m, t1, t2 } = own.frame;
+            (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
+        }
+    };
+    point_in(source, &own, &f, &frame, &frame, usable, state, tangent, sink)
 }
 
 /// A call from a host that hands over the properties with every point.
-#[derive(Debug)]
+
 pub struct Call<'a, T, D, S, const N: usize> {
     pub properties: &'a [T],
     /// Columns of F.
     pub f: &'a [[T; 3]; 3],
     /// A fibre direction of any length, or that of the properties.
     pub fibre: Option<[T; 3]>,
-    pub state: &'a [T; HYPERELASTIC_STATE],
+    /// The old state; the sink may put the new one in its place.
+    pub state: &'a [Cell<T>; HYPERELASTIC_STATE],
     pub tangent: D,
     pub sink: S,
 }
@@ -213,11 +298,22 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     /// Prepares the law and evaluates it, in R.
     ///
     /// # Errors
-    /// The first property that is wrong; nothing is written.
+    /// The first property that is wrong; nothing is handed to the sink.
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
+        evaluate::<T, R, &[T], D, S, N>(self.properties, self.f, self.fibre, self.state, self.tangent, self.sink)
+    }
+
+    /// Likewise by the law's own function for one point, in the instructions of every processor.
+    ///
+    /// # Errors
+    /// The first property that is wrong; nothing is handed to the sink.
+    #[inline(never)]
+    pub(super) fn evaluate_plainly(self) -> Result<(), Error> {
         let law = Hyperelastic::new(self.properties)?;
-        evaluate::<T, R, D, S, N>(&law, self.f, self.fibre, self.state, self.tangent, self.sink);
+        let state = self.state.each_ref().map(Cell::get);
+        let (point, entries) = law.point_with(self.f, self.fibre, &state, self.tangent.general());
+        self.sink.take(point, entries);
         Ok(())
     }
 }
@@ -232,53 +328,71 @@ fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
     values
 }
 
-impl<R: Real> Hyperelastic<R> {
-    /// The law at one point, in these axes; `frame` the same ones as vectors.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    fn point_in<T: Real<Mask = bool> + Into<f64>, A: Axes<R>, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-        &self,
-        f: &[[R; 3]; 3],
-        axes: &A,
-        frame: &FibreFrame<R>,
-        usable: R::Mask,
-        state: &[T; HYPERELASTIC_STATE],
-        shear: bool,
-        tangent: D,
-        sink: S,
-    ) where
-        R: Single<T>,
-    {
-        let (stretch, images) = Stretch::new(f, axes);
-        let (section, [a, b]) = Section::new(&stretch, images, axes);
-        let images = [images[0], a, b];
-        let early = tangent.early(&stretch, &section, &images);
-        let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-        let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
-        let k = self.kirchhoff_of(kinematics);
-        let request = tangent.request();
-        let tangent = tangent.of(self, kinematics, &k, frame, &early, shear);
-        let latch = R::of(state[FAILED]);
-        let doubt = R::select(usable, strain.doubt, R::splat(f64::NAN)) + unrepresentable(&tangent);
-        let r = self.respond(kinematics, &k, frame, doubt, latch, request, shear);
-        let h = self.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
-        let failed = h.failed.value();
-        if !R::holds(r.new) {
-            let verdict: f64 = self.verdict(f, &stretch, usable, latch).value().into();
-            let point = Point::kept(state, failed, r.wave_modulus.value(), verdict as i32);
-            return sink.take(point, [T::splat(0.0); N]);
-        }
-        let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
-        let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
-        let point = Point {
-            stress: values(&r.stress),
-            state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
-            modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
-            wave_modulus: r.wave_modulus.value(),
-            status: status::OK,
-        };
-        sink.take(point, values(&tangent));
+/// The law at one point, in these axes; `frame` the same ones as vectors.
+///
+/// The law is prepared when the kinematics are on their way: they are a long chain of operations, each of which waits for the one
+/// before, and the processor fills the gaps with what stands near in the program.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+fn point_in<
+    T: Real<Mask = bool> + Into<f64>,
+    R: Single<T>,
+    L: Source<T>,
+    A: Axes<R>,
+    D: Derivative<N>,
+    S: Sink<T, N>,
+    const N: usize,
+>(
+    source: L,
+    own: &PropertyFrame<T>,
+    f: &[[R; 3]; 3],
+    axes: &A,
+    frame: &FibreFrame<R>,
+    usable: R::Mask,
+    state: &[Cell<T>; HYPERELASTIC_STATE],
+    tangent: D,
+    sink: S,
+) -> Result<(), Error> {
+    let (stretch, images) = Stretch::new(f, axes);
+    let law = source.law(own)?;
+    let (shear, mut law) = (law.shears(), law.lanes::<R>());
+    let (section, [a, b]) = Section::new(&stretch, images, axes);
+    let images = [images[0], a, b];
+    let logarithms = Logarithms::new(&stretch, &section);
+    let early = tangent.early(&stretch, &section, &images);
+    let strain = Strain::new(&stretch, &section, &logarithms);
+    let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
+    let power = law.compaction(&strain).reduce(&law.exponent);
+    law.failure = source.failure().map(|x| R::of(x));
+    let k = law.kirchhoff(&stretch, &strain, power.finish());
+    let (request, overflows) = (tangent.request(), tangent.overflows::<R>(shear));
+    let tangent = tangent.of(&law, kinematics, &k, frame, &early, shear);
+    let latch = R::of(state[FAILED].get());
+    let doubt = R::select(usable, strain.doubt, R::splat(f64::NAN));
+    let r = law.respond(kinematics, &k, frame, doubt, latch, request, shear);
+    let h = law.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
+    // The stress need not wait for the tangent's finiteness.
+    let zero = R::splat(0.0);
+    let representable = if overflows { unrepresentable(&tangent).le(zero) } else { zero.le(zero) };
+    if !R::holds(r.new & representable) {
+        let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
+        let verdict: f64 = law.verdict(f, &stretch, usable, latch).value().into();
+        let wave_modulus = R::select(representable, r.wave_modulus, law.k_el).value();
+        sink.take(Point::kept(state, failed, wave_modulus, verdict as i32), [T::splat(0.0); N]);
+        return Ok(());
     }
+    let failed = h.failed.value();
+    let ([w_el, w_tc, w_td, w_ld], [i_el, i_tc, i_td, i_ld]) = (values(&h.energies), values(&h.invariants));
+    let (index, alive) = (h.failure_index.value(), T::splat(1.0) - failed);
+    let point = Point {
+        stress: values(&r.stress),
+        state: [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive],
+        modes: [values(&r.modes[0]), values(&r.modes[1]), values(&r.modes[2]), values(&r.modes[3])],
+        wave_modulus: r.wave_modulus.value(),
+        status: status::OK,
+    };
+    sink.take(point, values(&tangent));
+    Ok(())
 }
 
 impl<T: Real<Mask = bool>> Point<T> {
@@ -297,11 +411,12 @@ impl<T: Real<Mask = bool>> Point<T> {
 
     /// A point that carries nothing and keeps its state but for the latch, for the reason `verdict`.
     #[inline(never)]
-    fn kept(state: &[T; HYPERELASTIC_STATE], failed: T, wave_modulus: T, verdict: i32) -> Self {
+    fn kept(state: &[Cell<T>; HYPERELASTIC_STATE], failed: T, wave_modulus: T, verdict: i32) -> Self {
         let zero = T::splat(0.0);
         let mut point = Point { wave_modulus, status: verdict, ..Point::nothing() };
         // The latch has been looked at, and alive is never read.
-        for (x, &old) in point.state.iter_mut().zip(state).take(FAILED) {
+        for (x, old) in point.state.iter_mut().zip(state).take(FAILED) {
+            let old = old.get();
             let finite = (old * zero).le(zero);
             *x = T::select(finite, old, zero);
             if !finite && point.status == status::OK {

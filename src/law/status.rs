@@ -19,7 +19,7 @@ pub const BAD_LEADING_DIMENSION: i32 = -103;
 pub const UNKNOWN_NAME: i32 = -104;
 /// A scalar argument (density, option, …) outside what is allowed.
 pub const BAD_ARGUMENT: i32 = -105;
-/// The host runs a small-strain analysis, which carries no deformation gradient.
+/// The host passes no deformation gradient: a small-strain analysis, or F = 0.
 pub const NO_DEFORMATION_GRADIENT: i32 = -106;
 /// The number of properties is not the table's.
 pub const PROPERTY_COUNT: i32 = -201;
@@ -29,6 +29,8 @@ pub const PROPERTY_NOT_FINITE: i32 = -202;
 pub const PROPERTY_OUT_OF_BOUNDS: i32 = -203;
 /// A direction among the properties has no length, or is parallel to the one it must differ from.
 pub const PROPERTY_DIRECTION: i32 = -204;
+/// The fibre direction is neither in the plane of a two-dimensional element nor normal to it.
+pub const FIBRE_OUT_OF_PLANE: i32 = -205;
 /// There are fewer state variables than the table's.
 pub const STATE_COUNT: i32 = -211;
 /// The deformation gradient has a determinant ≤ 0 (or one too small for a number), or maps the fibre to nothing.
@@ -45,7 +47,7 @@ pub const FIBRE_DIRECTION: i32 = -305;
 pub const INCREMENT_TOO_LARGE: i32 = -306;
 
 /// Every code with its name and meaning.
-pub const TABLE: [(i32, &str, &str); 18] = [
+pub const TABLE: [(i32, &str, &str); 19] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
     (BAD_COUNT, "bad_count", "a count is not what this entry can serve"),
@@ -55,12 +57,17 @@ pub const TABLE: [(i32, &str, &str); 18] = [
     (
         NO_DEFORMATION_GRADIENT,
         "no_deformation_gradient",
-        "the analysis is geometrically linear and passes no deformation gradient: switch to large displacements (NLGEOM)",
+        "there is no deformation gradient: Abaqus and CalculiX want NLGEOM, LS-DYNA wants IHYPER = 1 or -1 and NHV = 11",
     ),
     (PROPERTY_COUNT, "property_count", "the number of properties is not the table's"),
     (PROPERTY_NOT_FINITE, "property_not_finite", "a property is NaN or infinite"),
     (PROPERTY_OUT_OF_BOUNDS, "property_out_of_bounds", "a property is outside its bounds"),
     (PROPERTY_DIRECTION, "property_direction", "a direction among the properties has no length or is not independent"),
+    (
+        FIBRE_OUT_OF_PLANE,
+        "fibre_out_of_plane",
+        "the fibre direction (properties 9 to 11) is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
+    ),
     (STATE_COUNT, "state_count", "there are fewer state variables than the table's"),
     (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to nothing"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),

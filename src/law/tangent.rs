@@ -178,8 +178,9 @@ impl<R: Real> Hyperelastic<R> {
         let compaction = -strain.i_tc;
         let slope = R::splat(2.0) * k.pressure;
         let held = compaction.le(self.held_below);
-        let some = R::select(held, R::splat(1.0), compaction);
-        let curvature = R::select(held, self.greatest_curvature, (self.p - R::splat(1.0)) * slope / some);
+        // Divided before the slope is known, which takes long to compute.
+        let factor = (self.p - R::splat(1.0)) / R::select(held, R::splat(1.0), compaction);
+        let curvature = R::select(held, self.greatest_curvature, factor * slope);
         (slope, R::select(zero.le(compaction), curvature, zero))
     }
 
@@ -385,6 +386,16 @@ fn add<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
     a
 }
 
+/// Whether an entry of a tangent may leave the range of R at a point whose strains are within it.
+///
+/// In double precision none in space does without a longitudinal-shear stiffness. With the bounds of the properties (10²⁵, p ≤ 40)
+/// and of a point's strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is the pressure's,
+/// 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and what it is multiplied with is no larger than 1; those of D carry 1/s for each D.
+#[inline(always)]
+pub(super) fn overflows<R: Real>(measure: Measure, shear: bool) -> bool {
+    shear || !R::HEADROOM || !matches!(measure, Measure::Truesdell | Measure::Jaumann)
+}
+
 /// 0 where all are finite numbers, else NaN.
 #[inline(always)]
 pub(super) fn unrepresentable<R: Real>(values: &[R]) -> R {
@@ -410,6 +421,11 @@ pub struct Six(pub Request, pub Measure);
 
 impl Derivative<21> for Six {
     type Early<R: Real> = Decomposition<R>;
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
@@ -419,6 +435,11 @@ impl Derivative<21> for Six {
     #[inline(always)]
     fn request(self) -> Request {
         self.0
+    }
+
+    #[inline(always)]
+    fn overflows<R: Real>(self, shear: bool) -> bool {
+        overflows::<R>(self.1, shear)
     }
 
     #[inline(always)]
@@ -441,6 +462,11 @@ pub struct Jaumann;
 
 impl Derivative<21> for Jaumann {
     type Early<R: Real> = (Decomposition<R>, Bases<R>);
+    type General = Six;
+
+    fn general(self) -> Six {
+        Six(Request::STRESS_AND_STATE, Measure::Jaumann)
+    }
 
     #[inline(always)]
     fn early<R: Real>(
@@ -456,6 +482,11 @@ impl Derivative<21> for Jaumann {
     #[inline(always)]
     fn request(self) -> Request {
         Request::STRESS_AND_STATE
+    }
+
+    #[inline(always)]
+    fn overflows<R: Real>(self, shear: bool) -> bool {
+        overflows::<R>(Measure::Jaumann, shear)
     }
 
     #[inline(always)]
@@ -478,6 +509,11 @@ pub struct Nine(pub Request);
 
 impl Derivative<81> for Nine {
     type Early<R: Real> = Decomposition<R>;
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
 
     #[inline(always)]
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
@@ -487,6 +523,11 @@ impl Derivative<81> for Nine {
     #[inline(always)]
     fn request(self) -> Request {
         self.0
+    }
+
+    #[inline(always)]
+    fn overflows<R: Real>(self, shear: bool) -> bool {
+        overflows::<R>(Measure::Nominal, shear)
     }
 
     #[inline(always)]

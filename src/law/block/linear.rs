@@ -7,7 +7,9 @@
 //! | `state_old`, `state_new` | the rows of [`state::LINEAR_ELASTIC`](crate::law::state::LINEAR_ELASTIC) |
 //! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
 
-use super::{Lanes, LeftOver, Level, Precision, leading_dimension_below, least_code};
+use core::ops::Range;
+
+use super::{Lanes, Level, Precision, leading_dimension_below, least_code};
 use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation, Wanted};
 use crate::law::matrix::Matrix;
 use crate::law::state::LINEAR_ELASTIC_STATE;
@@ -40,40 +42,73 @@ pub trait LinearPrecision: Precision {
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &LinearPointers<Self>) -> i32;
 }
 
+/// A kernel for some lanes, with the instructions that they need.
+macro_rules! kernel {
+    ($(#[$features:meta])? $name:ident, $t:ty, $lanes:ty) => {
+        $(#[$features])?
+        unsafe fn $name(law: &LinearElastic<$t>, block: &LinearPointers<$t>, points: Range<usize>) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { sweep::<$t, $lanes>(law, block, points) }
+        }
+    };
+}
+
 macro_rules! linear_precision {
-    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty) => {
+    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty, $one:ty) => {
         impl LinearPrecision for $t {
             unsafe fn dispatch_linear(level: Level, law: &LinearElastic<$t>, block: &LinearPointers<$t>) -> i32 {
-                #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma"))]
-                unsafe fn avx512(law: &LinearElastic<$t>, block: &LinearPointers<$t>) -> i32 {
-                    // SAFETY: the caller's promise.
-                    unsafe { sweep::<$t, $avx512>(law, block) }
-                }
-                #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
-                unsafe fn avx2(law: &LinearElastic<$t>, block: &LinearPointers<$t>) -> i32 {
-                    // SAFETY: the caller's promise.
-                    unsafe { sweep::<$t, $avx2>(law, block) }
-                }
-                // SAFETY: the caller has found the instructions.
+                kernel!(
+                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma"))]
+                    avx512,
+                    $t,
+                    $avx512
+                );
+                kernel!(
+                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
+                    avx2,
+                    $t,
+                    $avx2
+                );
+                kernel!(
+                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
+                    one,
+                    $t,
+                    $one
+                );
+                kernel!(baseline, $t, $baseline);
+                kernel!(scalar, $t, $t);
+                // What fills no register goes to narrower ones, which give the same bits.
+                let n = block.n;
+                let whole = |lanes: usize| n - n % lanes;
+                let fours = whole(<$avx2 as Lanes<$t>>::COUNT);
+                // SAFETY: the caller has found the instructions, and answers for the arrays.
                 unsafe {
                     match level {
-                        Level::Avx512 => avx512(law, block),
-                        Level::Avx2 => avx2(law, block),
-                        Level::Baseline => sweep::<$t, $baseline>(law, block),
+                        Level::Baseline => {
+                            let pairs = whole(<$baseline as Lanes<$t>>::COUNT);
+                            baseline(law, block, 0..pairs).min(scalar(law, block, pairs..n))
+                        }
+                        Level::Avx2 => avx2(law, block, 0..fours).min(one(law, block, fours..n)),
+                        Level::Avx512 => {
+                            let wide = whole(<$avx512 as Lanes<$t>>::COUNT);
+                            let rest = avx2(law, block, wide..fours).min(one(law, block, fours..n));
+                            avx512(law, block, 0..wide).min(rest)
+                        }
                     }
                 }
             }
         }
     };
 }
+
 #[cfg(target_arch = "x86_64")]
-linear_precision!(f64: super::x86::F64x2, super::x86::F64x4, super::x86::F64x8);
+linear_precision!(f64: super::x86::F64x2, super::x86::F64x4, super::x86::F64x8, super::x86::F64x1);
 #[cfg(target_arch = "x86_64")]
-linear_precision!(f32: super::x86::F32x4, super::x86::F32x8, super::x86::F32x16);
+linear_precision!(f32: super::x86::F32x4, super::x86::F32x8, super::x86::F32x16, super::x86::F32x1);
 #[cfg(not(target_arch = "x86_64"))]
-linear_precision!(f64: f64, f64, f64);
+linear_precision!(f64: f64, f64, f64, f64);
 #[cfg(not(target_arch = "x86_64"))]
-linear_precision!(f32: f32, f32, f32);
+linear_precision!(f32: f32, f32, f32, f32);
 
 impl<T: LinearPrecision> LinearElastic<T> {
     /// The law over a step at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
@@ -102,34 +137,27 @@ impl<T: LinearPrecision> LinearElastic<T> {
     }
 }
 
-/// The kernel: full lanes in the arrays themselves, then what is left in arrays of its own, by the same code.
+/// The kernel, for points that fill whole registers.
 ///
 /// # Safety
-/// As for [`LinearElastic::raw_block`], on a processor that has the lanes' instructions.
+/// As for [`LinearElastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
+/// a multiple of COUNT.
 #[inline(always)]
-unsafe fn sweep<T: Precision, R: Lanes<T>>(law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
-    let lanes = law.lanes::<R>();
+unsafe fn sweep<T: Precision, R: Lanes<T>>(
+    law: &LinearElastic<T>,
+    block: &LinearPointers<T>,
+    points: Range<usize>,
+) -> i32 {
     let mut worst = R::splat(0.0);
-    let mut left_over = LeftOver::new();
-    let mut part = LinearPointers { n: block.n - block.n % R::COUNT, ..*block };
-    loop {
-        let mut i = 0;
-        while i < part.n {
-            // SAFETY: i + COUNT ≤ n, and the caller's promise.
-            let code = unsafe { evaluate(&lanes, &part, i) };
-            worst = worst.min(code);
-            i += R::COUNT;
-        }
-        if left_over.count > 0 {
-            // SAFETY: the caller's promise.
-            unsafe { put(&mut left_over, block) };
-            break;
-        }
-        if part.n == block.n {
-            break;
-        }
-        // SAFETY: the caller's promise.
-        part = unsafe { fetch(&mut left_over, block, part.n, R::COUNT) };
+    if points.is_empty() {
+        return status::OK;
+    }
+    let lanes = law.lanes::<R>();
+    let mut i = points.start;
+    while i < points.end {
+        // SAFETY: i + COUNT ≤ the end, and the caller's promise.
+        worst = worst.min(unsafe { evaluate(&lanes, block, i) });
+        i += R::COUNT;
     }
     least_code(worst)
 }
@@ -180,79 +208,6 @@ unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: u
         for (c, value) in values.iter().enumerate() {
             // SAFETY: the caller's promise.
             unsafe { value.store(array.add(c * stride + i)) };
-        }
-    }
-}
-
-/// Where the components stand in the copy of what is left over; the state and the axes are evaluated in place.
-const F_NEW_ROW: usize = 9;
-const AXES_ROW: usize = 18;
-const STATE_ROW: usize = 27;
-const STRESS_ROW: usize = STATE_ROW + LINEAR_ELASTIC_STATE;
-
-/// Copies the inputs of the points from `first` on, and hands out the copy as a block of `lanes` points.
-///
-/// # Safety
-/// As for [`sweep`], with first < n and n − first < lanes ≤ WIDEST.
-#[inline(never)]
-unsafe fn fetch<T: Precision>(
-    copy: &mut LeftOver<T>,
-    block: &LinearPointers<T>,
-    first: usize,
-    lanes: usize,
-) -> LinearPointers<T> {
-    (copy.first, copy.count, copy.lanes) = (first, block.n - first, lanes);
-    let inputs = [
-        (block.f_old, 0, 9),
-        (block.f_new, F_NEW_ROW, 9),
-        (block.axes.cast_const(), AXES_ROW, 9),
-        (block.state_old, STATE_ROW, LINEAR_ELASTIC_STATE),
-    ];
-    for (array, row, components) in inputs {
-        for c in 0..components {
-            // SAFETY: the caller's promise.
-            unsafe { copy.fetch_row(row + c, super::component(array, c, block.leading_dimension)) };
-        }
-    }
-    // Null stays null. All pointers come from one: a second borrow of the copy would end the first one's.
-    let rows = copy.row(0);
-    let place = |present: *const T, row: usize| match present.is_null() {
-        true => core::ptr::null_mut(),
-        false => rows.wrapping_add(row * lanes),
-    };
-    LinearPointers {
-        n: lanes,
-        leading_dimension: lanes,
-        f_old: place(block.f_old, 0),
-        f_new: place(block.f_new, F_NEW_ROW),
-        axes: place(block.axes, AXES_ROW),
-        state_old: place(block.state_old, STATE_ROW),
-        state_new: place(block.state_new, STATE_ROW),
-        stress: place(block.stress, STRESS_ROW),
-        status: if block.status.is_null() { block.status } else { copy.codes.as_mut_ptr() },
-        ..*block
-    }
-}
-
-/// Copies the outputs back.
-///
-/// # Safety
-/// As for [`fetch`], which has been called.
-#[inline(never)]
-unsafe fn put<T: Precision>(copy: &mut LeftOver<T>, block: &LinearPointers<T>) {
-    let outputs =
-        [(block.axes, AXES_ROW, 9), (block.state_new, STATE_ROW, LINEAR_ELASTIC_STATE), (block.stress, STRESS_ROW, 6)];
-    for (array, row, components) in outputs {
-        for c in 0..components {
-            let to = super::component(array, c, block.leading_dimension).cast_mut();
-            // SAFETY: the caller's promise.
-            unsafe { copy.put_row(to, row + c) };
-        }
-    }
-    if !block.status.is_null() {
-        for (j, &code) in copy.codes.iter().take(copy.count).enumerate() {
-            // SAFETY: the caller's promise.
-            unsafe { *block.status.add(copy.first + j) = code };
         }
     }
 }

@@ -25,6 +25,7 @@ pub(super) use x86::root;
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
+use core::ops::Range;
 
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
@@ -32,7 +33,7 @@ use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, 
 use super::point::{Call, Derivative, Sink};
 use super::real::Real;
 use super::status::{self, Error};
-use super::tangent::{Measure, unrepresentable};
+use super::tangent::{Measure, overflows, unrepresentable};
 use super::wave_speed;
 
 /// A block as a host passes it: null is left out.
@@ -270,13 +271,16 @@ impl<T: Precision> Hyperelastic<T> {
             wave_modulus: !block.wave_speed.is_null(),
         };
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
-        // An old state elsewhere is brought over part by part: what has been copied is then still in the nearest cache.
-        let part = if block.in_place() { block.n } else { TAKEN_OVER };
-        let mut worst = status::OK;
-        for first in (0..block.n).step_by(part) {
-            let mut points = block.from(first);
-            points.n = points.n.min(part);
+        if block.in_place() {
             // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+            return Ok(unsafe { T::dispatch(level, self, block, request) });
+        }
+        // An old state elsewhere is brought over part by part: what has been copied is then still in the nearest cache.
+        let mut worst = status::OK;
+        for first in (0..block.n).step_by(TAKEN_OVER) {
+            let mut points = block.from(first);
+            points.n = points.n.min(TAKEN_OVER);
+            // SAFETY: as above.
             unsafe {
                 points.take_over();
                 worst = worst.min(T::dispatch(level, self, &points, request));
@@ -357,18 +361,25 @@ impl Level {
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
-            // The only global state of the library: what the processor can do, found out once.
+            // Beside `fused` the only global state of the library: what the processor can do, found out once.
             cpufeatures::new!(has_avx512, "avx512f", "avx512dq", "avx512vl", "avx2", "fma");
-            cpufeatures::new!(has_avx2, "avx2", "fma");
             if has_avx512::get() {
                 return Level::Avx512;
             }
-            if has_avx2::get() {
+            if fused() {
                 return Level::Avx2;
             }
         }
         Level::Baseline
     }
+}
+
+/// Whether the processor has AVX2 and fused multiply-add.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn fused() -> bool {
+    cpufeatures::new!(has_avx2, "avx2", "fma");
+    has_avx2::get()
 }
 
 /// Points side by side in lanes that are loaded from and stored to arrays of T.
@@ -423,20 +434,23 @@ pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed 
     /// The first property that is wrong; nothing is handed to the sink.
     #[inline(always)]
     fn once<D: Derivative<N>, S: Sink<Self, N>, const N: usize>(call: Call<'_, Self, D, S, N>) -> Result<(), Error> {
-        plain(call)
+        call.evaluate_plainly()
     }
 }
 
-/// A call in the instructions of every processor; out of line, so that the others need not keep room for it.
-#[inline(never)]
-fn plain<T: Precision, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-    call: Call<'_, T, D, S, N>,
-) -> Result<(), Error> {
-    call.evaluate::<T>()
+/// A kernel for some lanes, with the instructions that they need.
+macro_rules! kernel {
+    ($(#[$features:meta])? $name:ident, $t:ty, $lanes:ty) => {
+        $(#[$features])?
+        unsafe fn $name<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>, points: Range<usize>) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { sweep::<$t, $lanes, WANT>(law, block, points) }
+        }
+    };
 }
 
 macro_rules! precision {
-    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty $(; one point $one:ty)?) => {
+    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty, $one:ty, $point:ty) => {
         impl Lanes<$t> for $t {
             const COUNT: usize = 1;
             #[inline(always)]
@@ -463,60 +477,87 @@ macro_rules! precision {
         }
 
         impl Precision for $t {
-            $(
-                #[inline(always)]
-                fn once<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
+            #[cfg(target_arch = "x86_64")]
+            #[inline(always)]
+            fn once<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
+                call: Call<'_, $t, D, S, N>,
+            ) -> Result<(), Error> {
+                #[target_feature(enable = "avx2,fma")]
+                fn evaluate<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
                     call: Call<'_, $t, D, S, N>,
                 ) -> Result<(), Error> {
-                    #[target_feature(enable = "avx2,fma")]
-                    fn fused<D: Derivative<N>, S: Sink<$t, N>, const N: usize>(
-                        call: Call<'_, $t, D, S, N>,
-                    ) -> Result<(), Error> {
-                        call.evaluate::<$one>()
-                    }
-                    if Level::best() == Level::Baseline {
-                        return plain(call);
-                    }
-                    // SAFETY: every level above has the instructions.
-                    unsafe { fused(call) }
+                    call.evaluate::<$point>()
                 }
-            )?
+                if !fused() {
+                    return call.evaluate_plainly();
+                }
+                // SAFETY: the processor has the instructions.
+                unsafe { evaluate(call) }
+            }
 
             unsafe fn dispatch(level: Level, law: &Hyperelastic<$t>, block: &Pointers<$t>, request: Request) -> i32 {
+                kernel!(scalar, $t, $t);
                 #[cfg(target_arch = "x86_64")]
                 {
-                    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-                    unsafe fn avx512<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
-                        // SAFETY: the caller's promise.
-                        unsafe { sweep::<$t, $avx512, WANT>(law, block) }
-                    }
-                    unsafe fn baseline<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
-                        // SAFETY: the caller's promise.
-                        unsafe { sweep::<$t, $baseline, WANT>(law, block) }
-                    }
-                    #[target_feature(enable = "avx2,fma")]
-                    unsafe fn avx2<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
-                        // SAFETY: the caller's promise.
-                        unsafe { sweep::<$t, $avx2, WANT>(law, block) }
-                    }
-                    // SAFETY: the caller has found the instructions.
+                    kernel!(
+                        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+                        avx512,
+                        $t,
+                        $avx512
+                    );
+                    kernel!(
+                        #[target_feature(enable = "avx2,fma")]
+                        avx2,
+                        $t,
+                        $avx2
+                    );
+                    kernel!(
+                        #[target_feature(enable = "avx2,fma")]
+                        one,
+                        $t,
+                        $one
+                    );
+                    kernel!(baseline, $t, $baseline);
+                    // What fills no register goes to narrower ones, which give the same bits.
+                    let (n, mut worst) = (block.n, status::OK);
+                    let whole = |lanes: usize| n - n % lanes;
+                    // SAFETY: the caller has found the instructions, and answers for the arrays.
                     unsafe {
-                        match level {
-                            Level::Avx512 => specialised!(avx512, law, block, request),
-                            Level::Avx2 => specialised!(avx2, law, block, request),
-                            Level::Baseline => as_asked!(baseline, law, block),
+                        if level == Level::Baseline {
+                            let part = 0..whole(<$baseline as Lanes<$t>>::COUNT);
+                            if !part.is_empty() {
+                                worst = as_asked!(baseline, law, block, part);
+                            }
+                            let rest = part.end..n;
+                            if !rest.is_empty() {
+                                worst = worst.min(as_asked!(scalar, law, block, rest));
+                            }
+                            return worst;
+                        }
+                        let mut part = 0..0;
+                        if level == Level::Avx512 {
+                            part.end = whole(<$avx512 as Lanes<$t>>::COUNT);
+                            if !part.is_empty() {
+                                worst = specialised!(avx512, law, block, request, part);
+                            }
+                        }
+                        part = part.end..whole(<$avx2 as Lanes<$t>>::COUNT);
+                        if !part.is_empty() {
+                            worst = worst.min(specialised!(avx2, law, block, request, part));
+                        }
+                        part = part.end..n;
+                        if !part.is_empty() {
+                            worst = worst.min(as_asked!(one, law, block, part));
                         }
                     }
+                    worst
                 }
                 #[cfg(not(target_arch = "x86_64"))]
                 {
                     let _ = (level, request);
-                    unsafe fn portable<const WANT: u8>(law: &Hyperelastic<$t>, block: &Pointers<$t>) -> i32 {
-                        // SAFETY: the caller's promise.
-                        unsafe { sweep::<$t, $t, WANT>(law, block) }
-                    }
+                    let all = 0..block.n;
                     // SAFETY: the caller's promise.
-                    unsafe { as_asked!(portable, law, block) }
+                    unsafe { as_asked!(scalar, law, block, all) }
                 }
             }
         }
@@ -535,15 +576,15 @@ const AS_ASKED: u8 = 128;
 /// Calls the kernel built for exactly what is asked, or the one that asks at every turn.
 #[cfg(target_arch = "x86_64")]
 macro_rules! specialised {
-    ($kernel:ident, $law:ident, $block:ident, $request:ident) => {{
+    ($kernel:ident, $law:ident, $block:ident, $request:ident, $points:ident) => {{
         let Request { stress, energies, invariants, failure, modes, wave_modulus } = $request;
         let usual = stress && !modes && !wave_modulus && $block.tangent.is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
-            (true, false, false, false) => wanting!(0, $kernel, $law, $block),
-            (true, true, false, false) => wanting!(ENERGIES, $kernel, $law, $block),
-            (true, true, true, true) => wanting!(ENERGIES + HISTORY, $kernel, $law, $block),
-            _ => as_asked!($kernel, $law, $block),
+            (true, false, false, false) => wanting!(0, $kernel, $law, $block, $points),
+            (true, true, false, false) => wanting!(ENERGIES, $kernel, $law, $block, $points),
+            (true, true, true, true) => wanting!(ENERGIES + HISTORY, $kernel, $law, $block, $points),
+            _ => as_asked!($kernel, $law, $block, $points),
         }
     }};
 }
@@ -551,68 +592,58 @@ macro_rules! specialised {
 /// Calls the kernel built for what is wanted, for the shear and for the fibre.
 #[cfg(target_arch = "x86_64")]
 macro_rules! wanting {
-    ($want:expr, $kernel:ident, $law:ident, $block:ident) => {
+    ($want:expr, $kernel:ident, $law:ident, $block:ident, $points:ident) => {
         match ($law.shears(), !$block.fibre[0].is_null(), $law.aligned) {
-            (false, true, _) => $kernel::<{ $want + FIBRES }>($law, $block),
-            (true, true, _) => $kernel::<{ $want + SHEAR + FIBRES }>($law, $block),
-            (false, false, true) => $kernel::<{ $want + ALIGNED }>($law, $block),
-            (true, false, true) => $kernel::<{ $want + SHEAR + ALIGNED }>($law, $block),
-            (false, false, false) => $kernel::<{ $want }>($law, $block),
-            (true, false, false) => $kernel::<{ $want + SHEAR }>($law, $block),
+            (false, true, _) => $kernel::<{ $want + FIBRES }>($law, $block, $points.clone()),
+            (true, true, _) => $kernel::<{ $want + SHEAR + FIBRES }>($law, $block, $points.clone()),
+            (false, false, true) => $kernel::<{ $want + ALIGNED }>($law, $block, $points.clone()),
+            (true, false, true) => $kernel::<{ $want + SHEAR + ALIGNED }>($law, $block, $points.clone()),
+            (false, false, false) => $kernel::<{ $want }>($law, $block, $points.clone()),
+            (true, false, false) => $kernel::<{ $want + SHEAR }>($law, $block, $points.clone()),
         }
     };
 }
 
 /// Calls the kernel that asks at every turn.
 macro_rules! as_asked {
-    ($kernel:ident, $law:ident, $block:ident) => {
+    ($kernel:ident, $law:ident, $block:ident, $points:ident) => {
         // Beside the tangent the products with the frame that an aligned fibre saves weigh little.
         match ($law.shears(), $law.aligned && $block.fibre[0].is_null() && $block.tangent.is_null()) {
-            (false, true) => $kernel::<{ AS_ASKED + ALIGNED }>($law, $block),
-            (true, true) => $kernel::<{ AS_ASKED + SHEAR + ALIGNED }>($law, $block),
-            (false, false) => $kernel::<AS_ASKED>($law, $block),
-            (true, false) => $kernel::<{ AS_ASKED + SHEAR }>($law, $block),
+            (false, true) => $kernel::<{ AS_ASKED + ALIGNED }>($law, $block, $points.clone()),
+            (true, true) => $kernel::<{ AS_ASKED + SHEAR + ALIGNED }>($law, $block, $points.clone()),
+            (false, false) => $kernel::<AS_ASKED>($law, $block, $points.clone()),
+            (true, false) => $kernel::<{ AS_ASKED + SHEAR }>($law, $block, $points.clone()),
         }
     };
 }
 #[cfg(target_arch = "x86_64")]
-precision!(f64: x86::F64x2, x86::F64x4, x86::F64x8; one point x86::F64x1);
+precision!(f64: x86::F64x2, x86::F64x4, x86::F64x8, x86::F64x1, x86::F64Point);
 #[cfg(target_arch = "x86_64")]
-precision!(f32: x86::F32x4, x86::F32x8, x86::F32x16);
+precision!(f32: x86::F32x4, x86::F32x8, x86::F32x16, x86::F32x1, x86::F32Point);
 #[cfg(not(target_arch = "x86_64"))]
-precision!(f64: f64, f64, f64);
+precision!(f64: f64, f64, f64, f64, f64);
 #[cfg(not(target_arch = "x86_64"))]
-precision!(f32: f32, f32, f32);
+precision!(f32: f32, f32, f32, f32, f32);
 
-/// The kernel: full lanes in the arrays themselves, then what is left in arrays of its own, by the same code.
+/// The kernel, for points that fill whole registers.
 ///
 /// # Safety
-/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions; `WANT` asks for nothing that the
-/// block leaves out.
+/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
+/// a multiple of COUNT; `WANT` asks for nothing that the block leaves out.
 #[inline(always)]
-unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
+unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<T>,
+    block: &Pointers<T>,
+    points: Range<usize>,
+) -> i32 {
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
-    let mut left_over = LeftOver::new();
-    let mut part = Pointers { n: block.n - block.n % R::COUNT, ..*block };
-    loop {
-        let mut i = 0;
-        while i < part.n {
-            let count = STAGED.min((part.n - i) / R::COUNT);
-            // SAFETY: i + count COUNT ≤ n, and the caller's promise.
-            unsafe { evaluate::<T, R, WANT>(&lanes, &part, i, count, &mut worst) };
-            i += count * R::COUNT;
-        }
-        if left_over.count > 0 {
-            // SAFETY: the caller's promise.
-            unsafe { left_over.put(block) };
-            break;
-        }
-        if part.n == block.n {
-            break;
-        }
-        // SAFETY: the caller's promise.
-        part = unsafe { left_over.fetch(block, part.n, R::COUNT) };
+    let mut i = points.start;
+    while i < points.end {
+        let count = STAGED.min((points.end - i) / R::COUNT);
+        // SAFETY: i + count COUNT ≤ the end, and the caller's promise.
+        unsafe { evaluate::<T, R, WANT>(&lanes, block, i, count, &mut worst) };
+        i += count * R::COUNT;
     }
     least_code(worst)
 }
@@ -964,7 +995,7 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
     } else {
         let moduli = law.moduli(&d, kinematics.strain, k, frame, block.measure, shear);
         store(moduli.matrix().as_flattened());
-        unrepresentable(&moduli.0)
+        if overflows::<R>(block.measure, shear) { unrepresentable(&moduli.0) } else { R::splat(0.0) }
     }
 }
 
@@ -1116,154 +1147,4 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
         let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
         R::select(outcome.new, zero, code)
     }
-}
-
-/// The points at the end of a block that do not fill the lanes: copied to arrays of their own, evaluated there, and copied
-/// back. The lanes left over repeat the last point.
-struct LeftOver<T> {
-    rows: [MaybeUninit<T>; ROWS * WIDEST],
-    codes: [i32; WIDEST],
-    first: usize,
-    count: usize,
-    lanes: usize,
-}
-
-/// Where the components stand in the copy; the state is evaluated in place.
-const FIBRE_ROW: usize = 9;
-const ENERGY_ROW: usize = 12;
-const INVARIANT_ROW: usize = 16;
-const FAILURE_ROW: usize = 20;
-const STRESS_ROW: usize = 23;
-const MODE_ROW: usize = 29;
-const WAVE_ROW: usize = 53;
-const TANGENT_ROW: usize = 54;
-const ROWS: usize = 54 + 81;
-
-impl<T: Precision> LeftOver<T> {
-    fn new() -> Self {
-        LeftOver { rows: [MaybeUninit::uninit(); ROWS * WIDEST], codes: [0; WIDEST], first: 0, count: 0, lanes: 0 }
-    }
-
-    fn row(&mut self, row: usize) -> *mut T {
-        self.rows.as_mut_ptr().cast::<T>().wrapping_add(row * self.lanes)
-    }
-
-    /// Copies the inputs of the points from `first` on, and hands out the copy as a block of `lanes` points.
-    ///
-    /// # Safety
-    /// As for [`sweep`], with first < n and n − first < lanes ≤ WIDEST.
-    #[inline(never)]
-    unsafe fn fetch(&mut self, block: &Pointers<T>, first: usize, lanes: usize) -> Pointers<T> {
-        (self.first, self.count, self.lanes) = (first, block.n - first, lanes);
-        let stride = block.leading_dimension;
-        // SAFETY: the caller's promise.
-        unsafe {
-            for c in 0..9 {
-                self.fetch_row(c, block.deformation_gradient[c]);
-            }
-            for c in 0..3 {
-                self.fetch_row(FIBRE_ROW + c, block.fibre[c]);
-                self.fetch_row(FAILURE_ROW + c, component(block.failure_old, c, stride));
-            }
-            for c in 0..4 {
-                self.fetch_row(ENERGY_ROW + c, component(block.energies_old, c, stride));
-                self.fetch_row(INVARIANT_ROW + c, component(block.invariants_old, c, stride));
-            }
-        }
-        let copy = self.row(0);
-        // Null stays null.
-        let input =
-            |present: *const T, row: usize| if present.is_null() { present } else { copy.wrapping_add(row * lanes) };
-        let output =
-            |present: *mut T, row: usize| if present.is_null() { present } else { copy.wrapping_add(row * lanes) };
-        let mut part = Pointers {
-            n: lanes,
-            leading_dimension: lanes,
-            energies_old: input(block.energies_old, ENERGY_ROW),
-            invariants_old: input(block.invariants_old, INVARIANT_ROW),
-            failure_old: input(block.failure_old, FAILURE_ROW),
-            energies: output(block.energies, ENERGY_ROW),
-            invariants: output(block.invariants, INVARIANT_ROW),
-            failure: output(block.failure, FAILURE_ROW),
-            modes: output(block.modes, MODE_ROW),
-            wave_speed: output(block.wave_speed, WAVE_ROW),
-            tangent: output(block.tangent, TANGENT_ROW),
-            status: if block.status.is_null() { block.status } else { self.codes.as_mut_ptr() },
-            ..*block
-        };
-        for (c, pointer) in part.deformation_gradient.iter_mut().enumerate() {
-            *pointer = input(*pointer, c);
-        }
-        for (c, pointer) in part.fibre.iter_mut().enumerate() {
-            *pointer = input(*pointer, FIBRE_ROW + c);
-        }
-        for (c, pointer) in part.stress.iter_mut().enumerate() {
-            *pointer = output(*pointer, STRESS_ROW + c);
-        }
-        part
-    }
-
-    /// # Safety
-    /// `from` is null or has the points.
-    unsafe fn fetch_row(&mut self, row: usize, from: *const T) {
-        if !from.is_null() {
-            let to = self.row(row);
-            for j in 0..self.lanes {
-                // SAFETY: the caller's promise, and there is room for the widest lanes.
-                unsafe { *to.add(j) = *from.add(self.first + j.min(self.count - 1)) };
-            }
-        }
-    }
-
-    /// Copies the outputs back.
-    ///
-    /// # Safety
-    /// As for [`LeftOver::fetch`], which has been called.
-    #[inline(never)]
-    unsafe fn put(&mut self, block: &Pointers<T>) {
-        let stride = block.leading_dimension;
-        let component = |array: *mut T, c: usize| component(array.cast_const(), c, stride).cast_mut();
-        // SAFETY: the caller's promise.
-        unsafe {
-            for c in 0..6 {
-                self.put_row(block.stress[c], STRESS_ROW + c);
-            }
-            for c in 0..4 {
-                self.put_row(component(block.energies, c), ENERGY_ROW + c);
-                self.put_row(component(block.invariants, c), INVARIANT_ROW + c);
-            }
-            for c in 0..3 {
-                self.put_row(component(block.failure, c), FAILURE_ROW + c);
-            }
-            for c in 0..24 {
-                self.put_row(component(block.modes, c), MODE_ROW + c);
-            }
-            self.put_row(block.wave_speed, WAVE_ROW);
-            for c in 0..block.measure.components() {
-                self.put_row(component(block.tangent, c), TANGENT_ROW + c);
-            }
-            if !block.status.is_null() {
-                for (j, &code) in self.codes.iter().take(self.count).enumerate() {
-                    *block.status.add(self.first + j) = code;
-                }
-            }
-        }
-    }
-
-    /// # Safety
-    /// `to` is null or has the points.
-    unsafe fn put_row(&mut self, to: *mut T, row: usize) {
-        if !to.is_null() {
-            let from = self.row(row);
-            for j in 0..self.count {
-                // SAFETY: the caller's promise.
-                unsafe { *to.add(self.first + j) = *from.add(j) };
-            }
-        }
-    }
-}
-
-/// Component `c` of an array; null where the array is.
-fn component<T>(array: *const T, c: usize, leading_dimension: usize) -> *const T {
-    if array.is_null() { array } else { array.wrapping_add(c.wrapping_mul(leading_dimension)) }
 }

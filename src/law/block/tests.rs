@@ -30,6 +30,11 @@ trait Number: Precision + Debug {
     type Avx2: Lanes<Self>;
     #[cfg(target_arch = "x86_64")]
     type Avx512: Lanes<Self>;
+    /// The lanes of one point, in a block and in a call of its own.
+    #[cfg(target_arch = "x86_64")]
+    type One: Lanes<Self>;
+    #[cfg(target_arch = "x86_64")]
+    type Point: Lanes<Self>;
     /// How far this is from the exact number.
     fn ulps(self, exact: &Self::Exact) -> f64;
     fn exact(self) -> Self::Exact;
@@ -43,6 +48,10 @@ impl Number for f64 {
     type Avx2 = super::x86::F64x4;
     #[cfg(target_arch = "x86_64")]
     type Avx512 = super::x86::F64x8;
+    #[cfg(target_arch = "x86_64")]
+    type One = super::x86::F64x1;
+    #[cfg(target_arch = "x86_64")]
+    type Point = super::x86::F64Point;
     fn ulps(self, exact: &Reference) -> f64 {
         if !self.is_finite() {
             return f64::INFINITY;
@@ -64,6 +73,10 @@ impl Number for f32 {
     type Avx2 = super::x86::F32x8;
     #[cfg(target_arch = "x86_64")]
     type Avx512 = super::x86::F32x16;
+    #[cfg(target_arch = "x86_64")]
+    type One = super::x86::F32x1;
+    #[cfg(target_arch = "x86_64")]
+    type Point = super::x86::F32Point;
     fn ulps(self, exact: &f64) -> f64 {
         if !self.is_finite() {
             return f64::INFINITY;
@@ -118,6 +131,11 @@ fn everywhere<T: Number, const I: usize, const O: usize>(
         #[cfg(not(target_arch = "x86_64"))]
         let values = in_lanes::<T, T, I, O>(function, arguments);
         results.push((level.name(), values));
+    }
+    #[cfg(target_arch = "x86_64")]
+    if Level::best() >= Level::Avx2 {
+        results.push(("one point of a block", in_lanes::<T, T::One, I, O>(function, arguments)));
+        results.push(("a point on its own", in_lanes::<T, T::Point, I, O>(function, arguments)));
     }
     results
 }
@@ -434,7 +452,7 @@ macro_rules! dividing {
             }
             arguments.extend(arguments.clone().into_iter().map(|[x]| [-x]));
             let exact = |[x]: [$t; 1]| [$one / x.exact()];
-            within([("1/x", 1.0)], &Reciprocal, &arguments, exact, none);
+            within([("1/x", 0.5)], &Reciprocal, &arguments, exact, none);
 
             let quotients: Vec<_> = (0..200_000)
                 .map(|i| {
@@ -453,3 +471,190 @@ macro_rules! dividing {
 }
 dividing!(reciprocals_and_quotients_f64, f64, reference(1.0), 75.0);
 dividing!(reciprocals_and_quotients_f32, f32, 1.0, 7.0);
+
+/// The mantissas of double precision whose reciprocals lie nearest to halfway between two numbers, x m = 2^106 + k for an odd m of
+/// 54 bits and |k| ≤ 8: where a reciprocal computed in any other way than by a division goes wrong first. Found by factoring.
+const HALFWAY: [u64; 86] = [
+    0x1ffffff8000001,
+    0x1fffffffffffff,
+    0x1014ca35e947b6,
+    0x1024a3bd98da02,
+    0x10699d36aec84e,
+    0x109107683ee29e,
+    0x10af911aa26396,
+    0x10d03f8a57cc76,
+    0x110af85de838ce,
+    0x110d10000221a2,
+    0x1125e52b034982,
+    0x115efb8b10aa42,
+    0x11d3799c32581e,
+    0x11f98ea5d9b262,
+    0x120a8f5bbf2106,
+    0x12af4d6bc06922,
+    0x12bf5907e316d2,
+    0x12e93952a2ed6e,
+    0x130a0dd90e13a2,
+    0x134d8fe343ef42,
+    0x1379cb88f092f2,
+    0x13a324a526d5ee,
+    0x13a7a1d01d1ec2,
+    0x13d75d54b37492,
+    0x1403e897077b16,
+    0x14a6fb45f5d782,
+    0x14cad5a5fa03ee,
+    0x155f2490c86132,
+    0x156a8cb0234262,
+    0x159aa11aaecb86,
+    0x16026c81a85766,
+    0x163baaac17d1e2,
+    0x163dd0554d0122,
+    0x16d6422e5cf246,
+    0x16f0f27bf434d6,
+    0x16fae7ba173812,
+    0x17641c46f799ee,
+    0x178cb7d5d6e322,
+    0x17f52093014f0e,
+    0x1806c89fcb9452,
+    0x181efe51ead722,
+    0x18401cbcdb5596,
+    0x184a12efef626e,
+    0x1960a45d1a71e6,
+    0x199e1b447e99c2,
+    0x19f142d24e1352,
+    0x1a0b8ffffcbe8e,
+    0x1a149bad85de72,
+    0x1a2ce4d7478a06,
+    0x1a6f41dab98cb2,
+    0x1aa7c88ee59082,
+    0x1ae6849e786ad2,
+    0x1b227794e85702,
+    0x1bea3278b789d2,
+    0x1c2693dcf34742,
+    0x1c4d3aabd478f6,
+    0x1c69bf28eba166,
+    0x1d5b9032f086be,
+    0x1da210daeb138e,
+    0x1de441d5331432,
+    0x1de4a0d00fa9b2,
+    0x1e20adbc4078a2,
+    0x1e756f08df1792,
+    0x1e8d517d09c5c2,
+    0x1e9a9473949bf6,
+    0x1ef7930608393e,
+    0x1f65fad23b0d86,
+    0x1f739bd459bea2,
+    0x10aadc6f562fdc,
+    0x10ed85c351e224,
+    0x12d2d2d2d2d2d4,
+    0x12e3c6a0509ca4,
+    0x132160ccc0848c,
+    0x13541c0067f83c,
+    0x14873ecade304c,
+    0x15555555555554,
+    0x172f10bf899124,
+    0x178d42e524dcdc,
+    0x194ab05a4ecedc,
+    0x194c4511fa3124,
+    0x199d2b42ffe9f4,
+    0x1c36899addce3c,
+    0x1c384d119331c4,
+    0x1c928b5b9dc714,
+    0x1fe24bffeb8794,
+    0x1ffb8a8b628dbc,
+];
+
+/// Those, both ends of the mantissas' range, and some in between.
+fn hard_mantissas() -> Vec<f64> {
+    let ends = (0..64).flat_map(|k| [(1_u64 << 53) - 1 - k, (1 << 52) + k]);
+    let hard = HALFWAY.into_iter().chain(ends).map(|mantissa| mantissa as f64 / (1_u64 << 52) as f64);
+    hard.chain(samples(1.0..2.0, 20_000)).collect()
+}
+
+/// Likewise in single precision: each of some hundred thousand, both ends among them.
+fn mantissas_single() -> Vec<f32> {
+    let ends = (0..64).flat_map(|k| [(1_u32 << 24) - 1 - k, (1 << 23) + k]);
+    ends.chain((1 << 23..1 << 24).step_by(61)).map(|mantissa| mantissa as f32 / (1_u32 << 23) as f32).collect()
+}
+
+/// Reciprocals are the same at every level: as a division rounds them.
+#[test]
+fn reciprocals_are_those_of_a_division() {
+    let sizes = [1.0, -1.0, 2f64.powi(-300), 2f64.powi(300)];
+    let arguments: Vec<_> = hard_mantissas().into_iter().flat_map(|x| sizes.map(|size| [x * size])).collect();
+    for (level, results) in everywhere(&Reciprocal, &arguments) {
+        for (&[found], &[x]) in results.iter().zip(&arguments) {
+            assert_eq!(found, 1.0 / x, "{level}: 1/{x:e}");
+        }
+    }
+    let arguments: Vec<_> = mantissas_single().into_iter().flat_map(|x| [[x], [x * 1e-9]]).collect();
+    for (level, results) in everywhere(&Reciprocal, &arguments) {
+        for (&[found], &[x]) in results.iter().zip(&arguments) {
+            assert_eq!(found, 1.0 / x, "{level}: 1/{x:e}");
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+struct Series<const TERMS: u8>;
+#[cfg(target_arch = "x86_64")]
+impl<const TERMS: u8> Function<2, 1> for Series<TERMS> {
+    fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
+        [super::x86::reciprocal_series::<R, TERMS>(x, y)]
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+struct NewtonStep;
+#[cfg(target_arch = "x86_64")]
+impl Function<2, 1> for NewtonStep {
+    fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
+        [super::x86::newton_reciprocal(x, y)]
+    }
+}
+
+/// The reciprocal of AVX-512 step by step, from approximations of every error that the instruction may have: the result does not
+/// depend on it, so that it is the same on every maker's processors, and this needs none of them.
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn refined_reciprocals_do_not_depend_on_the_approximation() {
+    if Level::best() < Level::Avx2 {
+        return; // without a fused multiply-add there is no such refinement
+    }
+    let errors = [-1.0, -0.99, -0.7, -1e-3, -1e-9, 0.0, 1e-9, 1e-3, 0.5, 0.99, 1.0].map(|e| 1.0 + e * 2f64.powi(-14));
+
+    let arguments: Vec<[f64; 2]> =
+        hard_mantissas().into_iter().flat_map(|x| errors.map(|error| [x, error / x])).collect();
+    let series = in_lanes::<f64, super::x86::F64x1, 2, 1>(&Series::<3>, &arguments);
+    let near: Vec<_> = series.iter().zip(&arguments).map(|(&[s], &[x, y])| [x, y_plus_product_upwards(s, y)]).collect();
+    let found = in_lanes::<f64, super::x86::F64x1, 2, 1>(&NewtonStep, &near);
+    for (&[found], &[x, y]) in found.iter().zip(&arguments) {
+        assert_eq!(found, 1.0 / x, "1/{x:e} from {y:e}");
+    }
+
+    let arguments: Vec<[f32; 2]> = mantissas_single()
+        .into_iter()
+        .flat_map(|x| errors.map(|error| [x, (error / f64::from(x)) as f32]))
+        // Rounding may have carried an approximation beyond what the instruction promises.
+        .filter(|&[x, y]| (f64::from(x) * f64::from(y) - 1.0).abs() <= 2f64.powi(-14))
+        .collect();
+    let series = in_lanes::<f32, super::x86::F32x1, 2, 1>(&Series::<1>, &arguments);
+    let near = series.iter().zip(&arguments).map(|(&[s], &[x, y])| {
+        // Less than 62 bits: of the exact sum only the sign of the remainder counts.
+        let sum = (f64::from(s) * f64::from(y) + f64::from(y)) as f32;
+        let remainder = (f64::from(y) - f64::from(sum)) + f64::from(s) * f64::from(y);
+        [x, if remainder > 0.0 { sum.next_up() } else { sum }]
+    });
+    let near: Vec<_> = near.collect();
+    let found = in_lanes::<f32, super::x86::F32x1, 2, 1>(&NewtonStep, &near);
+    for (&[found], &[x, y]) in found.iter().zip(&arguments) {
+        assert_eq!(found, 1.0 / x, "1/{x:e} from {y:e}");
+    }
+}
+
+/// s y + y, rounded upwards.
+#[cfg(target_arch = "x86_64")]
+fn y_plus_product_upwards(s: f64, y: f64) -> f64 {
+    let sum = s.mul_add(y, y);
+    let exact = reference(s) * reference(y) + reference(y);
+    if reference(sum) < exact { sum.next_up() } else { sum }
+}

@@ -312,15 +312,26 @@ fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
     (-quotient).mul_add(divisor, x).mul_add(reciprocal, quotient)
 }
 
-/// 1/x from an approximation y to 14 bits: with r = 1 − x y it is y (1 + r + r² + r³ …), so many terms of it.
+// 1/x in AVX-512, correctly rounded as a division would have it, from an approximation y to 14 bits: with r = 1 − x y the
+// reciprocal is y (1 + r + r² + r³ …). So many terms of it, the last sum rounded upwards, are within one unit in the last place.
+// A Newton step from there is correctly rounded but for the x whose mantissa is all ones (Markstein, IBM J. Res. Dev. 34(1),
+// 1990), and for that x too where it starts from above: hence upwards.
+
+/// r + r² + …, so many terms, with r = 1 − x y.
 #[inline(always)]
-fn refined_reciprocal<R: Real, const TERMS: u8>(x: R, approximation: R) -> R {
-    let r = (-x).mul_add(approximation, R::splat(1.0));
+pub(super) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
+    let r = (-x).mul_add(y, R::splat(1.0));
     let mut series = r;
     for _ in 1..TERMS {
         series = series.mul_add(r, r);
     }
-    series.mul_add(approximation, approximation)
+    series
+}
+
+/// A Newton step for 1/x from y.
+#[inline(always)]
+pub(super) fn newton_reciprocal<R: Real>(x: R, y: R) -> R {
+    (-x).mul_add(y, R::splat(1.0)).mul_add(y, y)
 }
 
 /// x times this has the exponent of the power of two that brings x to [¾, 1½); its rounding is exact where it matters.
@@ -470,8 +481,14 @@ register! {
     );
     // SAFETY: as for the registers.
     scale (x, k) F64x8(unsafe { _mm512_scalef_pd(x.0, k.0) });
-    // SAFETY: as for the registers.
-    reciprocal (x) refined_reciprocal::<_, 3>(x, F64x8(unsafe { _mm512_rcp14_pd(x.0) }));
+    reciprocal (x) {
+        // SAFETY: as for the registers.
+        let y = F64x8(unsafe { _mm512_rcp14_pd(x.0) });
+        let series = reciprocal_series::<_, 3>(x, y);
+        const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
+        // SAFETY: as for the registers.
+        newton_reciprocal(x, F64x8(unsafe { _mm512_fmadd_round_pd::<UPWARDS>(series.0, y.0, y.0) }))
+    };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
     store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x)
@@ -497,22 +514,69 @@ register! {
     );
     // SAFETY: as for the registers.
     scale (x, k) F32x16(unsafe { _mm512_scalef_ps(x.0, k.0) });
-    // SAFETY: as for the registers.
-    reciprocal (x) refined_reciprocal::<_, 1>(x, F32x16(unsafe { _mm512_rcp14_ps(x.0) }));
+    reciprocal (x) {
+        // SAFETY: as for the registers.
+        let y = F32x16(unsafe { _mm512_rcp14_ps(x.0) });
+        let series = reciprocal_series::<_, 1>(x, y);
+        const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
+        // SAFETY: as for the registers.
+        newton_reciprocal(x, F32x16(unsafe { _mm512_fmadd_round_ps::<UPWARDS>(series.0, y.0, y.0) }))
+    };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
     store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x)
 }
 
 register! {
-    /// One number of double precision in both halves of a register, AVX2 with FMA: for the law at a single point. A select of
-    /// such is no branch, and the compiler does not rearrange what computes with them.
-    F64x1: f64 as u64 x 2 in __m128d / __m128i;
+    /// One point of double precision in all lanes of a register, AVX2 with FMA: for the points of a block that fill no wider
+    /// register.
+    F64x1: f64 as u64 x 1 in __m128d / __m128i;
     mask Mask64x2;
     arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
     bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
-    memory _mm_loadu_pd _mm_storeu_pd;
-    integers (x, to) _mm_storel_epi64(to.cast(), _mm_cvttpd_epi32(x));
+    memory _mm_load1_pd _mm_store_sd;
+    integers (x, to) *to = _mm_cvttsd_si32(x);
+    compare (a, b) Mask64x2(_mm_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x2(_mm_cmp_pd::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm_movemask_pd(mask.0) != 0;
+    select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
+    mul_add (a, b, c) _mm_fmadd_pd(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series HALF_ARTANH_F64 LN_F64 EXP_F64
+}
+
+register! {
+    /// Likewise in single precision.
+    F32x1: f32 as u32 x 1 in __m128 / __m128i;
+    mask Mask32x4;
+    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
+    bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
+    memory _mm_load1_ps _mm_store_ss;
+    integers (x, to) *to = _mm_cvttss_si32(x);
+    compare (a, b) Mask32x4(_mm_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x4(_mm_cmp_ps::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm_movemask_ps(mask.0) != 0;
+    select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
+    mul_add (a, b, c) _mm_fmadd_ps(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series HALF_ARTANH_F32 LN_F32 EXP_F32
+}
+
+register! {
+    /// One point of double precision, AVX2 with FMA, evaluated by the shortest chain of operations: for a call with one point.
+    /// A select of such is no branch, and the compiler does not rearrange what computes with them.
+    F64Point: f64 as u64 x 1 in __m128d / __m128i;
+    mask Mask64x2;
+    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
+    bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
+    memory _mm_load1_pd _mm_store_sd;
+    integers (x, to) *to = _mm_cvttsd_si32(x);
     compare (a, b) Mask64x2(_mm_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x2(_mm_cmp_pd::<_CMP_LE_OQ>(a, b));
     any (mask) _mm_movemask_pd(mask.0) != 0;
     select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
@@ -526,21 +590,50 @@ register! {
     waits true
 }
 
-impl Single<f64> for F64x1 {
-    #[inline(always)]
-    fn of(x: f64) -> Self {
-        Self::splat(x)
-    }
-    #[inline(always)]
-    fn value(self) -> f64 {
-        // SAFETY: as for the registers.
-        unsafe { _mm_cvtsd_f64(self.0) }
-    }
-    #[inline(always)]
-    fn holds(mask: Mask64x2) -> bool {
-        Self::any(mask)
-    }
+register! {
+    /// Likewise in single precision.
+    F32Point: f32 as u32 x 1 in __m128 / __m128i;
+    mask Mask32x4;
+    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
+    bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
+    memory _mm_load1_ps _mm_store_ss;
+    integers (x, to) *to = _mm_cvttss_si32(x);
+    compare (a, b) Mask32x4(_mm_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x4(_mm_cmp_ps::<_CMP_LE_OQ>(a, b));
+    any (mask) _mm_movemask_ps(mask.0) != 0;
+    select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
+    mul_add (a, b, c) _mm_fmadd_ps(a, b, c);
+    difference (a, b, c, d) fused_difference(a, b, c, d);
+    split (x) x.split_bits();
+    scale (x, k) x.scale_bits(k);
+    reciprocal (x) Self::splat(1.0) / x;
+    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
+    series HALF_ARTANH_F32 LN_F32 EXP_F32;
+    waits true
 }
+
+macro_rules! single {
+    ($name:ident of $t:ident, $first:ident) => {
+        impl Single<$t> for $name {
+            #[inline(always)]
+            fn of(x: $t) -> Self {
+                // SAFETY: as for the registers.
+                unsafe { Self::load(&x) }
+            }
+            #[inline(always)]
+            fn value(self) -> $t {
+                // SAFETY: as for the registers.
+                unsafe { $first(self.0) }
+            }
+            #[inline(always)]
+            fn holds(mask: Self::Mask) -> bool {
+                Self::any(mask)
+            }
+        }
+    };
+}
+
+single!(F64Point of f64, _mm_cvtsd_f64);
+single!(F32Point of f32, _mm_cvtss_f32);
 
 /// The root by the processor's own instruction, for scalars. libm's is written out for SSE2: among wider instructions it waits for
 /// the wide registers.

@@ -1,0 +1,66 @@
+//! The caller's floating-point environment, which no entry of the library sees or changes.
+//!
+//! Solvers trap floating-point exceptions, flush subnormal numbers to zero, and sometimes round in another direction. The
+//! compiler assumes none of that: it may compute in unused lanes, speculate a division whose result is dropped, and fold
+//! constants as if rounding to nearest. So each entry computes in the default environment of IEEE 754 (nothing trapped,
+//! subnormal numbers kept, round to nearest) and puts the caller's back when it is done, sticky exception flags included.
+//!
+//! On x86-64 that is the register MXCSR; nothing here uses the x87 registers. On other processors the work runs in the
+//! caller's environment.
+
+/// Nothing trapped, no flag raised, subnormal numbers kept, round to nearest: MXCSR as a process starts with it.
+#[cfg(target_arch = "x86_64")]
+const DEFAULT_MXCSR: u32 = 0x1f80;
+
+/// Runs `work` in the default floating-point environment and restores the caller's.
+///
+/// `work` must not panic: nothing unwinds through the change of environments, the process would abort.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
+    use core::mem::{ManuallyDrop, MaybeUninit};
+
+    struct Call<R, W> {
+        work: ManuallyDrop<W>,
+        result: MaybeUninit<R>,
+    }
+
+    /// # Safety
+    /// `call` is valid and its work has not been done.
+    unsafe extern "sysv64" fn run<R, W: FnOnce() -> R>(call: *mut Call<R, W>) {
+        // SAFETY: the caller's promise; the work is taken once.
+        unsafe {
+            let work = ManuallyDrop::take(&mut (*call).work);
+            (*call).result.write(work());
+        }
+    }
+
+    let mut call = Call { work: ManuallyDrop::new(work), result: MaybeUninit::uninit() };
+    let run: unsafe extern "sysv64" fn(*mut Call<R, W>) = run;
+    // The caller's MXCSR, and the one to run in. No arithmetic happens outside `run`: the compiler could move it across, but
+    // not into or out of a function that it reaches by address through memory.
+    let mut words = [0, DEFAULT_MXCSR];
+    // SAFETY: `run` has the calling convention whose registers are given up, keeps r12 as that convention demands, and takes
+    // its argument in rdi; the stack is aligned for a call, since the block does not claim to leave it alone. MXCSR is the
+    // caller's again at the end of the block.
+    unsafe {
+        core::arch::asm!(
+            "stmxcsr [r12]",
+            "ldmxcsr [r12 + 4]",
+            "call r13",
+            "ldmxcsr [r12]",
+            in("r12") words.as_mut_ptr(),
+            in("r13") run,
+            in("rdi") &raw mut call,
+            clobber_abi("sysv64"),
+        );
+        call.result.assume_init()
+    }
+}
+
+/// Runs `work` in the caller's environment: this processor's is not changed.
+#[cfg(not(target_arch = "x86_64"))]
+#[inline(always)]
+pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
+    work()
+}
