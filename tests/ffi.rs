@@ -132,6 +132,9 @@ const SHIM_WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Wno-unused-dummy-argumen
 const INTEGERS_64: &str = "-fdefault-integer-8";
 const REALS_64: &str = "-fdefault-real-8";
 
+/// Hosts that stop at the first floating-point exception: none may leave the library.
+const TRAPS: &str = "-ffpe-trap=invalid,zero,overflow";
+
 fn shim(name: &str) -> PathBuf {
     Path::new(ROOT).join("fortran-shim").join(name)
 }
@@ -150,12 +153,14 @@ fn fortran_program(name: &str, options: &[&str], sources: &[PathBuf]) {
 
 #[test]
 fn fortran_module() {
-    fortran_program("module.f90", &[], &[Path::new(ROOT).join("include/toron.f90")]);
+    for traps in [&[][..], &[TRAPS]] {
+        fortran_program("module.f90", traps, &[Path::new(ROOT).join("include/toron.f90")]);
+    }
 }
 
 #[test]
 fn shims_of_abaqus() {
-    for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
+    for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64], &[TRAPS]] {
         fortran_program("umat.f90", kinds, &[shim("abaqus_umat.f")]);
         fortran_program("vumat.F90", kinds, &[shim("abaqus_vumat_dp.f")]);
         fortran_program("vumat.F90", &[kinds, &["-DSINGLE"]].concat(), &[shim("abaqus_vumat_sp.f")]);
@@ -165,7 +170,8 @@ fn shims_of_abaqus() {
 #[test]
 fn shims_of_lsdyna() {
     let sources = ["lsdyna_umat41.f", "lsdyna_umat41v.f", "lsdyna_utan41.f", "lsdyna_utan41v.f"].map(shim);
-    for kinds in [&[][..], &[INTEGERS_64], &[REALS_64], &[INTEGERS_64, REALS_64]] {
+    let kinds: [&[&str]; 4] = [&[], &[INTEGERS_64], &[REALS_64], &[INTEGERS_64, REALS_64]];
+    for kinds in kinds.into_iter().chain([&[TRAPS][..], &[INTEGERS_64, REALS_64, TRAPS]]) {
         fortran_program("lsdyna.f90", kinds, &sources);
     }
 }
