@@ -37,6 +37,9 @@ program lsdyna_test
   cm(3) = 2
   cm(9:11) = 0
   call refused('properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero', rest)
+  ! With IHYPER = 0 nobody writes F: all of the history is as at the start.
+  cm(1:11) = real(table(1)%properties)
+  call refused('IHYPER', 0 * rest)
   call finish
 
 contains
@@ -70,11 +73,11 @@ contains
     real, intent(inout) :: hsv(*)
     real :: es(1 - before:36 + behind)
     es = mark
-    hsv(10) = 0
+    hsv(10:11) = [0.0, 1.0]
     call call_scalar_tangent(hsv, es(1))
     call check_tangent(t, jaumann(real(es(1:36), c_double), stress), single)
     call check(all(es(:0) == mark) .and. all(es(37:) == mark), 'around es', t%id)
-    hsv(10) = 1
+    hsv(10:11) = [1.0, 0.0]
     call call_scalar_tangent(hsv, es(1))
     call check(all(es(1:36) == 0), 'a failed element has no stiffness', t%id)
   end subroutine
@@ -181,6 +184,7 @@ contains
     real, allocatable :: dsave(:, :)
     integer :: k
     hsvs(before + 1:before + n, 10) = 0
+    hsvs(before + 1:before + n, 11) = 1
     call call_vector_tangent(n, dsave)
     do k = 1, n
       call check_tangent(table(first + k - 1), jaumann(real(dsave(before + k, :), c_double), &
