@@ -1,15 +1,17 @@
 ! UMAT of Abaqus/Standard for the hyperelastic yarn law of libtoron.
 !
-! Solids (NDI = 3; NSHR = 3, or 1 for plane strain and axisymmetric ones) with NLGEOM=YES and no *ORIENTATION; 11 or more
-! state variables, 11 properties: see docs. DDSDDE is symmetric.
+! Solids (NDI = 3; NSHR = 3, or 1 for plane strain and axisymmetric
+! ones) with NLGEOM=YES and no *ORIENTATION; 11 or more state variables,
+! 11 properties: see docs. DDSDDE is symmetric.
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl,       &
-     &  ddsddt, drplde, drpldt, stran, dstran, time, dtime, temp,       &
-     &  dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props,  &
-     &  nprops, coords, drot, pnewdt, celent, dfgrd0, dfgrd1, noel, npt,&
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine umat(stress, statev, ddsdde, sse, spd, scd, rpl,
+     &  ddsddt, drplde, drpldt, stran, dstran, time, dtime, temp,
+     &  dtemp, predef, dpred, cmname, ndi, nshr, ntens, nstatv, props,
+     &  nprops, coords, drot, pnewdt, celent, dfgrd0, dfgrd1, noel, npt,
      &  layer, kspt, jstep, kinc)
-      use, intrinsic :: iso_c_binding, only: c_char, c_double,          &
+      use, intrinsic :: iso_c_binding, only: c_char, c_double,
      &  c_int32_t, c_size_t
       implicit none
       character(len=80) :: cmname
@@ -25,8 +27,8 @@
       integer(c_int32_t) :: status
 
       interface
-        function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,  &
-     &    sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr,        &
+        function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
+     &    sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr,
      &    nlgeom) bind(c) result(status)
           import :: c_double, c_int32_t
           real(c_double), intent(inout) :: stress(*), statev(*)
@@ -36,7 +38,7 @@
           integer(c_int32_t), value :: nlgeom
           integer(c_int32_t) :: status
         end function
-        function toron_hyperelastic_validate_f64(values, count, text,   &
+        function toron_hyperelastic_validate_f64(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: values(*)
@@ -45,7 +47,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -58,11 +60,12 @@
 !     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP
 !     in its place have no such flag: pass 1 there, and see to
 !     NLGEOM=YES yourself.
-      status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,    &
-     &  sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),             &
-     &  int(nstatv, c_int32_t), int(ndi, c_int32_t),                    &
+      status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
+     &  sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),
+     &  int(nstatv, c_int32_t), int(ndi, c_int32_t),
      &  int(nshr, c_int32_t), int(jstep(3), c_int32_t))
-!     Below -300 the point is at fault, and the library has lowered PNEWDT; above, the deck is.
+!     Below -300 the point is at fault, and the library has lowered
+!     PNEWDT; above, the deck is.
       if (status < 0 .and. status > -300) call refuse
 
       contains
@@ -73,14 +76,14 @@
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
       integer :: unit
-      length = toron_hyperelastic_validate_f64(props,                   &
+      length = toron_hyperelastic_validate_f64(props,
      &  int(nprops, c_size_t), text, capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
 !     The .dat and the .msg file.
       do unit = 6, 7
-        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),      &
+        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),
      &    ': ', text(1:length)
       end do
       call xit

@@ -1,15 +1,18 @@
-! VUMAT of Abaqus/Explicit for the hyperelastic yarn law of libtoron: jobs in single precision.
+! VUMAT of Abaqus/Explicit for the hyperelastic yarn law of libtoron:
+! jobs in single precision.
 !
-! Solids (NDIR = 3, NSHR = 3); 11 or more state variables, 11 properties, *DEPVAR, DELETE=11: see docs.
+! Solids (NDIR = 3, NSHR = 3); 11 or more state variables, 11
+! properties, *DEPVAR, DELETE=11: see docs.
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine vumat(nblock, ndir, nshr, nstatev, nfieldv, nprops,    &
-     &  lanneal, steptime, totaltime, dt, cmname, coordmp, charlength,  &
-     &  props, density, straininc, relspininc, tempold, stretchold,     &
-     &  defgradold, fieldold, stressold, stateold, enerinternold,       &
-     &  enerinelasold, tempnew, stretchnew, defgradnew, fieldnew,       &
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine vumat(nblock, ndir, nshr, nstatev, nfieldv, nprops,
+     &  lanneal, steptime, totaltime, dt, cmname, coordmp, charlength,
+     &  props, density, straininc, relspininc, tempold, stretchold,
+     &  defgradold, fieldold, stressold, stateold, enerinternold,
+     &  enerinelasold, tempnew, stretchnew, defgradnew, fieldnew,
      &  stressnew, statenew, enerinternnew, enerinelasnew)
-      use, intrinsic :: iso_c_binding, only: c_char, c_float,           &
+      use, intrinsic :: iso_c_binding, only: c_char, c_float,
      &  c_int32_t, c_loc, c_ptr, c_size_t
       implicit none
       character(len=80) :: cmname
@@ -18,7 +21,8 @@
       real(c_float) :: charlength(*), relspininc(*), tempold(*)
       real(c_float) :: defgradold(*), fieldold(*), tempnew(*)
       real(c_float) :: defgradnew(*), fieldnew(*)
-!     What the library reads and writes; arrays are (nblock, components).
+!     What the library reads and writes; arrays are
+!     (nblock, components).
       real(c_float), target :: props(*), density(*), straininc(*)
       real(c_float), target :: stretchold(*), stretchnew(*)
       real(c_float), target :: stressold(*), stateold(*)
@@ -44,7 +48,7 @@
           type(arguments), intent(in) :: block
           integer(c_int32_t) :: status
         end function
-        function toron_hyperelastic_validate_f32(values, count, text,   &
+        function toron_hyperelastic_validate_f32(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: values(*)
@@ -53,7 +57,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -84,7 +88,8 @@
       block%ener_intern_new = c_loc(enerinternnew)
       block%ener_inelas_new = c_loc(enerinelasnew)
       status = toron_abaqus_vumat_f32(block)
-!     Below -300 a point is at fault, and the library has deleted it; above, the deck is.
+!     Below -300 a point is at fault, and the library has deleted it;
+!     above, the deck is.
       if (status < 0 .and. status > -300) call refuse
 
       contains
@@ -95,14 +100,14 @@
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
       integer :: unit
-      length = toron_hyperelastic_validate_f32(props,                   &
+      length = toron_hyperelastic_validate_f32(props,
      &  int(nprops, c_size_t), text, capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
 !     The .log or .sta and the .msg file.
       do unit = 6, 7
-        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),      &
+        write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),
      &    ': ', text(1:length)
       end do
       call xplb_exit

@@ -1,15 +1,22 @@
-! umat41 of LS-DYNA for the hyperelastic yarn law of libtoron, one element at a time.
+! umat41 of LS-DYNA for the hyperelastic yarn law of libtoron, one
+! element at a time.
 !
-! Solids; NHV = 11, IHYPER = -1 with IORTHO = 1, or IHYPER = 1 with IORTHO = 0, IFAIL = 1: see docs. The kinds of REAL,
-! INTEGER and LOGICAL are those of the build, so compile this file with the object package's own flags.
+! Solids; NHV = 11, IHYPER = -1 with IORTHO = 1, or IHYPER = 1 with
+! IORTHO = 0, IFAIL = 1: see docs. The kinds of REAL, INTEGER and
+! LOGICAL are those of the build, so compile this file with the object
+! package's own flags.
 !
-! The argument list is that of R11 to R13. Up to R9 there are no NNPCRV and REJECT, and IDELE is a default INTEGER:
-!     subroutine umat41(cm, eps, sig, epsp, hsv, dt1, capa, etype, tt, temper, failel, crv, cma, qmat, elsiz, idele)
+! The argument list is that of R9.3.1 and of R11 to R13. Packages of
+! 2014 and 2015 have no NNPCRV and REJECT, and their IDELE is a default
+! INTEGER:
+!     subroutine umat41(cm, eps, sig, epsp, hsv, dt1, capa, etype, tt,
+!    &  temper, failel, crv, cma, qmat, elsiz, idele)
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine umat41(cm, eps, sig, epsp, hsv, dt1, capa, etype, tt,  &
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine umat41(cm, eps, sig, epsp, hsv, dt1, capa, etype, tt,
      &  temper, failel, crv, nnpcrv, cma, qmat, elsiz, idele, reject)
-      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, &
+      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
      &  c_int, c_int32_t, c_int64_t, c_size_t
       implicit none
       real :: cm(*), eps(6), sig(6), epsp, hsv(*), dt1, capa, tt, temper
@@ -19,13 +26,15 @@
       integer :: nnpcrv(*)
       integer(c_int64_t) :: idele
       integer(c_size_t), parameter :: number_of_properties = 11
+!     What the library needs, not what the card says: LS-DYNA hands NHV
+!     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
       integer(c_int) :: failed
 
 !     The default kind of REAL picks the precision.
       interface toron_umat
-        function toron_lsdyna_umat_f64(cm, sig, hsv, nhv, failel)       &
+        function toron_lsdyna_umat_f64(cm, sig, hsv, nhv, failel)
      &    bind(c) result(status)
           import :: c_double, c_int, c_int32_t
           real(c_double), intent(in) :: cm(*)
@@ -34,7 +43,7 @@
           integer(c_int), intent(inout) :: failel
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_umat_f32(cm, sig, hsv, nhv, failel)       &
+        function toron_lsdyna_umat_f32(cm, sig, hsv, nhv, failel)
      &    bind(c) result(status)
           import :: c_float, c_int, c_int32_t
           real(c_float), intent(in) :: cm(*)
@@ -45,7 +54,7 @@
         end function
       end interface
       interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,   &
+        function toron_hyperelastic_validate_f64(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: values(*)
@@ -54,7 +63,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_hyperelastic_validate_f32(values, count, text,   &
+        function toron_hyperelastic_validate_f32(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: values(*)
@@ -65,7 +74,7 @@
         end function
       end interface
       interface
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -91,9 +100,9 @@
       character(kind=c_char) :: text(capacity)
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,           &
+      length = toron_validate(cm, number_of_properties, text,
      &  capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
       write (*, '(1x, *(a))') 'toron: ', text(1:length)

@@ -1,16 +1,21 @@
-! umat41v of LS-DYNA for the hyperelastic yarn law of libtoron, a block of elements at a time (IVECT = 1).
+! umat41v of LS-DYNA for the hyperelastic yarn law of libtoron, a block
+! of elements at a time (IVECT = 1).
 !
-! Solids; NHV = 11, IHYPER = -1 with IORTHO = 1, or IHYPER = 1 with IORTHO = 0, IFAIL = 1: see docs. The kinds of REAL,
-! INTEGER and LOGICAL are those of the build, so compile this file with the object package's own flags.
+! Solids; NHV = 11, IHYPER = -1 with IORTHO = 1, or IHYPER = 1 with
+! IORTHO = 0, IFAIL = 1: see docs. The kinds of REAL, INTEGER and
+! LOGICAL are those of the build, so compile this file with the object
+! package's own flags.
 !
-! The argument list is that of R11 to R13. Up to R9 there are no NNPCRV and REJECT, and IDELEV is a default INTEGER.
+! The argument list is that of R11 to R13. Packages of 2014 and 2015
+! have no NNPCRV and REJECT, and their IDELEV is a default INTEGER.
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine umat41v(cm, d1, d2, d3, d4, d5, d6, sig1, sig2, sig3,  &
-     &  sig4, sig5, sig6, epsps, hsvs, lft, llt, dt1siz, capa, etype,   &
-     &  tt, temps, failels, nlqa, crv, nnpcrv, cma, qmat, elsizv,       &
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine umat41v(cm, d1, d2, d3, d4, d5, d6, sig1, sig2, sig3,
+     &  sig4, sig5, sig6, epsps, hsvs, lft, llt, dt1siz, capa, etype,
+     &  tt, temps, failels, nlqa, crv, nnpcrv, cma, qmat, elsizv,
      &  idelev, reject)
-      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, &
+      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
      &  c_int, c_int32_t, c_int64_t, c_size_t
       implicit none
       real :: cm(*), d1(*), d2(*), d3(*), d4(*), d5(*), d6(*)
@@ -22,6 +27,8 @@
       logical :: failels(*), reject
       integer(c_int64_t) :: idelev(*)
       integer(c_size_t), parameter :: number_of_properties = 11
+!     What the library needs, not what the card says: LS-DYNA hands NHV
+!     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
       integer(c_int) :: failed(nlqa)
@@ -29,8 +36,8 @@
 
 !     The default kind of REAL picks the precision.
       interface toron_umat_vector
-        function toron_lsdyna_umat_vector_f64(cm, sig1, sig2, sig3,     &
-     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)          &
+        function toron_lsdyna_umat_vector_f64(cm, sig1, sig2, sig3,
+     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
      &    bind(c) result(status)
           import :: c_double, c_int, c_int32_t
           real(c_double), intent(in) :: cm(*)
@@ -41,8 +48,8 @@
           integer(c_int), intent(inout) :: failels(*)
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_umat_vector_f32(cm, sig1, sig2, sig3,     &
-     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)          &
+        function toron_lsdyna_umat_vector_f32(cm, sig1, sig2, sig3,
+     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
      &    bind(c) result(status)
           import :: c_float, c_int, c_int32_t
           real(c_float), intent(in) :: cm(*)
@@ -55,7 +62,7 @@
         end function
       end interface
       interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,   &
+        function toron_hyperelastic_validate_f64(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: values(*)
@@ -64,7 +71,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_hyperelastic_validate_f32(values, count, text,   &
+        function toron_hyperelastic_validate_f32(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: values(*)
@@ -75,7 +82,7 @@
         end function
       end interface
       interface
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -85,8 +92,8 @@
         end function
       end interface
 
-      status = toron_umat_vector(cm, sig1, sig2, sig3, sig4, sig5, sig6,&
-     &  hsvs, nhv, int(lft, c_int32_t), int(llt, c_int32_t),            &
+      status = toron_umat_vector(cm, sig1, sig2, sig3, sig4, sig5, sig6,
+     &  hsvs, nhv, int(lft, c_int32_t), int(llt, c_int32_t),
      &  int(nlqa, c_int32_t), failed)
 !     Below -300 an element is at fault, and fails; above, the deck is.
       if (status < 0 .and. status > -300) then
@@ -104,9 +111,9 @@
       character(kind=c_char) :: text(capacity)
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,           &
+      length = toron_validate(cm, number_of_properties, text,
      &  capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
       write (*, '(1x, *(a))') 'toron: ', text(1:length)

@@ -1,14 +1,18 @@
-! utan41 of LS-DYNA, the tangent that goes with umat41 in an implicit analysis, one element at a time.
+! utan41 of LS-DYNA, the tangent that goes with umat41 in an implicit
+! analysis, one element at a time.
 !
-! The deck is that of umat41. The kinds of REAL, INTEGER and LOGICAL are those of the build, so compile this file with the
-! object package's own flags.
+! The deck is that of umat41. The kinds of REAL, INTEGER and LOGICAL are
+! those of the build, so compile this file with the object package's
+! own flags.
 !
-! The argument list is that of R11 and R12. Up to R9 there are no UNSYM and NNPCRV.
+! The argument list is that of R11 and R12. Packages of 2014 and 2015
+! have no UNSYM and NNPCRV.
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine utan41(cm, eps, sig, epsp, hsv, dt1, unsym, capa,      &
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine utan41(cm, eps, sig, epsp, hsv, dt1, unsym, capa,
      &  etype, tt, temper, es, crv, nnpcrv, failel, cma, qmat)
-      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, &
+      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
      &  c_int32_t, c_size_t
       implicit none
       real :: cm(*), eps(6), sig(6), epsp, hsv(*), dt1, capa, tt, temper
@@ -17,12 +21,14 @@
       logical :: unsym, failel
       integer :: nnpcrv(*)
       integer(c_size_t), parameter :: number_of_properties = 11
+!     What the library needs, not what the card says: LS-DYNA hands NHV
+!     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
 
 !     The default kind of REAL picks the precision.
       interface toron_utan
-        function toron_lsdyna_utan_f64(cm, hsv, nhv, es)                &
+        function toron_lsdyna_utan_f64(cm, hsv, nhv, es)
      &    bind(c) result(status)
           import :: c_double, c_int32_t
           real(c_double), intent(in) :: cm(*), hsv(*)
@@ -30,7 +36,7 @@
           real(c_double), intent(inout) :: es(*)
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_utan_f32(cm, hsv, nhv, es)                &
+        function toron_lsdyna_utan_f32(cm, hsv, nhv, es)
      &    bind(c) result(status)
           import :: c_float, c_int32_t
           real(c_float), intent(in) :: cm(*), hsv(*)
@@ -40,7 +46,7 @@
         end function
       end interface
       interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,   &
+        function toron_hyperelastic_validate_f64(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: values(*)
@@ -49,7 +55,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_hyperelastic_validate_f32(values, count, text,   &
+        function toron_hyperelastic_validate_f32(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: values(*)
@@ -60,7 +66,7 @@
         end function
       end interface
       interface
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -71,7 +77,8 @@
       end interface
 
       status = toron_utan(cm, hsv, nhv, es)
-!     Below -300 the element is at fault, and has no stiffness; above, the deck is.
+!     Below -300 the element is at fault, and has no stiffness; above,
+!     the deck is.
       if (status < 0 .and. status > -300) call refuse
 
       contains
@@ -81,9 +88,9 @@
       character(kind=c_char) :: text(capacity)
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,           &
+      length = toron_validate(cm, number_of_properties, text,
      &  capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
       write (*, '(1x, *(a))') 'toron: ', text(1:length)

@@ -1,15 +1,19 @@
-! utan41v of LS-DYNA, the tangent that goes with umat41v in an implicit analysis, a block of elements at a time (IVECT = 1).
+! utan41v of LS-DYNA, the tangent that goes with umat41v in an implicit
+! analysis, a block of elements at a time (IVECT = 1).
 !
-! The deck is that of umat41v. The kinds of REAL, INTEGER and LOGICAL are those of the build, so compile this file with the
-! object package's own flags.
+! The deck is that of umat41v. The kinds of REAL, INTEGER and LOGICAL
+! are those of the build, so compile this file with the object package's
+! own flags.
 !
-! The argument list is that of R12. Up to R9 there are no UNSYM and NNPCRV.
+! The argument list is that of R12. Packages of 2014 and 2015 have no
+! UNSYM and NNPCRV.
 !
-! Reads in fixed and in free form: statements in columns 7 to 72, continued by an ampersand in column 73 and one in 6.
-      subroutine utan41v(cm, d1, d2, d3, d4, d5, d6, sig1, sig2, sig3,  &
-     &  sig4, sig5, sig6, epsps, hsvs, unsym, lft, llt, dt1siz, capa,   &
+! Fixed form: statements in columns 7 to 72, continued in column 6, and
+! nothing beyond. Compile it as .f; free form is not supported.
+      subroutine utan41v(cm, d1, d2, d3, d4, d5, d6, sig1, sig2, sig3,
+     &  sig4, sig5, sig6, epsps, hsvs, unsym, lft, llt, dt1siz, capa,
      &  etype, tt, temps, dsave, nlqa, crv, nnpcrv, failels, cma, qmat)
-      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float, &
+      use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
      &  c_int32_t, c_size_t
       implicit none
       real :: cm(*), d1(*), d2(*), d3(*), d4(*), d5(*), d6(*)
@@ -20,12 +24,14 @@
       character(len=5) :: etype
       logical :: unsym, failels(*)
       integer(c_size_t), parameter :: number_of_properties = 11
+!     What the library needs, not what the card says: LS-DYNA hands NHV
+!     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
 
 !     The default kind of REAL picks the precision.
       interface toron_utan_vector
-        function toron_lsdyna_utan_vector_f64(cm, hsvs, nhv, lft, llt,  &
+        function toron_lsdyna_utan_vector_f64(cm, hsvs, nhv, lft, llt,
      &    nlq, dsave) bind(c) result(status)
           import :: c_double, c_int32_t
           real(c_double), intent(in) :: cm(*), hsvs(*)
@@ -33,7 +39,7 @@
           real(c_double), intent(inout) :: dsave(*)
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_utan_vector_f32(cm, hsvs, nhv, lft, llt,  &
+        function toron_lsdyna_utan_vector_f32(cm, hsvs, nhv, lft, llt,
      &    nlq, dsave) bind(c) result(status)
           import :: c_float, c_int32_t
           real(c_float), intent(in) :: cm(*), hsvs(*)
@@ -43,7 +49,7 @@
         end function
       end interface
       interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,   &
+        function toron_hyperelastic_validate_f64(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: values(*)
@@ -52,7 +58,7 @@
           integer(c_int32_t), intent(inout) :: status
           integer(c_size_t) :: length
         end function
-        function toron_hyperelastic_validate_f32(values, count, text,   &
+        function toron_hyperelastic_validate_f32(values, count, text,
      &    capacity, status) bind(c) result(length)
           import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: values(*)
@@ -63,7 +69,7 @@
         end function
       end interface
       interface
-        function toron_status_message(status, text, capacity)           &
+        function toron_status_message(status, text, capacity)
      &    bind(c) result(length)
           import :: c_char, c_int32_t, c_size_t
           integer(c_int32_t), value :: status
@@ -73,9 +79,10 @@
         end function
       end interface
 
-      status = toron_utan_vector(cm, hsvs, nhv, int(lft, c_int32_t),    &
+      status = toron_utan_vector(cm, hsvs, nhv, int(lft, c_int32_t),
      &  int(llt, c_int32_t), int(nlqa, c_int32_t), dsave)
-!     Below -300 the elements are at fault and have no stiffness; above, the deck is.
+!     Below -300 the elements are at fault and have no stiffness; above,
+!     the deck is.
       if (status < 0 .and. status > -300) call refuse
 
       contains
@@ -85,9 +92,9 @@
       character(kind=c_char) :: text(capacity)
       integer(c_size_t) :: length
       integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,           &
+      length = toron_validate(cm, number_of_properties, text,
      &  capacity, code)
-      if (code /= status)                                               &
+      if (code /= status)
      &  length = toron_status_message(status, text, capacity)
       length = min(length, capacity - 1)
       write (*, '(1x, *(a))') 'toron: ', text(1:length)

@@ -93,11 +93,14 @@ fn mistakes() -> String {
     };
     let mut no_fibre = km2.clone();
     no_fibre[FIBRE..].fill(0.0);
+    let mut linear_elastic = preset("kevlar-km2-600-linear", "mm-tonne-s");
+    linear_elastic.resize(km2.len(), 0.0);
     let refused = [
         ("`CONSTANTS=8`: a data line of the properties is missing", km2[..8].to_vec()),
         ("a stiffness with the wrong sign", with(0, -82341.0)),
         ("p left at 0: a column of the card is shifted", with(2, 0.0)),
         ("the fibre direction left at 0", no_fibre),
+        ("LS-DYNA: the linear elastic preset on this card", linear_elastic),
     ];
     let refused = refused.map(|(mistake, values)| {
         let error = Hyperelastic::new(&values).expect_err("a mistake");
@@ -107,6 +110,7 @@ fn mistakes() -> String {
         ("`*DEPVAR` with fewer than 11 variables", status::STATE_COUNT),
         ("shells, membranes or plane elements", status::BAD_COUNT),
         ("UMAT without NLGEOM=YES", status::NO_DEFORMATION_GRADIENT),
+        ("LS-DYNA: IHYPER left at 0", status::NO_DEFORMATION_GRADIENT),
     ];
     let plain = plain.map(|(mistake, code)| {
         [mistake.into(), code.to_string(), status::meaning(code).expect("a status code").to_string()]

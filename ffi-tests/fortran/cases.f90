@@ -1,7 +1,13 @@
 ! The truth's cases as `tests/ffi.rs` writes them, what an answer may be off by, and a count of what is wrong.
 module cases
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_invalid, ieee_support_halting, ieee_usual
+  use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
   implicit none
+
+  ! NaN by its bits: arithmetic that makes or compares one would stop a build that traps invalid operations.
+  interface put_nan
+    module procedure put_nan_64, put_nan_32
+  end interface
 
   ! Stress 11 22 33 12 23 31. A scale is |truth| plus what one rounding of F does.
   type truth
@@ -18,12 +24,26 @@ module cases
   integer :: failures = 0
   ! How often a shim called the solver's own routine for stopping.
   integer :: stops = 0
+  ! Which exceptions trap; the intrinsic module has a kind of its own, whatever the build's default.
+  integer, parameter :: ieee = kind(ieee_support_halting(ieee_invalid))
+  logical(ieee) :: traps(size(ieee_usual))
 
 contains
+
+  subroutine put_nan_64(x)
+    real(c_double), intent(out) :: x
+    x = transfer(int(z'7FF8000000000000', c_int64_t), x)
+  end subroutine
+
+  subroutine put_nan_32(x)
+    real(c_float), intent(out) :: x
+    x = transfer(int(z'7FC00000', c_int32_t), x)
+  end subroutine
 
   subroutine read_cases
     character(len=1000) :: path
     integer :: i, unit
+    call ieee_get_halting_mode(ieee_usual, traps)
     call get_command_argument(1, path)
     open (newunit=unit, file=trim(path), action='read')
     do i = 1, number_of_cases
@@ -102,6 +122,9 @@ contains
   end subroutine
 
   subroutine finish
+    logical(ieee) :: now(size(traps))
+    call ieee_get_halting_mode(ieee_usual, now)
+    call check(logical(all(now .eqv. traps)), 'the host''s traps are as they were', 0)
     if (failures > 0) error stop 1
   end subroutine
 end module

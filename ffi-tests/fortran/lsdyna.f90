@@ -1,4 +1,5 @@
-! The shims lsdyna_umat41.f, lsdyna_umat41v.f, lsdyna_utan41.f and lsdyna_utan41v.f, called as LS-DYNA does, with the default kinds of the build.
+! The shims lsdyna_umat41.f, lsdyna_umat41v.f, lsdyna_utan41.f and lsdyna_utan41v.f, called as LS-DYNA does, with the
+! default kinds of the build.
 program lsdyna_test
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int64_t
   use cases
@@ -8,6 +9,8 @@ program lsdyna_test
   real, parameter :: mark = -7.25
   logical, parameter :: single = kind(mark) == c_float
   integer, parameter :: nhv = 11, history = nhv + 9, before = 4, behind = 2
+  ! All state variables 0, F = 1.
+  real, parameter :: rest(history) = [spread(0.0, 1, nhv), 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
   real, allocatable :: sig(:, :), hsvs(:, :)
   logical, allocatable :: failels(:)
   real :: cm(48)
@@ -30,10 +33,13 @@ program lsdyna_test
 
   cm(1:11) = real(table(1)%properties)
   cm(3) = 0.5
-  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40')
+  call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40', rest)
   cm(3) = 2
   cm(9:11) = 0
-  call refused('properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero')
+  call refused('properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero', rest)
+  ! With IHYPER = 0 nobody writes F: all of the history is as at the start.
+  cm(1:11) = real(table(1)%properties)
+  call refused('IHYPER', 0 * rest)
   call finish
 
 contains
@@ -65,23 +71,14 @@ contains
     type(truth), intent(in) :: t
     real(c_double), intent(in) :: stress(6)
     real, intent(inout) :: hsv(*)
-    real :: es(1 - before:36 + behind), zero(9)
-    logical :: unsym, failel
-    integer :: nnpcrv(1)
+    real :: es(1 - before:36 + behind)
     es = mark
-    zero = 0
-    nnpcrv = 0
-    unsym = .false.
-    failel = .false.
-    hsv(10) = 0
-    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es(1), zero, nnpcrv, failel, zero, &
-      zero)
+    hsv(10:11) = [0.0, 1.0]
+    call call_scalar_tangent(hsv, es(1))
     call check_tangent(t, jaumann(real(es(1:36), c_double), stress), single)
     call check(all(es(:0) == mark) .and. all(es(37:) == mark), 'around es', t%id)
-    call check(.not. unsym .and. .not. failel, 'unsym, failel', t%id)
-    hsv(10) = 1
-    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es(1), zero, nnpcrv, failel, zero, &
-      zero)
+    hsv(10:11) = [1.0, 0.0]
+    call call_scalar_tangent(hsv, es(1))
     call check(all(es(1:36) == 0), 'a failed element has no stiffness', t%id)
   end subroutine
 
@@ -120,6 +117,19 @@ contains
     call umat41(cm, zero, stress, zero, hsv, zero, zero, 'solid', zero, zero, failel, zero, nnpcrv, zero, zero, zero, &
       1_c_int64_t, reject)
     call check(.not. reject, 'reject', 0)
+  end subroutine
+
+  subroutine call_scalar_tangent(hsv, es)
+    real, intent(inout) :: hsv(*), es(*)
+    real :: zero(9)
+    logical :: unsym, failel
+    integer :: nnpcrv(1)
+    zero = 0
+    nnpcrv = 0
+    unsym = .false.
+    failel = .false.
+    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es, zero, nnpcrv, failel, zero, zero)
+    call check(.not. unsym .and. .not. failel, 'unsym, failel', 0)
   end subroutine
 
   ! Elements before + 1 .. before + n of arrays that have more.
@@ -171,63 +181,99 @@ contains
 
   subroutine tangents(n)
     integer, intent(in) :: n
-    real, allocatable :: dsave(:, :), zero(:)
-    logical :: unsym
-    integer :: nnpcrv(1), nlq, k
-    nlq = size(failels)
-    allocate (dsave(nlq, 36), source=mark)
-    allocate (zero(9 * nlq), source=0.0)
-    nnpcrv = 0
-    unsym = .false.
+    real, allocatable :: dsave(:, :)
+    integer :: k
     hsvs(before + 1:before + n, 10) = 0
-    call utan41v(cm, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, hsvs, unsym, &
-      before + 1, before + n, zero, zero, 'solid', zero, zero, dsave, nlq, zero, nnpcrv, failels, zero, zero)
+    hsvs(before + 1:before + n, 11) = 1
+    call call_vector_tangent(n, dsave)
     do k = 1, n
       call check_tangent(table(first + k - 1), jaumann(real(dsave(before + k, :), c_double), &
         real(sig(before + k, :), c_double)), single)
     end do
     call check(all(dsave(:before, :) == mark) .and. all(dsave(before + n + 1:, :) == mark), 'dsave outside', first)
+  end subroutine
+
+  subroutine call_vector_tangent(n, dsave)
+    integer, intent(in) :: n
+    real, allocatable, intent(out) :: dsave(:, :)
+    real, allocatable :: zero(:)
+    logical :: unsym
+    integer :: nnpcrv(1), nlq
+    nlq = size(failels)
+    allocate (dsave(nlq, 36), source=mark)
+    allocate (zero(9 * nlq), source=0.0)
+    nnpcrv = 0
+    unsym = .false.
+    call utan41v(cm, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, hsvs, unsym, &
+      before + 1, before + n, zero, zero, 'solid', zero, zero, dsave, nlq, zero, nnpcrv, failels, zero, zero)
     call check(.not. unsym, 'unsym', first)
   end subroutine
 
-  ! An inverted element fails; its neighbours do not notice, and the job goes on.
+  ! An element that is inverted, not a number or too large fails; its neighbours do not notice, and the job goes on.
   subroutine bad_element
     real :: stress(3, 6)
+    real, allocatable :: dsave(:, :)
+    integer :: way
     first = 1
     call prepare(3)
     call call_vector(3)
     stress = sig(before + 1:before + 3, :)
-    call prepare(3)
-    hsvs(before + 2, nhv + 1:nhv + 3) = -hsvs(before + 2, nhv + 1:nhv + 3)
-    call call_vector(3)
-    call check(all(failels(before + 1:before + 3) .eqv. [.false., .true., .false.]), 'it fails', 0)
-    call check(all(sig(before + 2, :) == 0), 'it has no stress', 0)
-    call check(all(sig([before + 1, before + 3], :) == stress([1, 3], :)), 'its neighbours', 0)
+    do way = 1, 3
+      call prepare(3)
+      if (way == 1) hsvs(before + 2, nhv + 1:nhv + 3) = -hsvs(before + 2, nhv + 1:nhv + 3)
+      if (way == 2) call put_nan(hsvs(before + 2, nhv + 5))
+      if (way == 3) hsvs(before + 2, nhv + 1:) = sqrt(huge(mark)) * hsvs(before + 2, nhv + 1:)
+      call call_vector(3)
+      call check(all(failels(before + 1:before + 3) .eqv. [.false., .true., .false.]), 'it fails', way)
+      call check(all(sig(before + 2, :) == 0), 'it has no stress', way)
+      call check(all(sig([before + 1, before + 3], :) == stress([1, 3], :)), 'its neighbours', way)
+      call call_vector_tangent(3, dsave)
+      call check(all(dsave(before + 2, :) == 0), 'it has no stiffness', way)
+    end do
   end subroutine
 
-  ! A wrong deck stops the job with this message, and nothing is written.
-  subroutine refused(message)
+  ! A wrong deck stops the job with this message in all four, and nothing is written; `start` is an element's history.
+  subroutine refused(message, start)
     character(len=*), intent(in) :: message
-    real :: kept(11), stress(6), hsv(history)
+    real, intent(in) :: start(history)
+    real :: kept(11), stress(6), hsv(history), es(36)
+    real, allocatable :: dsave(:, :)
     logical :: failel
-    integer :: before_call
-    before_call = stops
+    integer :: k
     stress = mark
-    hsv = mark
+    hsv = start
+    es = mark
     failel = .false.
+    stops = 0
     call call_scalar(stress, hsv, failel)
-    call check(stops == before_call + 1, 'umat41: ' // message, 0)
-    call check_written(6, message)
-    call check(all(stress == mark) .and. all(hsv == mark) .and. .not. failel, 'nothing is written: ' // message, 0)
-    close (6)
-    open (unit=6, status='scratch')
+    call check_stop('umat41: ', message)
+    call check(all(stress == mark) .and. all(hsv == start) .and. .not. failel, 'nothing is written: ' // message, 1)
+    call call_scalar_tangent(hsv, es)
+    call check_stop('utan41: ', message)
+    call check(all(es == mark) .and. all(hsv == start), 'nothing is written: ' // message, 2)
     kept = cm(1:11)
     first = 1
-    call prepare(1)
+    call prepare(3)
     cm(1:11) = kept
-    call call_vector(1)
-    call check(stops == before_call + 2, 'umat41v: ' // message, 0)
+    hsvs(before + 1:before + 3, :) = spread(start, 1, 3)
+    call call_vector(3)
+    call check_stop('umat41v: ', message)
+    call check(all(sig == mark) .and. all(failels), 'nothing is written: ' // message, 3)
+    do k = 1, 3
+      call check(all(hsvs(before + k, :) == start), 'nothing is written: ' // message, 3)
+    end do
+    call call_vector_tangent(3, dsave)
+    call check_stop('utan41v: ', message)
+    call check(all(dsave == mark), 'nothing is written: ' // message, 4)
+  end subroutine
+
+  ! One stop since the last look, with this message.
+  subroutine check_stop(routine, message)
+    character(len=*), intent(in) :: routine, message
+    call check(stops == 1, routine // message, stops)
     call check_written(6, message)
-    call check(all(sig == mark) .and. all(failels), 'nothing is written: ' // message, 0)
+    stops = 0
+    close (6)
+    open (unit=6, status='scratch')
   end subroutine
 end program

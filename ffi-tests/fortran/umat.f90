@@ -37,12 +37,16 @@ program umat_test
     call plane(table(i))
   end do
 
-  ! An inverted point asks for a smaller increment and says nothing.
-  call prepare(table(1))
-  f(1:3) = -f(1:3)
-  call call_umat(11, 12, 3, 3)
-  call check(stops == 0 .and. pnewdt(1) == 0.25, 'inverted', 0)
-  call check(all(stress(1:6) == 0) .and. all(ddsdde(1:36) == 0), 'no stress, no stiffness', 0)
+  ! A point that is inverted, not a number or too large asks for a smaller increment and says nothing.
+  do i = 1, 3
+    call prepare(table(1))
+    if (i == 1) f(1:3) = -f(1:3)
+    if (i == 2) call put_nan(f(5))
+    if (i == 3) f = f * sqrt(huge(f))
+    call call_umat(11, 12, 3, 3)
+    call check(stops == 0 .and. pnewdt(1) == 0.25, 'a smaller increment', i)
+    call check(all(stress(1:6) == 0) .and. all(ddsdde(1:36) == 0), 'no stress, no stiffness', i)
+  end do
 
   call refused('NLGEOM', 11, 12, 3)
   call prepare(table(1))

@@ -35,13 +35,18 @@ program vumat_test
   call check(against_truth > 40, 'stretches in the truth', against_truth)
   call check(stops == 0, 'no stop', 0)
 
+  ! A point that is inverted, not a number or too large is deleted, and does not stop the job.
   chosen = [1, 1, 1]
-  call prepare
-  stretch(2) = -1
-  call call_vumat(11, nstatev, 3)
-  call check(stops == 0, 'an inverted point does not stop the job', 0)
-  call check(all(state_new([3 * 9 + 2, 3 * 10 + 2]) == [1.0_wp, 0.0_wp]), 'it is deleted', 0)
-  call check(state_new(3 * 10 + 1) == 1 .and. state_new(3 * 10 + 3) == 1, 'its neighbours are not', 0)
+  do first = 1, 3
+    call prepare
+    if (first == 1) stretch(2) = -1
+    if (first == 2) call put_nan(stretch(2))
+    if (first == 3) stretch(2::3) = sqrt(huge(1.0_wp))
+    call call_vumat(11, nstatev, 3)
+    call check(stops == 0, 'a bad point does not stop the job', first)
+    call check(all(state_new([3 * 9 + 2, 3 * 10 + 2]) == [1.0_wp, 0.0_wp]), 'it is deleted', first)
+    call check(state_new(3 * 10 + 1) == 1 .and. state_new(3 * 10 + 3) == 1, 'its neighbours are not', first)
+  end do
 
   ! The data check: the longitudinal wave is the fibre's.
   call prepare
