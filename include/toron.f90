@@ -19,6 +19,7 @@ module toron
   integer(c_int32_t), parameter :: toron_status_property_not_finite = -202
   integer(c_int32_t), parameter :: toron_status_property_out_of_bounds = -203
   integer(c_int32_t), parameter :: toron_status_property_direction = -204
+  integer(c_int32_t), parameter :: toron_status_fibre_out_of_plane = -205
   integer(c_int32_t), parameter :: toron_status_state_count = -211
   integer(c_int32_t), parameter :: toron_status_inverted = -301
   integer(c_int32_t), parameter :: toron_status_not_finite = -302
@@ -42,6 +43,10 @@ module toron
   integer(c_int32_t), parameter :: toron_tangent_truesdell = 1
   integer(c_int32_t), parameter :: toron_tangent_jaumann = 2
   integer(c_int32_t), parameter :: toron_tangent_nominal = 3
+  integer(c_int32_t), parameter :: toron_level_best = 0
+  integer(c_int32_t), parameter :: toron_level_baseline = 1
+  integer(c_int32_t), parameter :: toron_level_avx2 = 2
+  integer(c_int32_t), parameter :: toron_level_avx512 = 3
 
   type, bind(c) :: toron_table_row
     character(kind=c_char) :: name(24)
@@ -75,6 +80,7 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    integer(c_int32_t) :: level = toron_level_best
   end type
 
   type, bind(c) :: toron_block_f32
@@ -93,6 +99,7 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    integer(c_int32_t) :: level = toron_level_best
   end type
 
   type, bind(c) :: toron_linear_block_f64
@@ -105,6 +112,7 @@ module toron
     type(c_ptr) :: state_new = c_null_ptr
     type(c_ptr) :: stress = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    integer(c_int32_t) :: level = toron_level_best
   end type
 
   type, bind(c) :: toron_linear_block_f32
@@ -117,6 +125,7 @@ module toron
     type(c_ptr) :: state_new = c_null_ptr
     type(c_ptr) :: stress = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    integer(c_int32_t) :: level = toron_level_best
   end type
 
   type, bind(c) :: toron_vumat_f64

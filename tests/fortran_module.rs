@@ -63,7 +63,9 @@ impl<'a> Variable<'a> {
         if self.pointer {
             format!("    type(c_ptr) :: {name} = c_null_ptr\n")
         } else {
-            format!("    {} :: {name}{length}\n", self.fortran_type())
+            // What a caller may leave out has a value that means so.
+            let default = if name == "level" { " = toron_level_best" } else { "" };
+            format!("    {} :: {name}{length}{default}\n", self.fortran_type())
         }
     }
 
