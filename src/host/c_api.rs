@@ -17,7 +17,7 @@ use libc::{c_char, size_t};
 use nalgebra::Matrix3;
 
 use crate::law::block::linear::{LinearPointers, LinearPrecision};
-use crate::law::block::{Level, Pointers, Precision, components, components_mut};
+use crate::law::block::{Level, Pointers, Precision, components, components_mut, raw_block_of};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 use crate::law::parameters::{self, Dimension, Property};
@@ -958,8 +958,8 @@ unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Blo
     }
     // SAFETY: the caller's promise.
     unsafe {
-        let law = Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?;
-        law.raw_block(&(*block).pointers()?)
+        let properties = properties(values, count, &parameters::HYPERELASTIC)?;
+        raw_block_of(properties, &(*block).pointers()?)
     }
 }
 
@@ -1012,9 +1012,9 @@ unsafe fn block_tangent<T: Precision>(
     }
     // SAFETY: the caller's promise.
     unsafe {
-        let law = Hyperelastic::new(properties(values, count, &parameters::HYPERELASTIC)?)?;
+        let properties = properties(values, count, &parameters::HYPERELASTIC)?;
         let measure = self::measure(measure)?;
-        law.raw_block(&Pointers { tangent, measure, ..(*block).pointers()? })
+        raw_block_of(properties, &Pointers { tangent, measure, ..(*block).pointers()? })
     }
 }
 

@@ -196,7 +196,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 }
 
 /// Where the law of a point comes from: it has been prepared, or comes as properties with the call.
-pub(super) trait Source<T> {
+pub(super) trait Source<T>: Copy {
     fn frame(&self) -> PropertyFrame<T>;
 
     /// # Errors
@@ -247,7 +247,7 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
 /// The first property that is wrong; nothing is handed to the sink.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-fn evaluate<
+pub(super) fn evaluate<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
     L: Source<T>,

@@ -23,6 +23,7 @@ mod x86;
 #[cfg(target_arch = "x86_64")]
 pub(super) use x86::root;
 
+use core::cell::Cell;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::ops::Range;
@@ -30,10 +31,11 @@ use core::ops::Range;
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::point::{Call, Derivative, Sink};
-use super::real::Real;
+use super::point::{self, Alone, Call, Derivative, Point, Sink, Source, StressAndState};
+use super::real::{Real, Single};
+use super::state::{self, HYPERELASTIC_STATE};
 use super::status::{self, Error};
-use super::tangent::{Measure, overflows, unrepresentable};
+use super::tangent::{Measure, Moduli, Nine, Six, overflows, unrepresentable};
 use super::wave_speed;
 
 /// A block as a host passes it: null is left out.
@@ -250,27 +252,11 @@ impl<T: Precision> Hyperelastic<T> {
     /// reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing but,
     /// exactly, the old state they replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
+        let request = block.check()?;
         if block.n == 0 {
             return Ok(status::OK);
         }
-        if block.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
-            return Err(Error::Plain(status::NULL_ARGUMENT));
-        }
-        if block.leading_dimension < block.n {
-            return Err(leading_dimension_below(block.n, block.leading_dimension));
-        }
-        if !block.wave_speed.is_null() {
-            wave_speed::check_density(block.density)?;
-        }
-        let request = Request {
-            stress: !block.stress[0].is_null(),
-            energies: !block.energies.is_null(),
-            invariants: !block.invariants.is_null(),
-            failure: !block.failure.is_null(),
-            modes: !block.modes.is_null(),
-            wave_modulus: !block.wave_speed.is_null(),
-        };
-        let level = block.level.unwrap_or_else(Level::best).min(Level::best());
+        let level = block.level();
         if block.in_place() {
             // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
             return Ok(unsafe { T::dispatch(level, self, block, request) });
@@ -290,10 +276,62 @@ impl<T: Precision> Hyperelastic<T> {
     }
 }
 
+/// The law of these properties at every point of a block, for a host that hands them over with it; otherwise as
+/// [`Hyperelastic::raw_block`].
+///
+/// # Errors
+/// The first property that is wrong, or what `raw_block` says; nothing is written.
+///
+/// # Safety
+/// As for [`Hyperelastic::raw_block`].
+#[inline(always)]
+pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
+    // Up to so many points it takes less time to prepare the law with each than to prepare it, and then the block.
+    const FEW: usize = 2;
+    // SAFETY: the caller answers for the arrays.
+    unsafe {
+        match block.check() {
+            Ok(request) if (1..=FEW).contains(&block.n) => T::few(block.level(), properties, block, request),
+            _ => Hyperelastic::new(properties)?.raw_block(block),
+        }
+    }
+}
+
 /// How many points' old state is brought over at a time: whole groups of registers in either precision.
 const TAKEN_OVER: usize = 2 * STAGED * WIDEST;
 
 impl<T: Precision> Pointers<T> {
+    /// What the block asks for, if it can be evaluated.
+    ///
+    /// # Errors
+    /// As for [`Hyperelastic::raw_block`].
+    #[inline(always)]
+    fn check(&self) -> Result<Request, Error> {
+        if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
+            return Err(Error::Plain(status::NULL_ARGUMENT));
+        }
+        if self.leading_dimension < self.n {
+            return Err(leading_dimension_below(self.n, self.leading_dimension));
+        }
+        if self.n > 0 && !self.wave_speed.is_null() {
+            wave_speed::check_density(self.density)?;
+        }
+        Ok(Request {
+            stress: !self.stress[0].is_null(),
+            energies: !self.energies.is_null(),
+            invariants: !self.invariants.is_null(),
+            failure: !self.failure.is_null(),
+            modes: !self.modes.is_null(),
+            wave_modulus: !self.wave_speed.is_null(),
+        })
+    }
+
+    /// The instructions to use.
+    #[inline(always)]
+    fn level(&self) -> Level {
+        self.level.unwrap_or(Level::Avx512).min(Level::best())
+    }
+
     /// Whether the old state, as far as it is wanted, is where the new one goes.
     fn in_place(&self) -> bool {
         let pairs = [
@@ -427,6 +465,15 @@ pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed 
     /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
 
+    /// The law of these properties at the points of a block one by one, in the operations of the level's lanes.
+    ///
+    /// # Errors
+    /// The first property that is wrong; nothing is written.
+    ///
+    /// # Safety
+    /// As for `dispatch`.
+    unsafe fn few(level: Level, properties: &[Self], block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
+
     /// The law at one point for a host that hands over the properties with it, by the best instructions: within four roundings
     /// of the input's sensitivity of what [`Hyperelastic::point_along`] gives, with the same status.
     ///
@@ -495,8 +542,30 @@ macro_rules! precision {
                 unsafe { evaluate(call) }
             }
 
+            #[inline(always)]
+            unsafe fn few(
+                level: Level,
+                properties: &[$t],
+                block: &Pointers<$t>,
+                request: Request,
+            ) -> Result<i32, Error> {
+                #[cfg(target_arch = "x86_64")]
+                if level > Level::Baseline {
+                    #[target_feature(enable = "avx2,fma")]
+                    unsafe fn fused(properties: &[$t], block: &Pointers<$t>, request: Request) -> Result<i32, Error> {
+                        // SAFETY: the caller's promise.
+                        unsafe { singly::<$t, $one, _>(properties, block, request, 0..block.n) }
+                    }
+                    // SAFETY: the caller's promise.
+                    return unsafe { fused(properties, block, request) };
+                }
+                let _ = level;
+                let law = Hyperelastic::new(properties)?;
+                // SAFETY: the caller's promise.
+                unsafe { singly::<$t, $t, _>(&law, block, request, 0..block.n) }
+            }
+
             unsafe fn dispatch(level: Level, law: &Hyperelastic<$t>, block: &Pointers<$t>, request: Request) -> i32 {
-                kernel!(scalar, $t, $t);
                 #[cfg(target_arch = "x86_64")]
                 {
                     kernel!(
@@ -511,14 +580,18 @@ macro_rules! precision {
                         $t,
                         $avx2
                     );
-                    kernel!(
-                        #[target_feature(enable = "avx2,fma")]
-                        one,
-                        $t,
-                        $one
-                    );
                     kernel!(baseline, $t, $baseline);
-                    // What fills no register goes to narrower ones, which give the same bits.
+                    #[target_feature(enable = "avx2,fma")]
+                    unsafe fn fused_singly(
+                        law: &Hyperelastic<$t>,
+                        block: &Pointers<$t>,
+                        request: Request,
+                        points: Range<usize>,
+                    ) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { singly::<$t, $one, _>(law, block, request, points) }.unwrap_or(status::OK)
+                    }
+                    // What fills no register goes to narrower ones, at last point by point: the same operations, the same bits.
                     let (n, mut worst) = (block.n, status::OK);
                     let whole = |lanes: usize| n - n % lanes;
                     // SAFETY: the caller has found the instructions, and answers for the arrays.
@@ -530,7 +603,8 @@ macro_rules! precision {
                             }
                             let rest = part.end..n;
                             if !rest.is_empty() {
-                                worst = worst.min(as_asked!(scalar, law, block, rest));
+                                let code = singly::<$t, $t, _>(law, block, request, rest);
+                                worst = worst.min(code.unwrap_or(status::OK)); // the law is there
                             }
                             return worst;
                         }
@@ -547,17 +621,16 @@ macro_rules! precision {
                         }
                         part = part.end..n;
                         if !part.is_empty() {
-                            worst = worst.min(as_asked!(one, law, block, part));
+                            worst = worst.min(fused_singly(law, block, request, part));
                         }
                     }
                     worst
                 }
                 #[cfg(not(target_arch = "x86_64"))]
                 {
-                    let _ = (level, request);
-                    let all = 0..block.n;
+                    let _ = level;
                     // SAFETY: the caller's promise.
-                    unsafe { as_asked!(scalar, law, block, all) }
+                    unsafe { singly::<$t, $t, _>(law, block, request, 0..block.n) }.unwrap_or(status::OK)
                 }
             }
         }
@@ -646,6 +719,153 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(
         i += count * R::COUNT;
     }
     least_code(worst)
+}
+
+/// The law at points one by one, in R.
+///
+/// # Errors
+/// The first property that is wrong, if the law is not prepared.
+///
+/// # Safety
+/// As for [`Hyperelastic::raw_block`], on a processor that has the instructions of R, for points of the block.
+#[inline(always)]
+unsafe fn singly<T: Precision, R: Single<T>, L: Source<T>>(
+    source: L,
+    block: &Pointers<T>,
+    request: Request,
+    points: Range<usize>,
+) -> Result<i32, Error> {
+    let mut worst = status::OK;
+    for i in points {
+        // SAFETY: the caller's promise.
+        let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), block.old_state(i).map(Cell::new)) };
+        let mut code = status::OK;
+        let sink = OnePoint { block, i, code: &mut code };
+        match (block.tangent.is_null(), block.measure) {
+            (true, _) if request == Request::STRESS_AND_STATE => {
+                point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, StressAndState, sink)
+            }
+            (true, _) => point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, Alone(request), sink),
+            (false, Measure::Nominal) => {
+                point::evaluate::<T, R, L, _, _, 81>(source, &f, fibre, &state, Nine(request), sink)
+            }
+            (false, measure) => {
+                point::evaluate::<T, R, L, _, _, 21>(source, &f, fibre, &state, Six(request, measure), sink)
+            }
+        }?;
+        worst = worst.min(code);
+    }
+    Ok(worst)
+}
+
+impl<T: Precision> Pointers<T> {
+    /// The columns of F at a point.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`], with i < n; so for the others.
+    #[inline(always)]
+    unsafe fn columns(&self, i: usize) -> [[T; 3]; 3] {
+        // SAFETY: the caller's promise.
+        let entry = |c: usize| unsafe { *self.deformation_gradient[c].add(i) };
+        [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
+    }
+
+    /// Its fibre direction, if it has one of its own.
+    #[inline(always)]
+    unsafe fn direction(&self, i: usize) -> Option<[T; 3]> {
+        let [m_1, m_2, m_3] = self.fibre;
+        // SAFETY: the caller's promise.
+        if m_1.is_null() { None } else { Some(unsafe { [*m_1.add(i), *m_2.add(i), *m_3.add(i)] }) }
+    }
+
+    /// Its old state as far as it is wanted and there is one, else zeros; the latch stands even where no failure is wanted.
+    #[inline(always)]
+    unsafe fn old_state(&self, i: usize) -> [T; HYPERELASTIC_STATE] {
+        let mut state = [T::splat(0.0); HYPERELASTIC_STATE];
+        // SAFETY: the caller's promise.
+        let old = |array: *const T, c: usize| unsafe { *array.add(c * self.leading_dimension + i) };
+        if !self.energies.is_null() && !self.energies_old.is_null() {
+            for (c, value) in state.iter_mut().skip(state::ENERGIES).take(4).enumerate() {
+                *value = old(self.energies_old, c);
+            }
+        }
+        if !self.invariants.is_null() && !self.invariants_old.is_null() {
+            for (c, value) in state.iter_mut().skip(state::INVARIANTS).take(4).enumerate() {
+                *value = old(self.invariants_old, c);
+            }
+        }
+        if !self.failure.is_null() && !self.failure_old.is_null() {
+            state[state::FAILURE_INDEX] = old(self.failure_old, 0);
+        }
+        if !self.failure_old.is_null() {
+            state[state::FAILED] = old(self.failure_old, 1);
+        }
+        state
+    }
+}
+
+/// Where the answer for one point of a block goes.
+struct OnePoint<'a, T> {
+    block: &'a Pointers<T>,
+    i: usize,
+    code: &'a mut i32,
+}
+
+impl<T: Precision> OnePoint<'_, T> {
+    #[inline(always)]
+    fn put(self, point: &Point<T>, tangent: &[T]) {
+        let OnePoint { block, i, code } = self;
+        *code = point.status;
+        // SAFETY: whoever makes this has a block that can be evaluated, with i < n.
+        let store = |values: &[T], array: *mut T| unsafe {
+            if !array.is_null() {
+                for (c, &value) in values.iter().enumerate() {
+                    *array.add(c * block.leading_dimension + i) = value;
+                }
+            }
+        };
+        let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive] = point.state;
+        store(&[w_el, w_tc, w_td, w_ld], block.energies);
+        store(&[i_el, i_tc, i_td, i_ld], block.invariants);
+        store(&[index, failed, alive], block.failure);
+        store(point.modes.as_flattened(), block.modes);
+        store(tangent, block.tangent);
+        // SAFETY: as above.
+        unsafe {
+            if !block.stress[0].is_null() {
+                for (column, value) in block.stress.into_iter().zip(point.stress) {
+                    *column.add(i) = value;
+                }
+            }
+            if !block.wave_speed.is_null() {
+                *block.wave_speed.add(i) = wave_speed::wave_speed(point.wave_modulus, block.density);
+            }
+            if !block.status.is_null() {
+                *block.status.add(i) = point.status;
+            }
+        }
+    }
+}
+
+impl<T: Precision> Sink<T, 0> for OnePoint<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, _: [T; 0]) {
+        self.put(&point, &[]);
+    }
+}
+
+impl<T: Precision> Sink<T, 21> for OnePoint<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, moduli: [T; 21]) {
+        self.put(&point, Moduli(moduli).matrix().as_flattened());
+    }
+}
+
+impl<T: Precision> Sink<T, 81> for OnePoint<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, nominal: [T; 81]) {
+        self.put(&point, &nominal);
+    }
 }
 
 /// The least of the codes in the lanes, or 0.

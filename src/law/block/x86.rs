@@ -632,6 +632,8 @@ macro_rules! single {
     };
 }
 
+single!(F64x1 of f64, _mm_cvtsd_f64);
+single!(F32x1 of f32, _mm_cvtss_f32);
 single!(F64Point of f64, _mm_cvtsd_f64);
 single!(F32Point of f32, _mm_cvtss_f32);
 
