@@ -110,7 +110,7 @@ fn c_programs() {
     let library = [LIBRARY.join("libtoron.a")];
     for precision in [&[][..], &["-DSINGLE"]] {
         c_program("about", precision, &library, false);
-        for name in ["points", "hosts", "threads"] {
+        for name in ["points", "hosts", "threads", "levels"] {
             c_program(name, precision, &library, true);
         }
     }
