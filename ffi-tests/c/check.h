@@ -14,6 +14,7 @@
 #ifdef SINGLE
 typedef float real;
 typedef toron_block_f32 toron_block;
+typedef toron_linear_block_f32 toron_linear_block;
 typedef toron_vumat_f32 toron_vumat;
 #define ENTRY(name) name##_f32
 /* What the truth allows, in parts of one rounding of the input: see tests/truth.rs. */
@@ -21,6 +22,7 @@ typedef toron_vumat_f32 toron_vumat;
 #else
 typedef double real;
 typedef toron_block_f64 toron_block;
+typedef toron_linear_block_f64 toron_linear_block;
 typedef toron_vumat_f64 toron_vumat;
 #define ENTRY(name) name##_f64
 #define ALLOWED (5 * 0x1p-53)
@@ -43,7 +45,24 @@ static int failures;
         }                                                                   \
     } while (0)
 
-/* ---- Guarded arrays: every byte holds PATTERN at first, GUARD bytes on either side for good. */
+/* ---- Guarded arrays: every byte holds PATTERN at first, GUARD bytes on either side for good. Compiled with -DMEMCHECK, valgrind
+ * is told that nobody has given them a value yet, and that the guards are nobody's. */
+
+#ifdef MEMCHECK
+#include <valgrind/memcheck.h>
+#define UNDEFINED(start, bytes) (void)VALGRIND_MAKE_MEM_UNDEFINED(start, bytes)
+#define DEFINED(start, bytes) (void)VALGRIND_MAKE_MEM_DEFINED(start, bytes)
+#define FORBIDDEN(start, bytes) (void)VALGRIND_MAKE_MEM_NOACCESS(start, bytes)
+/* Around a check that reads such bytes on purpose. */
+#define UNCHECKED_BEGIN VALGRIND_DISABLE_ERROR_REPORTING
+#define UNCHECKED_END VALGRIND_ENABLE_ERROR_REPORTING
+#else
+#define UNDEFINED(start, bytes) (void)0
+#define DEFINED(start, bytes) (void)0
+#define FORBIDDEN(start, bytes) (void)0
+#define UNCHECKED_BEGIN (void)0
+#define UNCHECKED_END (void)0
+#endif
 
 enum { GUARD = 64, PATTERN = 0xA5, MOST_ARRAYS = 64 };
 
@@ -61,6 +80,9 @@ static void *guarded(size_t bytes)
         exit(2);
     }
     memset(start, PATTERN, bytes + 2 * GUARD);
+    UNDEFINED(start + GUARD, bytes);
+    FORBIDDEN(start, GUARD);
+    FORBIDDEN(start + GUARD + bytes, GUARD);
     arrays[array_count].start = start;
     arrays[array_count++].bytes = bytes;
     return start + GUARD;
@@ -90,10 +112,14 @@ static inline real *filled(double value, size_t count)
 
 static int untouched(const void *start, size_t bytes)
 {
+    int same = 1;
+    UNCHECKED_BEGIN;
     for (size_t i = 0; i < bytes; i++)
         if (((const unsigned char *)start)[i] != PATTERN)
-            return 0;
-    return 1;
+            same = 0;
+    DEFINED(&same, sizeof same);
+    UNCHECKED_END;
+    return same;
 }
 
 /* Checks the guards of every array, and frees them all. */
@@ -138,7 +164,7 @@ static int numbers(FILE *file, double *to, int count)
 
 static inline void read_cases(int argc, char **argv)
 {
-    FILE *file = argc == 2 ? fopen(argv[1], "r") : NULL;
+    FILE *file = argc >= 2 ? fopen(argv[1], "r") : NULL;
     if (file == NULL) {
         fputs("usage: program CASES\n", stderr);
         exit(2);

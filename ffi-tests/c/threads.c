@@ -1,58 +1,162 @@
-/* Eight threads at once, each over all cases in its own order: every bit as in one thread. */
+/* Eight threads that call the library for the first time at the same moment, and then everything at once in their own order,
+ * blocks of shared inputs among it. Afterwards the main thread does the same alone: every bit is as there.
+ *
+ *     threads CASES [ROUNDS [ADDRESS ...]]
+ *
+ * Compiled with -DDRD, valgrind's drd is told not to report races on the bytes at these addresses. They are relaxed atomics,
+ * which a processor loads and stores like any other byte, so that drd cannot know.
+ */
+#define _GNU_SOURCE /* pthread_barrier_t */
 #include <pthread.h>
+#ifdef DRD
+#include <valgrind/drd.h>
+#endif
 
 #include "check.h"
 
-enum { THREADS = 8, ROUNDS = 50 };
+enum { THREADS = 8, MOST_POINTS = 64, LEVELS = 4, LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES, LINEAR_STATE = TORON_LINEAR_ELASTIC_STATE };
+enum { POINTS, TANGENTS, BLOCKS, LINEAR_BLOCKS, VALIDATIONS, TASKS };
+static const size_t sizes[] = {1, 4, 7, 17, MOST_POINTS};
+enum { SIZES = sizeof sizes / sizeof *sizes };
+
+/* What all threads read: the cases' properties and F, and blocks of F, component-major. */
+static real properties[MOST_CASES][PROPERTIES], deformations[MOST_CASES][9], block_f[9 * MOST_POINTS], block_rest[9 * MOST_POINTS];
+static const real linear_properties[LINEAR] = {(real)79.414, (real)0.794, (real)0.126, (real)3.637, 1, 0, 0, 0, 0, 0};
+static long rounds = 50;
+static pthread_barrier_t everyone_is_there;
+
+/* What one thread gets to know. */
+typedef struct {
+    struct {
+        real stress[6], state[STATE], tangent[36];
+        int32_t status, tangent_status;
+    } points[MOST_CASES];
+    struct {
+        real stress[6 * MOST_POINTS], state[STATE * MOST_POINTS], linear_stress[6 * MOST_POINTS];
+        real linear_state[LINEAR_STATE * MOST_POINTS], axes[9 * MOST_POINTS];
+        int32_t status[MOST_POINTS], linear_status[MOST_POINTS];
+    } blocks[SIZES][LEVELS];
+    struct {
+        char text[200];
+        int32_t status;
+    } validations[3];
+} answers;
+
+static void one_block(answers *a, size_t size, int32_t level)
+{
+    real *state = a->blocks[size][level].state;
+    const toron_block block = {.n = sizes[size], .leading_dimension = MOST_POINTS, .deformation_gradient = block_f, .level = level,
+                               .stress = a->blocks[size][level].stress, .energies = state, .invariants = state + INVARIANTS * MOST_POINTS,
+                               .failure = state + FAILURE * MOST_POINTS, .status = a->blocks[size][level].status};
+    ENTRY(toron_hyperelastic_block)(properties[0], PROPERTIES, &block);
+}
+
+static void one_linear_block(answers *a, size_t size, int32_t level)
+{
+    real *axes = a->blocks[size][level].axes;
+    for (size_t c = 0; c < 9; c++)
+        for (size_t i = 0; i < sizes[size]; i++)
+            axes[c * MOST_POINTS + i] = c % 4 == 0;
+    const toron_linear_block block = {.n = sizes[size], .leading_dimension = MOST_POINTS, .f_old = block_rest, .f_new = block_f, .axes = axes,
+                                      .level = level, .state_new = a->blocks[size][level].linear_state,
+                                      .stress = a->blocks[size][level].linear_stress,
+                                      .status = a->blocks[size][level].linear_status};
+    ENTRY(toron_linear_elastic_block)(linear_properties, LINEAR, &block, (int32_t)size % 3, level % 2);
+}
+
+static void validate(answers *a)
+{
+    for (size_t i = 0; i < 3; i++) {
+        real values[PROPERTIES];
+        memcpy(values, properties[0], sizeof values);
+        if (i > 0)
+            values[i] = -1;
+        ENTRY(toron_hyperelastic_validate)(values, PROPERTIES, a->validations[i].text, 200, &a->validations[i].status);
+    }
+}
+
+static void run_task(int task, answers *a)
+{
+    for (int i = 0; (task == POINTS || task == TANGENTS) && i < case_count; i++)
+        if (task == POINTS)
+            a->points[i].status = ENTRY(toron_hyperelastic_point)(properties[i], PROPERTIES, deformations[i], NULL, NULL,
+                                                                  a->points[i].state, a->points[i].stress, NULL, 0, NULL);
+        else
+            a->points[i].tangent_status = ENTRY(toron_hyperelastic_point_tangent)(
+                properties[i], PROPERTIES, deformations[i], NULL, NULL, NULL, NULL, TORON_TANGENT_JAUMANN, a->points[i].tangent);
+    for (size_t size = 0; (task == BLOCKS || task == LINEAR_BLOCKS) && size < SIZES; size++)
+        for (int32_t level = 0; level < LEVELS; level++)
+            (task == BLOCKS ? one_block : one_linear_block)(a, size, level);
+    if (task == VALIDATIONS)
+        validate(a);
+}
 
 typedef struct {
-    real stress[6], state[STATE];
-} answer;
-
-static answer alone[MOST_CASES];
-
-static answer evaluate(const truth *t)
-{
-    answer a;
-    real properties[PROPERTIES], f[9];
-    for (int i = 0; i < PROPERTIES; i++)
-        properties[i] = (real)t->properties[i];
-    for (int i = 0; i < 9; i++)
-        f[i] = (real)t->f[i];
-    ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, NULL, a.state, a.stress, NULL, 0, NULL);
-    return a;
-}
+    int number;
+    long changes; /* rounds that gave other answers than the first one */
+    answers first, again;
+} thread;
 
 static void *run(void *argument)
 {
-    size_t *different = argument, offset = *different;
-    *different = 0;
-    for (int round = 0; round < ROUNDS; round++)
-        for (int i = 0; i < case_count; i++) {
-            size_t k = ((size_t)i + offset * 31) % (size_t)case_count;
-            answer a = evaluate(&cases[k]);
-            *different += memcmp(&a, &alone[k], sizeof a) != 0;
-        }
+    thread *t = argument;
+    pthread_barrier_wait(&everyone_is_there);
+    for (long round = 0; round < rounds; round++) {
+        answers *a = round == 0 ? &t->first : &t->again;
+        for (int i = 0; i < TASKS; i++)
+            run_task((i + t->number) % TASKS, a);
+        t->changes += memcmp(a, &t->first, sizeof *a) != 0;
+    }
     return NULL;
+}
+
+/* No call of the library, which is for the threads to use first. */
+static void prepare(int argc, char **argv)
+{
+    read_cases(argc, argv);
+    if (argc > 2)
+        rounds = strtol(argv[2], NULL, 10);
+#ifdef DRD
+    for (int i = 3; i < argc; i++)
+        ANNOTATE_BENIGN_RACE_SIZED((void *)strtoul(argv[i], NULL, 16), 1, "");
+#endif
+    for (int i = 0; i < case_count; i++) {
+        for (int c = 0; c < PROPERTIES; c++)
+            properties[i][c] = (real)cases[i].properties[c];
+        for (int c = 0; c < 9; c++)
+            deformations[i][c] = (real)cases[i].f[c];
+    }
+    for (size_t c = 0; c < 9; c++)
+        for (size_t i = 0; i < MOST_POINTS; i++) {
+            block_f[c * MOST_POINTS + i] = deformations[(int)i % case_count][c];
+            block_rest[c * MOST_POINTS + i] = c % 4 == 0;
+        }
 }
 
 int main(int argc, char **argv)
 {
-    read_cases(argc, argv);
-    for (int i = 0; i < case_count; i++)
-        alone[i] = evaluate(&cases[i]);
+    prepare(argc, argv);
     pthread_t threads[THREADS];
-    size_t different[THREADS];
-    for (size_t i = 0; i < THREADS; i++) {
-        different[i] = i;
-        if (pthread_create(&threads[i], NULL, run, &different[i]) != 0) {
+    thread *all = calloc(THREADS, sizeof *all), *alone = calloc(1, sizeof *alone);
+    if (all == NULL || alone == NULL || pthread_barrier_init(&everyone_is_there, NULL, THREADS) != 0)
+        return 2;
+    for (int i = 0; i < THREADS; i++) {
+        all[i].number = i;
+        if (pthread_create(&threads[i], NULL, run, &all[i]) != 0) {
             fputs("no thread\n", stderr);
             return 2;
         }
     }
-    for (int i = 0; i < THREADS; i++) {
+    for (int i = 0; i < THREADS; i++)
         pthread_join(threads[i], NULL);
-        CHECK(different[i] == 0, "thread %d: %zu different answers", i, different[i]);
+    for (int task = 0; task < TASKS; task++)
+        run_task(task, &alone->first);
+    for (int i = 0; i < THREADS; i++) {
+        CHECK(all[i].changes == 0, "thread %d: %ld rounds differ", i, all[i].changes);
+        CHECK(memcmp(&all[i].first, &alone->first, sizeof alone->first) == 0, "thread %d differs", i);
     }
+    pthread_barrier_destroy(&everyone_is_there);
+    free(all);
+    free(alone);
     return finish();
 }

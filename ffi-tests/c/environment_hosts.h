@@ -1,0 +1,312 @@
+/* Calls of the entries of Abaqus, LS-DYNA and CalculiX. */
+#ifndef ENVIRONMENT_HOSTS_H
+#define ENVIRONMENT_HOSTS_H
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "environment_laws.h"
+
+/* ---- Abaqus */
+
+#ifndef SINGLE
+static const double time_increments[] = {1, 0.1, SUBNORMAL, NAN, SIGNALLING};
+
+/* A UMAT's arrays; the old state null in `p` is a fresh one. Those with fibres say nothing new. */
+static int next_umat(size_t *next, point_arrays *p, real **pnewdt)
+{
+    do {
+        if (!next_point(next, p))
+            return 0;
+    } while (p->fibre != NULL);
+    if (p->old == NULL)
+        p->old = filled(0, STATE);
+    *pnewdt = given(&time_increments[*next % COUNT(time_increments)], 1);
+    return 1;
+}
+
+static void abaqus_umat(void)
+{
+#define UMAT toron_abaqus_umat_f64
+    point_arrays p;
+    real *pnewdt;
+    for (size_t next = 0; next_umat(&next, &p, &pnewdt);) {
+        real *sse = reals(1);
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 0));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, 3, STATE, 3, 3, 1));
+        CALL(UMAT(p.stress, p.old, sse, NULL, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+    }
+}
+
+static void abaqus_umat_tangent(void)
+{
+#define UMAT_TANGENT toron_abaqus_umat_tangent_f64
+    point_arrays p;
+    real *pnewdt;
+    for (size_t next = 0; next_umat(&next, &p, &pnewdt);) {
+        real *sse = reals(1), *c = reals(36);
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, 3, 3, 3, 1));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 2, 1, 1));
+        CALL(UMAT_TANGENT(p.stress, p.old, NULL, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+        CALL(UMAT_TANGENT(NULL, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+    }
+}
+#endif
+
+/* A deformation's diagonal and upper triangle as a stretch: 11 22 33 12 23 31. */
+static real *stretches(size_t rows, size_t first, size_t n)
+{
+    static const int entries_of_f[6] = {0, 4, 8, 3, 7, 6};
+    real *array = reals(6 * n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < 6; c++)
+            put(&array[c * n + i], deformations[(first + 5 * i) % rows][entries_of_f[c]]);
+    return array;
+}
+
+static void abaqus_vumat(void)
+{
+#define VUMAT ENTRY(toron_abaqus_vumat)
+    enum { VUMAT_STATE = STATE + 2 };
+    /* Step and total time: a step, the data check, and what is nearly one. */
+    static const double times[][2] = {{1e-6, 1e-6}, {0, 0}, {-0.0, SUBNORMAL}, {SIGNALLING, 0}, {NAN, NAN}};
+    block_case b;
+    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
+        size_t n = b.size, rows = points_of[b.points], old_states = b.points == 0 ? COUNT(states) : 3;
+        real *old = by_component(states[0], STATE, old_states, next, n), *state_old = filled(7, VUMAT_STATE * n);
+        memcpy(state_old, old, STATE * n * sizeof(real));
+        toron_vumat block = {
+            .nblock = (int32_t)n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
+            .props = given(yarns[b.yarn], PROPERTIES), .density = b.points == 0 ? stretches(rows, next, n) : filled(2, n),
+            .strain_inc = stretches(rows, next + 1, n), .stretch_old = stretches(rows, next + 2, n),
+            .stretch_new = stretches(rows, next, n), .stress_old = stretches(rows, next + 3, n), .state_old = state_old,
+            .ener_intern_old = stretches(rows, next + 4, n), .ener_inelas_old = stretches(rows, next + 6, n),
+            .stress_new = reals(6 * n), .state_new = reals(VUMAT_STATE * n), .ener_intern_new = reals(n), .ener_inelas_new = reals(n)};
+        for (size_t k = 0; k < COUNT(times); k++) {
+            put(&block.step_time, times[k][0]);
+            put(&block.total_time, times[k][1]);
+            CALL(VUMAT(&block));
+        }
+        toron_vumat wrong = block;
+        wrong.nshr = 1;
+        CALL(VUMAT(&wrong));
+        wrong = block, wrong.nprops = 3;
+        CALL(VUMAT(&wrong));
+        wrong = block, wrong.nblock = -1;
+        CALL(VUMAT(&wrong));
+        wrong = block, wrong.stress_new = NULL;
+        CALL(VUMAT(&wrong));
+        CALL(VUMAT(NULL));
+    }
+}
+
+/* ---- LS-DYNA */
+
+enum { HISTORY = STATE + 9 };
+
+/* State and F of one element, side by side. Those with fibres say nothing new. */
+static int next_element(size_t *next, point_arrays *p, real **history)
+{
+    do {
+        if (!next_point(next, p))
+            return 0;
+    } while (p->fibre != NULL);
+    *history = filled(0, HISTORY);
+    if (p->old != NULL)
+        memcpy(*history, p->old, STATE * sizeof(real));
+    memcpy(*history + STATE, p->f, 9 * sizeof(real));
+    return 1;
+}
+
+static void lsdyna_umat(void)
+{
+    point_arrays p;
+    real *history;
+    for (size_t next = 0; next_element(&next, &p, &history);) {
+        int *failed = guarded(sizeof *failed);
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, STATE, failed));
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, 3, failed));
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, NULL, STATE, failed));
+    }
+}
+
+static void lsdyna_utan(void)
+{
+    point_arrays p;
+    real *history;
+    for (size_t next = 0; next_element(&next, &p, &history);) {
+        real *es = reals(36);
+        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, STATE, es));
+        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, 3, es));
+        CALL(ENTRY(toron_lsdyna_utan)(NULL, history, STATE, es));
+    }
+}
+
+/* (nlq, 20): elements 3 to n + 2 of n + 3. */
+enum { LFT = 3 };
+
+static real *histories(const block_case *b, size_t next)
+{
+    size_t n = b->size, nlq = n + LFT, old_states = b->points == 0 ? COUNT(states) : 3;
+    real *old = by_component(states[0], STATE, old_states, next, n), *all = filled(NAN, HISTORY * nlq);
+    real *f = by_component(deformations[0], 9, points_of[b->points], next, n);
+    for (size_t c = 0; c < HISTORY; c++)
+        memcpy(all + c * nlq + LFT - 1, c < STATE ? old + c * n : f + (c - STATE) * n, n * sizeof(real));
+    return all;
+}
+
+static void lsdyna_umat_vector(void)
+{
+#define UMAT_VECTOR ENTRY(toron_lsdyna_umat_vector)
+    block_case b;
+    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
+        int32_t n = (int32_t)b.size, nlq = n + LFT, llt = n + LFT - 1;
+        real *cm = given(yarns[b.yarn], PROPERTIES), *s[6], *history = histories(&b, next);
+        int *failed = guarded((size_t)nlq * sizeof *failed);
+        for (int c = 0; c < 6; c++)
+            s[c] = reals((size_t)nlq);
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, nlq, failed));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, 0, llt, nlq, failed));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, llt - 1, failed));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], NULL, history, STATE, LFT, llt, nlq, failed));
+    }
+}
+
+static void lsdyna_utan_vector(void)
+{
+#define UTAN_VECTOR ENTRY(toron_lsdyna_utan_vector)
+    block_case b;
+    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
+        int32_t n = (int32_t)b.size, nlq = n + LFT, llt = n + LFT - 1;
+        real *cm = given(yarns[b.yarn], PROPERTIES), *history = histories(&b, next), *dsave = reals(36 * (size_t)nlq);
+        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, nlq, dsave));
+        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, llt - 1, dsave));
+        CALL(UTAN_VECTOR(cm, history, 3, LFT, llt, nlq, dsave));
+        CALL(UTAN_VECTOR(cm, NULL, STATE, LFT, llt, nlq, dsave));
+    }
+}
+
+#ifndef SINGLE
+static void lsdyna_bulk_and_shear(void)
+{
+    for (size_t y = 0; y < COUNT(yarns); y++) {
+        real *yarn = given(yarns[y], PROPERTIES), *moduli = reals(2);
+        ARGUMENTS("yarn %zu", y);
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, moduli + 1));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, 3, moduli, moduli + 1));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, NULL));
+        release();
+    }
+}
+
+/* ---- CalculiX, which finds its entry by name. An error in the deck ends the process. */
+
+void HYPERELASTIC(const char *amat, const int32_t *iel, const int32_t *iint, const int32_t *kode, const double *elconloc,
+                  const double *emec, const double *emec0, const double *beta, const double *xokl, const double *voj,
+                  const double *xkl, const double *vj, const int32_t *ithermal, const double *t1l, const double *dtime,
+                  const double *time, const double *ttime, const int32_t *icmd, const int32_t *ielas, const int32_t *mi,
+                  const int32_t *nstate, const double *xstateini, double *xstate, double *stre, double *stiff,
+                  const int32_t *iorien, const double *pgauss, const double *orab, double *pnewdt, const int32_t *ipkon,
+                  int32_t amat_length);
+
+typedef struct {
+    char name[80];
+    int32_t kode, state_count, orientation;
+    double *yarn, *strain, *initial_stress, *f, *old, *new, *stress, *stiffness, *orab, *place, *pnewdt;
+} deck;
+
+#define CALCULIX(d)                                                                                                        \
+    HYPERELASTIC((d)->name, &one, &one, &(d)->kode, (d)->yarn, (d)->strain, unused, (d)->initial_stress, unused, unused,   \
+                 (d)->f, unused, &zero, unused, unused, unused, unused, &zero, &zero, &one, &(d)->state_count, (d)->old,   \
+                 (d)->new, (d)->stress, (d)->stiffness, &(d)->orientation, (d)->place, (d)->orab, (d)->pnewdt, &zero, 80)
+static const int32_t one = 1, zero = 0;
+static const double unused[9] = {0};
+
+static deck new_deck(size_t yarn, size_t f, size_t state)
+{
+    const double nowhere[3] = {1, 2, 3}, axes[7] = {1, 1, 0, 0, 2, 1, 1};
+    deck d = {.kode = -100 - PROPERTIES, .state_count = STATE, .yarn = given(yarns[yarn], PROPERTIES),
+              .strain = reals(6), .initial_stress = filled(0, 6), .f = given(deformations[f], 9),
+              .old = given(states[state], STATE), .new = reals(STATE), .stress = reals(6), .stiffness = reals(21),
+              .orab = given(axes, 7), .place = given(nowhere, 3),
+              .pnewdt = given(&time_increments[(yarn + f) % COUNT(time_increments)], 1)};
+    memset(d.name, ' ', sizeof d.name);
+    /* Lagrange's, as in an analysis with NLGEOM: 11 22 33 12 13 23. */
+    const int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
+    for (int c = 0; c < 6; c++) {
+        const double *a = d.f + 3 * first[c], *b = d.f + 3 * second[c];
+        d.strain[c] = 0.5 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - (c < 3));
+    }
+    return d;
+}
+
+/* Whether this is the end of the program, or a child that is to end, or neither. */
+static enum { CALLING, CHILD, DONE } phase;
+
+/* An entry that ends the process: only errors in a deck are to, and in the environment that CalculiX has set. */
+static void at_exit(void)
+{
+    if (phase == CHILD && _mm_getcsr() != environments[where].mxcsr)
+        _exit(EXIT_FAILURE);
+    if (phase == CALLING)
+        printf("%s: %s: the process ends; %s\n", entries[entry].name, environments[where].name, arguments);
+}
+
+/* What a deck may have wrong ends the process, with CalculiX's code, and not by SIGFPE. */
+static void calculix_refuses(void)
+{
+    enum { EXIT_CODE = 201, ERRORS = 8 };
+    for (int error = 0; error < ERRORS; error++)
+        for (where = 0; where < environment_count; where++) {
+            deck d = new_deck(error == 0 ? GOOD_YARNS : 0, 3, error == 1 ? 6 : 0);
+            d.state_count -= error == 2;
+            d.kode += error == 3;
+            put(&d.initial_stress[2], error == 4 ? 0.5 : error == 5 ? SIGNALLING : error == 6 ? SUBNORMAL : 0);
+            if (error == 7) { /* the strain is that of small displacements */
+                const double linear[6] = {0, -0.1, -0.2, 0.1, 0.05, 0.15};
+                memcpy(d.strain, linear, sizeof linear);
+            }
+            int status = 0;
+            ARGUMENTS("error %d in the deck", error);
+            fflush(stdout);
+            const pid_t child = fork();
+            if (child == 0) {
+                phase = CHILD;
+                signal(SIGFPE, SIG_DFL);
+                if (freopen("/dev/null", "w", stdout) == NULL)
+                    exit(2);
+                set_environment(&environments[where]);
+                CALCULIX(&d);
+                exit(0);
+            }
+            waitpid(child, &status, 0);
+            if (WIFSIGNALED(status))
+                fault(where, TRAPPED, "it ended by a signal");
+            else if (WEXITSTATUS(status) != EXIT_CODE)
+                fault(where, DIFFERENT, "it ended without CalculiX's code, or in another environment");
+            release();
+        }
+}
+
+static void calculix(void)
+{
+    enum { STATES = 5, ORIENTATIONS = 3 }; /* another state is an error in the deck */
+    for (size_t next = 0; next < GOOD_YARNS * DEFORMATIONS * STATES * ORIENTATIONS; next += stride) {
+        size_t rest = next, orientation = rest % ORIENTATIONS, state = (rest /= ORIENTATIONS) % STATES;
+        size_t f = (rest /= STATES) % DEFORMATIONS, y = rest / DEFORMATIONS;
+        deck d = new_deck(y, f, state);
+        d.orientation = orientation > 0;
+        d.orab[6] = orientation == 1 ? 1 : -1; /* rectangular, cylindrical */
+        ARGUMENTS("yarn %zu, F %zu, old state %zu, orientation %zu", y, f, state, orientation);
+        RUN("HYPERELASTIC()", CALCULIX(&d); answer = 0);
+        release();
+    }
+    calculix_refuses();
+}
+#endif
+
+#endif

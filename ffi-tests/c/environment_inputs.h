@@ -1,0 +1,164 @@
+/* What the entries get in `environment.c`: yarns, deformations and states, good ones and such as no law can serve. */
+#ifndef ENVIRONMENT_INPUTS_H
+#define ENVIRONMENT_INPUTS_H
+
+#include "check.h"
+
+/* ---- Inputs. Numbers that stand for others: what is huge, tiny or subnormal is so in the precision under test. */
+
+#ifdef SINGLE
+#define HUGE_NUMBER 1e30
+#define TINY 1e-30
+#define SUBNORMAL 1e-42
+static const uint32_t signalling_nan = 0x7fa00000;
+#else
+#define HUGE_NUMBER 1e200
+#define TINY 1e-200
+#define SUBNORMAL 1e-310
+static const uint64_t signalling_nan = 0x7ff4000000000000;
+#endif
+#define SIGNALLING 0x1.5ap99
+
+static void put(real *to, double value)
+{
+    if (value == SIGNALLING)
+        memcpy(to, &signalling_nan, sizeof *to);
+    else
+        *to = (real)value;
+}
+
+static real *given(const double *values, size_t count)
+{
+    real *array = reals(count);
+    for (size_t i = 0; i < count; i++)
+        put(&array[i], values[i]);
+    return array;
+}
+
+#define COUNT(table) (sizeof(table) / sizeof *(table))
+
+/* k_el k_tc p k_td k_ld eps_lim alpha beta m_1 m_2 m_3. */
+static const double yarns[][PROPERTIES] = {
+    {82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, 1.055, 2.2, 0.64974, 0, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, 1.055, 2.2, 0.64974, 0.1, 0, 0, 0, 1, 0, 0},
+    {82.341, 1.055, 2.2, 0.64974, 0, 0.0458, 1.8, 0.5, 0.3, -0.5, 0.8},
+    {82.341, 1.055, 3, 0.64974, 0.1, 0.0458, 1.8, 0.5, 0.3, -0.5, 0.8},
+    {1e20, 1e25, 40, 1e25, 1e25, 10, 0, 0, -3, 0, 0},
+    {0, 0, 1.0001, 0, 0, 0, 0, 0, 0, 0, TINY},
+    /* Refused. */
+    {0, 0, 1.0001, 0, 0, 0, 0, 0, 0, 0, SUBNORMAL},
+    {NAN, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, SIGNALLING, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, 1.055, INFINITY, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, 1.055, 0.5, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {-SUBNORMAL, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 1, 0, 0},
+    {82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 0, 0, 0},
+    {82.341, 1.055, 2.2, 0.64974, 0.1, 0.0458, 1.8, 0, 1, SIGNALLING, 0},
+};
+enum { GOOD_YARNS = 7 };
+
+/* Deformation gradients by columns. */
+static const double deformations[][9] = {
+    {1, 0, 0, 0, 1, 0, 0, 0, 1},
+    {1.02, 0, 0, 0, 1, 0, 0, 0, 1},
+    {0.97, 0.01, 0, 0, 1.1, 0, -0.02, 0, 0.9},
+    {1, 0.2, 0.1, 0, 0.9, 0, 0, 0.3, 0.8},
+    {1, 0, 0, 0, 0.7, 0, 0, 0, 0.7},
+    {0.03, 1.01, -0.2, -0.9, 0.1, 0.3, 0.2, 0.1, 1.1},
+    {1, -0.0, 0, 0, 1, -0.0, 0, 0, 1},
+    {1 + 1e-9, 1e-12, 0, 0, 1 - 1e-7, 0, 0, 1e-9, 1},
+    {1, TINY, SUBNORMAL, SUBNORMAL, 1, TINY, TINY, -SUBNORMAL, 1},
+    /* Failing. */
+    {1.2, 0, 0, 0, 1, 0, 0, 0, 1},
+    {1.5, 0.4, 0, 0.1, 1, 0.2, 0.3, 0, 2},
+    {1, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3},
+    {1, 0, 0, 50, 1, 0, 0, -20, 1},
+    /* At fault. */
+    {-1, 0, 0, 0, 1, 0, 0, 0, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0},
+    {0, 0, 0, 0, 1, 0, 0, 0, 1},
+    {1, 0, 0, 0, 1, 0, 0, 1, 0},
+    {NAN, 0, 0, 0, 1, 0, 0, 0, 1},
+    {1, 0, 0, 0, SIGNALLING, 0, 0, 0, 1},
+    {1, 0, 0, 0, 1, 0, SIGNALLING, 0, 1},
+    {INFINITY, 0, 0, 0, 1, 0, 0, 0, 1},
+    {1, 0, -INFINITY, 0, INFINITY, 0, 0, 0, 1},
+    {HUGE_NUMBER, 0, 0, 0, HUGE_NUMBER, 0, 0, 0, HUGE_NUMBER},
+    {HUGE_NUMBER, HUGE_NUMBER, -HUGE_NUMBER, 1, HUGE_NUMBER, 0, 0, 3, -HUGE_NUMBER},
+    {HUGE_NUMBER, 0, 0, 0, TINY, 0, 0, 0, 1},
+    {1, 0, 0, 0, HUGE_NUMBER, 0, 0, 0, 1},
+    {TINY, 0, 0, 0, TINY, 0, 0, 0, TINY},
+    {1, 0, 0, 0, TINY, 0, 0, 0, TINY},
+    {SUBNORMAL, 0, 0, 0, SUBNORMAL, 0, 0, 0, SUBNORMAL},
+};
+enum { REST = 1, GOOD_DEFORMATIONS = 9, DEFORMATIONS = COUNT(deformations) };
+
+/* W_el W_tc W_td W_ld, I_el I_tc I_td I_ld, failure index, failed, alive. */
+static const double states[][STATE] = {
+    {0},
+    {0.1, 0.2, 0.3, 0.4, 0.01, 0.02, 0.03, 0.04, 0.5, 0, 1},
+    {0.1, 0.2, 0.3, 0.4, 0.01, 0.02, 0.03, 0.04, 1.5, 1, 0},
+    {SUBNORMAL, TINY, 0, 0, SUBNORMAL, -SUBNORMAL, 0, 0, SUBNORMAL, 0, 1},
+    {HUGE_NUMBER, HUGE_NUMBER, HUGE_NUMBER, HUGE_NUMBER, HUGE_NUMBER, 0, 0, 0, HUGE_NUMBER, SUBNORMAL, 1},
+    {0, NAN, 0, 0, 0, 0, 0, 0, 0, 0, 1},
+    {0, 0, 0, 0, SIGNALLING, 0, 0, 0, 0, 1, 0},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0, SIGNALLING, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, INFINITY, 0, 1},
+};
+
+static const double fibres[][3] = {
+    {1, 0, 0}, {0.3, -4, 0.2}, {0, 0, TINY}, {HUGE_NUMBER, HUGE_NUMBER, 0}, {0, SUBNORMAL, 0},
+    {0, 0, 0}, {NAN, 0, 1}, {1, SIGNALLING, 0}, {INFINITY, 0, 0},
+};
+
+static const real densities[] = {1351, 0, (real)SUBNORMAL, -1, INFINITY, NAN};
+
+/* ---- The linear elastic law: E_1 G_t G_12 sigma_lim, the fibre and the second axis. */
+
+enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES, LINEAR_STATE = TORON_LINEAR_ELASTIC_STATE };
+
+static const double linear_yarns[][LINEAR] = {
+    {79.414, 0.794, 0.126, 3.637, 1, 0, 0, 0, 0, 0},
+    {79.414, 0.794, 0.126, 0, 0.3, -0.5, 0.8, 0, 1, 0},
+    {1e25, TINY, SUBNORMAL, 3.637, 0, 0, TINY, HUGE_NUMBER, 0, 0},
+    /* Refused. */
+    {79.414, 0.794, 0.126, 3.637, 0, 0, SUBNORMAL, 0, 0, 0},
+    {79.414, 0.794, 0.126, 3.637, 1, 0, 0, -2, 0, 0},
+    {79.414, 0.794, 0.126, SIGNALLING, 1, 0, 0, 0, 0, 0},
+    {79.414, NAN, 0.126, 3.637, 1, 0, 0, 0, 0, 0},
+    {-1, 0.794, 0.126, 3.637, 1, 0, 0, 0, 0, 0},
+};
+enum { GOOD_LINEAR_YARNS = 3 };
+
+/* Stress, work, failed, alive. */
+static const double linear_states[][LINEAR_STATE] = {
+    {0},
+    {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.1, 0, 1},
+    {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.1, 1, 0},
+    {SUBNORMAL, -SUBNORMAL, TINY, 0, 0, 0, SUBNORMAL, SUBNORMAL, 0, 1},
+    {HUGE_NUMBER, -HUGE_NUMBER, 0, HUGE_NUMBER, 0, 0, HUGE_NUMBER, HUGE_NUMBER, 0, 1},
+    {0, NAN, 0, 0, 0, 0, 0, 0, 0, 1},
+    {0, 0, 0, 0, 0, SIGNALLING, 0, 0, 0, 1},
+    {0, 0, 0, 0, 0, 0, 0, 0, SIGNALLING, 1},
+};
+
+/* Axes that turn: the reference ones, turned ones, not orthogonal, none, no numbers. */
+static const double axes_in_space[][9] = {
+    {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.6, 0.8, 0, -0.8, 0.6, 0, 0, 0, 1}, {1, TINY, SUBNORMAL, 0.5, 1, 0, 0, 0, 2},
+    {0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, SIGNALLING, 0, 0, 0, NAN},
+};
+
+/* ---- Blocks */
+
+/* Component-major arrays of n points, a row of the table each; point i has row (first + 5 i) mod rows. */
+static real *by_component(const double *table, size_t components, size_t rows, size_t first, size_t n)
+{
+    real *array = reals(components * n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < components; c++)
+            put(&array[c * n + i], table[(first + 5 * i) % rows * components + c]);
+    return array;
+}
+
+#endif
