@@ -986,3 +986,120 @@ proptest! {
         nothing_meaningless_leaves(law, &inputs, bits)?;
     }
 }
+
+/// A block's answers with a tangent, component by component: stress, state, tangent.
+fn with_tangent<T: Number>(
+    law: &Hyperelastic<T>,
+    inputs: &[Input<T>],
+    measure: Measure,
+    level: Level,
+) -> Vec<Vec<u64>> {
+    let n = inputs.len();
+    let column = |c: usize| inputs.iter().map(move |input| input.f[c]);
+    let f: Vec<T> = (0..9).flat_map(column).collect();
+    let array = |components: usize| vec![T::default(); components * n];
+    let (mut stress, mut energies, mut invariants, mut failure) = (array(6), array(4), array(4), array(3));
+    let mut tangent = array(measure.components());
+    law.block(Arrays {
+        n,
+        leading_dimension: n,
+        deformation_gradient: &f,
+        stress: Some(&mut stress),
+        energies: Some(&mut energies),
+        invariants: Some(&mut invariants),
+        failure: Some(&mut failure),
+        tangent: Some(&mut tangent),
+        measure,
+        level: Some(level),
+        ..Arrays::default()
+    })
+    .expect("a block");
+    let arrays = [&stress, &energies, &invariants, &failure, &tangent];
+    let point = |i: usize| arrays.iter().flat_map(|array| array.iter().skip(i).step_by(n)).map(|x| x.bits()).collect();
+    (0..n).map(point).collect()
+}
+
+/// Beside a tangent as well a point's place does not matter, whether the fibre lies along the first axis or not.
+fn place_does_not_matter_for_tangents<T: Number>() {
+    let inputs = ordinary(40);
+    for [m_1, m_2, m_3] in [AXIS, [0.48, -0.6, 0.64]] {
+        for k_ld in [0.0, 1e9] {
+            let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, k_ld, 0.0458, 1.8, 0.3, m_1, m_2, m_3]);
+            for measure in [Measure::Material, Measure::Truesdell, Measure::Jaumann, Measure::Nominal] {
+                for level in levels() {
+                    let together = with_tangent(&law, &inputs, measure, level);
+                    for count in [1, 2, 3, 5, 7, 11, 19] {
+                        let apart = inputs.chunks(count).flat_map(|part| with_tangent(&law, part, measure, level));
+                        assert!(apart.eq(together.iter().cloned()), "parts of {count}, {measure:?}, {level:?}, {m_1}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn place_does_not_matter_for_tangents_f64() {
+    place_does_not_matter_for_tangents::<f64>();
+}
+
+#[test]
+fn place_does_not_matter_for_tangents_f32() {
+    place_does_not_matter_for_tangents::<f32>();
+}
+
+/// Compactions down to the smallest numbers, with large exponents too: the tangent and the wave speed are finite numbers.
+fn tiny_compactions<T: Number>(largest: i32, least: i32) {
+    for p in [2.0, 2.2, 3.0, 40.0] {
+        let law = law::<T>([82.341e9, 1.055e9, p, 0.64974e9, 0.0, 0.0458, 1.8, 0.3, 1.0, 0.0, 0.0]);
+        // With F23 = F32 = x, J_t = 1 − x².
+        let inputs: Vec<Input<T>> = (least..largest)
+            .map(|k| 2f64.powi(k))
+            .map(|x| Input::fresh([1.0, 0.0, 0.0, 0.0, 1.0, x, 0.0, x, 1.0], AXIS))
+            .collect();
+        for level in levels() {
+            for measure in [Measure::Material, Measure::Truesdell, Measure::Jaumann, Measure::Nominal] {
+                let answers = with_tangent(&law, &inputs, measure, level);
+                for (bits, input) in answers.iter().zip(&inputs) {
+                    let finite = bits.iter().all(|&bits| T::from_bits(bits).into().is_finite());
+                    // What is not evaluated has a tangent of zeros.
+                    assert!(
+                        finite && T::from_bits(bits[17]).into() > 0.0,
+                        "p = {p}, {measure:?}, {level:?}: {input:?}"
+                    );
+                }
+            }
+            let (outputs, worst) = run(&law, &inputs, &Call { asked: Asked::ALL, ..Call::new(level) });
+            assert_eq!(worst, status::OK, "p = {p}, {level:?}");
+            for output in outputs {
+                assert!(output.values::<T>()[WAVE_SPEED] > 0.0, "p = {p}, {level:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn tiny_compactions_f64() {
+    tiny_compactions::<f64>(-20, -1074);
+}
+
+#[test]
+fn tiny_compactions_f32() {
+    tiny_compactions::<f32>(-10, -149);
+}
+
+/// A compaction energy beyond single precision is told, and not taken for a small one, at every level.
+#[test]
+fn powers_beyond_single_precision_are_told() {
+    let law = law::<f32>([82.341e9, 1.055e9, 40.0, 0.64974e9, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    let inputs: Vec<Input<f32>> = (0..200)
+        .map(|k| 4.4e-5 * (1.15f64 / 4.4).powf(f64::from(k) / 199.0))
+        .map(|a| Input::fresh([1.0, 0.0, 0.0, 0.0, a, 0.0, 0.0, 0.0, a], AXIS))
+        .collect();
+    for level in levels() {
+        let (outputs, _) = run(&law, &inputs, &Call { asked: Asked::ALL, ..Call::new(level) });
+        for (output, input) in outputs.iter().zip(&inputs) {
+            assert_eq!(output.status, status::OVERFLOW, "{level:?}: {input:?}");
+        }
+    }
+}

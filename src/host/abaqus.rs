@@ -48,18 +48,18 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
 /// Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
 /// `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
 /// and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
-/// solids, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
+/// solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
 /// pointers but `ddsdde` are the caller's and not null.
 ///
 /// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
 /// one, later calls zeros.
 ///
-/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
-/// and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
+/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
+/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
 /// quarter.
 ///
 /// # Safety
-/// Every pointer has as many values as said.
+/// Every pointer has as many values as said; outputs overlap nothing.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
@@ -99,8 +99,15 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
         Ok(properties) => properties,
         Err(error) => return error.code(),
     };
-    if nshr == 1 && in_default_environment(|| out_of_plane(properties)) {
-        return status::FIBRE_OUT_OF_PLANE;
+    if nshr == 1 {
+        let code = in_default_environment(|| match Hyperelastic::new(properties) {
+            Err(error) => error.code(),
+            Ok(_) if out_of_plane(properties) => status::FIBRE_OUT_OF_PLANE,
+            Ok(_) => status::OK,
+        });
+        if code != status::OK {
+            return code;
+        }
     }
     // Two calls: each function is built for what it is asked. The structures are made where they are read, number by number.
     if ddsdde.is_null() {

@@ -750,7 +750,7 @@ unsafe fn point<T: Precision>(
 /// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
 ///
 /// # Safety
-/// Every pointer is null or has as many values as said.
+/// Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_f64(
@@ -870,7 +870,7 @@ unsafe fn point_tangent<T: Precision>(
 /// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
 ///
 /// # Safety
-/// Every pointer is null or has as many values as said.
+/// Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f64(

@@ -72,7 +72,7 @@ struct Arguments<'a> {
     /// Axes of `*ORIENTATION` and the place of the point, if there are any.
     orientation: Option<(&'a [f64; 7], &'a [f64; 3])>,
     state_count: i32,
-    old_state: &'a [Cell<f64>; HYPERELASTIC_STATE],
+    old_state: *const f64,
     pnewdt: f64,
 }
 
@@ -122,7 +122,9 @@ impl Arguments<'_> {
         let mut answer = Answer { pnewdt: self.pnewdt, ..Answer::default() };
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = Six(request, Measure::Material);
-        f64::once(Call { properties, f: self.f, fibre, state: self.old_state, tangent, sink: &mut answer })?;
+        // SAFETY: CalculiX's promise: there are as many as state_count says.
+        let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
+        f64::once(Call { properties, f: self.f, fibre, state, tangent, sink: &mut answer })?;
         if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
             return Err(Error::Plain(answer.status)); // no smaller increment helps
         }
@@ -254,10 +256,10 @@ pub unsafe extern "C" fn HYPERELASTIC(
             f: &*xkl.cast(),
             orientation: usize::try_from(*iorien - 1).ok().map(|i| (&*orab.cast::<[f64; 7]>().add(i), &*pgauss.cast())),
             state_count: *nstate_,
-            old_state: &*xstateini.add(place).cast(),
+            old_state: xstateini.wrapping_add(place),
             pnewdt: *pnewdt,
         };
-        (arguments, xstate.add(place))
+        (arguments, xstate.wrapping_add(place))
     };
     match in_default_environment(|| arguments.evaluate().map_err(Message::from)) {
         // SAFETY: CalculiX's promise.

@@ -37,8 +37,8 @@ pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
 
     let mut call = Call { work: ManuallyDrop::new(work), result: MaybeUninit::uninit() };
     let run: unsafe extern "sysv64" fn(*mut Call<R, W>) = run;
-    // The caller's MXCSR, and the one to run in. No arithmetic happens outside `run`: the compiler could move it across, but
-    // not into or out of a function that it reaches by address through memory.
+    // The caller's MXCSR, and the one to run in. All arithmetic is in `run`: the compiler may move operations across a change of
+    // environments that it does not know of, but not out of a function that only the assembly calls.
     let mut words = [0, DEFAULT_MXCSR];
     // SAFETY: `run` has the calling convention whose registers are given up, keeps r12 as that convention demands, and takes
     // its argument in rdi; the stack is aligned for a call, since the block does not claim to leave it alone. MXCSR is the

@@ -52,8 +52,8 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
 ///
 /// LS-DYNA hands the card's NHV to no routine. With IHYPER = 0 there is no F, and where NHV is not 11, F stands elsewhere, behind
 /// zeros: before the first call of an element it is a rotation, or nearly one, and two of its columns tell it. After a call
-/// `failed` and `alive` tell that the state is this law's: each is 0 or 1, and not both are 0. What is not finite is left to the
-/// law.
+/// `failed` and `alive` tell that the state is this law's: each is 0 or 1, and not both are 0. Not seen are NHV from 14 to 19, where
+/// F seems to have a first column of zeros, and entries of F that pass for the two flags. What is not finite is left to the law.
 fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     const F: usize = HYPERELASTIC_STATE;
     let h = |j: usize| -> f64 { history(j).into() };
@@ -63,11 +63,6 @@ fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     let [failed, alive] = [FAILED, ALIVE].map(h);
     if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
         return true;
-    }
-    // No element starts flat.
-    let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-    if (0..3).any(|k| zeros(F + 3 * k, 1) || zeros(F + k, 3)) {
-        return false;
     }
     let is_at = |start: usize| {
         let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
@@ -210,7 +205,7 @@ unsafe fn scalar<T: Precision>(
 /// or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
 ///
 /// # Safety
-/// Every pointer has as many values as said.
+/// Every pointer has as many values as said; outputs overlap nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     cm: *const f64,
@@ -292,7 +287,7 @@ unsafe fn vector<T: Precision>(
 /// carries no stress, keeps its energies and invariants, and is failed.
 ///
 /// # Safety
-/// Every pointer has as many values as said.
+/// Every pointer has as many values as said; outputs overlap nothing.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
@@ -374,7 +369,7 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
 /// as it is for an element that has failed.
 ///
 /// # Safety
-/// Every pointer has as many values as said.
+/// Every pointer has as many values as said; outputs overlap nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
@@ -452,7 +447,7 @@ unsafe fn vector_tangent<T: Precision>(
 /// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
 ///
 /// # Safety
-/// Every pointer has as many values as said.
+/// Every pointer has as many values as said; outputs overlap nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     cm: *const f64,

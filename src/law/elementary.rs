@@ -10,7 +10,7 @@
 //! | `ln_1p(x)` = ln(1 + x) | 3.0 | 3.0 | x > −1 |
 //! | `asinh(s)` | 4.5 | 4.5 | 0 ≤ s ≤ 1e150 (f64), 1e18 (f32) |
 //! | its (asinh s)/s | 6.5 | 6.5 | as above |
-//! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below 2^−1001 (f64), 2^−105 (f32) are 0, those above 2^1004, 2^108 not promised |
+//! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below about 2^−1001 (f64), 2^−105 (f32) are 0; those above 2^1004 not promised, above 2^127 (f32) infinite |
 //!
 //! The coefficients are minimax polynomials found by Remez exchange in 300-bit arithmetic.
 
@@ -307,7 +307,12 @@ impl<R: Real> Reduced<R> {
     pub fn finish(&self) -> R {
         let Reduced { n, r, remains } = *self;
         let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
-        R::select(remains, exponential.times_power_of_two(n), R::splat(0.0))
+        let power = R::select(remains, exponential.times_power_of_two(n), R::splat(0.0));
+        if R::HEADROOM {
+            return power; // no compaction is so large
+        }
+        // 2^n alone does not fit.
+        R::select(R::splat(R::EXPONENTS.1 + 19.0).lt(n), R::splat(f64::INFINITY), power)
     }
 }
 

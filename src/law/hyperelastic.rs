@@ -180,11 +180,12 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
     }
 }
 
-/// The compaction below which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: none of it for p > 2, where W″ = 0 at 0.
+/// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: for p > 2 it is 0 at 0, and held where
+/// i^(p−1) is 0 as well, so that no quotient overflows.
 #[inline(always)]
 fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
     if p.into() > 2.0 {
-        return [T::splat(0.0); 2];
+        return [T::splat(T::MIN_POSITIVE * f64::from(1 << 20)), T::splat(0.0)];
     }
     let floor = T::splat(COMPACTION_FLOOR);
     [floor, p * (p - T::splat(1.0)) * k_tc * power(floor, exponent) / floor]

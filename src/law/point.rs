@@ -241,6 +241,28 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     }
 }
 
+/// A law whose fibre is not taken for the first axis even where it lies along it, as lanes with a tangent do not: the operations are
+/// those of a fibre of any direction.
+#[derive(Clone, Copy)]
+pub(super) struct InGeneralAxes<L>(pub L);
+
+impl<T, L: Source<T>> Source<T> for InGeneralAxes<L> {
+    #[inline(always)]
+    fn frame(&self) -> PropertyFrame<T> {
+        PropertyFrame { aligned: false, ..self.0.frame() }
+    }
+
+    #[inline(always)]
+    fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
+        self.0.law(frame)
+    }
+
+    #[inline(always)]
+    fn failure(&self) -> Failure<T> {
+        self.0.failure()
+    }
+}
+
 /// The law at one point, computed in R; see [`Hyperelastic::point_with`].
 ///
 /// # Errors
@@ -281,7 +303,6 @@ pub(super) fn evaluate<
 }
 
 /// A call from a host that hands over the properties with every point.
-
 pub struct Call<'a, T, D, S, const N: usize> {
     pub properties: &'a [T],
     /// Columns of F.
@@ -366,14 +387,14 @@ fn point_in<
     law.failure = source.failure().map(|x| R::of(x));
     let k = law.kirchhoff(&stretch, &strain, power.finish());
     let (request, overflows) = (tangent.request(), tangent.overflows::<R>(shear));
-    let tangent = tangent.of(&law, kinematics, &k, frame, &early, shear);
+    let entries = tangent.of(&law, kinematics, &k, frame, &early, shear);
     let latch = R::of(state[FAILED].get());
     let doubt = R::select(usable, strain.doubt, R::splat(f64::NAN));
     let r = law.respond(kinematics, &k, frame, doubt, latch, request, shear);
     let h = law.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
     // The stress need not wait for the tangent's finiteness.
     let zero = R::splat(0.0);
-    let representable = if overflows { unrepresentable(&tangent).le(zero) } else { zero.le(zero) };
+    let representable = if overflows { unrepresentable(&entries).le(zero) } else { zero.le(zero) };
     if !R::holds(r.new & representable) {
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
         let verdict: f64 = law.verdict(f, &stretch, usable, latch).value().into();
@@ -391,7 +412,7 @@ fn point_in<
         wave_modulus: r.wave_modulus.value(),
         status: status::OK,
     };
-    sink.take(point, values(&tangent));
+    sink.take(point, values(&entries));
     Ok(())
 }
 

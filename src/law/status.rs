@@ -19,7 +19,7 @@ pub const BAD_LEADING_DIMENSION: i32 = -103;
 pub const UNKNOWN_NAME: i32 = -104;
 /// A scalar argument (density, option, …) outside what is allowed.
 pub const BAD_ARGUMENT: i32 = -105;
-/// The host passes no deformation gradient: a small-strain analysis, or F = 0.
+/// The host passes no deformation gradient: a small-strain analysis, F = 0, or F elsewhere than where it is read.
 pub const NO_DEFORMATION_GRADIENT: i32 = -106;
 /// The number of properties is not the table's.
 pub const PROPERTY_COUNT: i32 = -201;
@@ -57,7 +57,7 @@ pub const TABLE: [(i32, &str, &str); 19] = [
     (
         NO_DEFORMATION_GRADIENT,
         "no_deformation_gradient",
-        "there is no deformation gradient: Abaqus and CalculiX want NLGEOM, LS-DYNA wants IHYPER = 1 or -1 and NHV = 11",
+        "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11",
     ),
     (PROPERTY_COUNT, "property_count", "the number of properties is not the table's"),
     (PROPERTY_NOT_FINITE, "property_not_finite", "a property is NaN or infinite"),

@@ -390,7 +390,8 @@ fn add<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
 ///
 /// In double precision none in space does without a longitudinal-shear stiffness. With the bounds of the properties (10²⁵, p ≤ 40)
 /// and of a point's strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is the pressure's,
-/// 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and what it is multiplied with is no larger than 1; those of D carry 1/s for each D.
+/// 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and what it is multiplied with is no larger than 1; those of D carry 1/s for each D. No
+/// factor is a product of 0 and infinity: where the compaction is so small that its reciprocal is large, its curvature is held.
 #[inline(always)]
 pub(super) fn overflows<R: Real>(measure: Measure, shear: bool) -> bool {
     shear || !R::HEADROOM || !matches!(measure, Measure::Truesdell | Measure::Jaumann)

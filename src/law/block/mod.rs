@@ -31,7 +31,7 @@ use core::ops::Range;
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::point::{self, Alone, Call, Derivative, Point, Sink, Source, StressAndState};
+use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, StressAndState};
 use super::real::{Real, Single};
 use super::state::{self, HYPERELASTIC_STATE};
 use super::status::{self, Error};
@@ -286,7 +286,7 @@ impl<T: Precision> Hyperelastic<T> {
 /// As for [`Hyperelastic::raw_block`].
 #[inline(always)]
 pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
-    // Up to so many points it takes less time to prepare the law with each than to prepare it, and then the block.
+    // Up to so many points it takes less time to prepare the law with each of them than once and to set up the block.
     const FEW: usize = 2;
     // SAFETY: the caller answers for the arrays.
     unsafe {
@@ -399,7 +399,7 @@ impl Level {
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
-            // Beside `fused` the only global state of the library: what the processor can do, found out once.
+            // This and `fused` are the only global state of the library: what the processor can do, found out once.
             cpufeatures::new!(has_avx512, "avx512f", "avx512dq", "avx512vl", "avx2", "fma");
             if has_avx512::get() {
                 return Level::Avx512;
@@ -628,9 +628,10 @@ macro_rules! precision {
                 }
                 #[cfg(not(target_arch = "x86_64"))]
                 {
-                    let _ = level;
+                    let (_, all) = ((level, request), 0..block.n);
+                    kernel!(scalar, $t, $t);
                     // SAFETY: the caller's promise.
-                    unsafe { singly::<$t, $t, _>(law, block, request, 0..block.n) }.unwrap_or(status::OK)
+                    unsafe { as_asked!(scalar, law, block, all) }
                 }
             }
         }
@@ -747,10 +748,11 @@ unsafe fn singly<T: Precision, R: Single<T>, L: Source<T>>(
             }
             (true, _) => point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, Alone(request), sink),
             (false, Measure::Nominal) => {
-                point::evaluate::<T, R, L, _, _, 81>(source, &f, fibre, &state, Nine(request), sink)
+                point::evaluate::<T, R, _, _, _, 81>(InGeneralAxes(source), &f, fibre, &state, Nine(request), sink)
             }
             (false, measure) => {
-                point::evaluate::<T, R, L, _, _, 21>(source, &f, fibre, &state, Six(request, measure), sink)
+                let tangent = Six(request, measure);
+                point::evaluate::<T, R, _, _, _, 21>(InGeneralAxes(source), &f, fibre, &state, tangent, sink)
             }
         }?;
         worst = worst.min(code);

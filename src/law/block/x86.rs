@@ -313,9 +313,11 @@ fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
 }
 
 // 1/x in AVX-512, correctly rounded as a division would have it, from an approximation y to 14 bits: with r = 1 − x y the
-// reciprocal is y (1 + r + r² + r³ …). So many terms of it, the last sum rounded upwards, are within one unit in the last place.
-// A Newton step from there is correctly rounded but for the x whose mantissa is all ones (Markstein, IBM J. Res. Dev. 34(1),
-// 1990), and for that x too where it starts from above: hence upwards.
+// reciprocal is y (1 + r + r² + r³ …). So many terms of it are off by r⁴ ≤ 2^−56 (f32: r² ≤ 2^−28), less than an eighth of a unit in
+// the last place, before the last sum is rounded, upwards; then comes a Newton step, exact but for δ², δ the relative error that it
+// starts from (after Markstein, IBM J. Res. Dev. 34(1), 1990). Where 1/x lies next to halfway between two numbers the sum is the
+// upper one, and δ² too small to carry the step across the middle, for a mantissa of all ones too, where it would from below;
+// elsewhere there is no middle to cross.
 
 /// r + r² + …, so many terms, with r = 1 − x y.
 #[inline(always)]
