@@ -28,7 +28,7 @@ fn c_programs() {
     let library = [LIBRARY.join("libtoron.a")];
     for precision in PRECISIONS {
         c_program("about", precision, &library, false);
-        for name in ["points", "hosts", "threads"] {
+        for name in ["points", "hosts", "threads", "levels"] {
             c_program(name, precision, &library, true);
         }
     }

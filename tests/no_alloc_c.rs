@@ -155,8 +155,10 @@ macro_rules! both_precisions {
                         modes: m,
                         wave_speed: &mut speed,
                         status: &mut code,
+                        level: TORON_LEVEL_BEST,
                     };
                     quiet!($block, yarn, P, &block);
+                    quiet!($block, yarn, P, &Block { level: 9, ..block });
                     quiet!($block, yarn, P, &Block { leading_dimension: 0, ..block });
                     quiet!($block, yarn, P, null());
                     for measure in -1..4 {
@@ -368,6 +370,7 @@ fn linear_elastic() {
                 state_new: h,
                 stress: s,
                 status: &mut code,
+                level: TORON_LEVEL_BEST,
             };
             let block_f32 = LinearBlock {
                 n: 1,
@@ -379,6 +382,7 @@ fn linear_elastic() {
                 state_new: state_f32.as_mut_ptr(),
                 stress: stress_f32.as_mut_ptr(),
                 status: &mut code,
+                level: TORON_LEVEL_BEST,
             };
             for rotation in -1..4 {
                 for criterion in -1..3 {

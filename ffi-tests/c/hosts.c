@@ -193,8 +193,14 @@ static void lsdyna_wrong_calls(void)
     CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, NULL) == TORON_NULL_ARGUMENT, "failel");
     CHECK(ENTRY(toron_lsdyna_umat)(NULL, sig, hsv, STATE, failel) == TORON_NULL_ARGUMENT, "cm");
     CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
-    /* F = 0: the slots of a card without IHYPER. */
-    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, failel) == TORON_INVERTED && *failel == 1, "F = 0");
+    /* F = 0: the slots of a card without IHYPER. Nothing is written, so that the job stops instead of losing its elements. */
+    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, failel) == TORON_NO_DEFORMATION_GRADIENT, "F = 0");
+    CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
+    char message[200];
+    toron_status_message(TORON_NO_DEFORMATION_GRADIENT, message, sizeof message);
+    CHECK(strstr(message, "IHYPER") != NULL, "%s", message);
+    v = good, v.hsvs = filled(0, (size_t)(HISTORY * good.nlq));
+    lsdyna_refused(v, TORON_NO_DEFORMATION_GRADIENT);
     release();
 }
 
@@ -433,9 +439,16 @@ static void umat(void)
         CHECK(memcmp(a.stress, b.stress, 6 * sizeof(double)) == 0, "case %d: stress", t->id);
         CHECK(memcmp(a.statev, b.statev, STATE * sizeof(double)) == 0, "case %d: state", t->id);
 
-        /* Plane strain: four components of the six. */
+        /* Plane strain: four components of the six, for a fibre in the plane or normal to it. */
         umat_arguments plane = umat_point(t);
         plane.nshr = 1;
+        const double *m = t->properties + 8;
+        if (m[2] != 0 && (m[0] != 0 || m[1] != 0)) {
+            CHECK(call_umat(&plane) == TORON_FIBRE_OUT_OF_PLANE, "case %d", t->id);
+            CHECK(untouched(plane.stress, 6 * sizeof(double)) && untouched(plane.ddsdde, 36 * sizeof(double)), "refused");
+            release();
+            continue;
+        }
         CHECK(call_umat(&plane) == TORON_OK, "case %d", t->id);
         CHECK(memcmp(a.stress, plane.stress, 4 * sizeof(double)) == 0, "case %d: stress", t->id);
         for (int i = 0; i < 4; i++)

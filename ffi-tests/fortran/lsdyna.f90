@@ -40,6 +40,7 @@ program lsdyna_test
   ! With IHYPER = 0 nobody writes F: all of the history is as at the start.
   cm(1:11) = real(table(1)%properties)
   call refused('IHYPER', 0 * rest)
+  call another_nhv
   call finish
 
 contains
@@ -265,6 +266,30 @@ contains
     call call_vector_tangent(3, dsave)
     call check_stop('utan41v: ', message)
     call check(all(dsave == mark), 'nothing is written: ' // message, 4)
+  end subroutine
+
+  ! What an element's history is before the first call if the card's NHV is not 11: F stands elsewhere. At rest F is 1, or the
+  ! rotation into the material axes where IHYPER is -1, and LS-DYNA has updated it once already: nothing, or a little.
+  subroutine another_nhv
+    real, parameter :: step(2) = [0.0, 0.01], c = 0.6, s = 0.8
+    real :: f(3, 3), start(60), turn(3, 3, 4), d(3, 3)
+    integer :: card, k, j
+    turn(:, :, 1) = reshape([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [3, 3])
+    turn(:, :, 2) = reshape([c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0], [3, 3])
+    turn(:, :, 3) = reshape([0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0], [3, 3])
+    turn(:, :, 4) = matmul(turn(:, :, 2), matmul(turn(:, :, 3), turn(:, :, 2)))
+    d = reshape([0.3, -0.7, 0.2, 0.9, -0.4, 0.5, -0.1, 0.6, 0.8], [3, 3])
+    do card = 0, 40
+      if (card == nhv) cycle
+      do k = 1, size(turn, 3)
+        do j = 1, size(step)
+          f = matmul(turn(:, :, 1) + step(j) * d, turn(:, :, k))
+          start = 0
+          start(card + 1:card + 9) = reshape(f, [9])
+          call refused('NHV', start(:history))
+        end do
+      end do
+    end do
   end subroutine
 
   ! One stop since the last look, with this message.

@@ -29,9 +29,10 @@ program umat_test
   end do
   call check(stops == 0, 'no stop', 0)
 
-  ! Plane strain and axisymmetric solids: 11 22 33 12.
+  ! Plane strain and axisymmetric solids: 11 22 33 12, with the fibre in the plane or normal to it.
   do i = 1, number_of_cases
     call prepare(table(i))
+    if (props(11) /= 0 .and. any(props(9:10) /= 0)) cycle
     call call_umat(11, 12, 3, 1)
     call check(all(stress(5:) == mark) .and. all(ddsdde(17:) == mark), 'four components', i)
     call plane(table(i))
@@ -56,6 +57,8 @@ program umat_test
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)
   call refused('a count is not what this entry can serve', 11, 12, 2)
+  props(9:11) = [0.6d0, 0d0, 0.8d0]
+  call refused('neither in the plane', 11, 12, 1)
   call check_written(7, 'material FIBRE:')
   call finish
 

@@ -52,15 +52,16 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
 ///
 /// LS-DYNA hands the card's NHV to no routine. With IHYPER = 0 there is no F, and where NHV is not 11, F stands elsewhere, behind
 /// zeros: before the first call of an element it is a rotation, or nearly one, and two of its columns tell it. After a call
-/// `failed` and `alive` tell that the state is this law's, since every call writes 0 and 1 or 1 and 0. What is not finite is left
-/// to the law.
+/// `failed` and `alive` tell that the state is this law's: each is 0 or 1, and not both are 0. What is not finite is left to the
+/// law.
 fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     const F: usize = HYPERELASTIC_STATE;
     let h = |j: usize| -> f64 { history(j).into() };
     if (F..F + 9).all(|j| h(j) == 0.0) {
         return false;
     }
-    if [(0.0, 1.0), (1.0, 0.0)].contains(&(h(FAILED), h(ALIVE))) {
+    let [failed, alive] = [FAILED, ALIVE].map(h);
+    if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
         return true;
     }
     // No element starts flat.

@@ -357,7 +357,7 @@ fn powers_at_the_ends_of_the_range() {
     for (level, results) in everywhere(&Power(Exponent::new(2.0)), &[[1e-200]]) {
         assert_eq!(results, [[0.0]], "{level}: underflow");
     }
-    for (level, results) in everywhere(&Power(Exponent::new(2.0f32)), &[[1e-20]]) {
+    for (level, results) in everywhere(&Power(Exponent::new(2.0f32)), &[[1e-20f32]]) {
         assert_eq!(results, [[0.0]], "{level}: underflow");
     }
 }
