@@ -283,8 +283,8 @@ contains
       if (card == nhv .or. (card >= 14 .and. card <= 19)) cycle ! those cannot be told from a flat element
       do k = 1, size(turn, 3)
         do j = 1, size(step)
-          ! A rotation of zeros and ones, whose entries pass for `failed` and `alive`.
-          if (k == 3 .and. step(j) == 0 .and. (card == 8 .or. card == 9)) cycle
+          ! Shifted by one a turn of zeros and ones is another one.
+          if (card == 10 .and. k == 3 .and. step(j) == 0) cycle
           f = matmul(turn(:, :, 1) + step(j) * d, turn(:, :, k))
           start = 0
           start(card + 1:card + 9) = reshape(f, [9])

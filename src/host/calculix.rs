@@ -146,7 +146,8 @@ impl Arguments<'_> {
         let (linear, quadratic) = (six(0.5 * (h + h.transpose())), largest(six(0.5 * h.tr_mul(&h))));
         let mut off = *self.strain;
         off.iter_mut().zip(linear).for_each(|(strain, linear)| *strain -= linear);
-        quadratic > 1e-9 && largest(off) < 1e-3 * quadratic
+        // What is not finite is no strain of either kind.
+        quadratic > 1e-9 && quadratic.is_finite() && largest(off) < 1e-3 * quadratic
     }
 }
 

@@ -53,7 +53,7 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
 /// LS-DYNA hands the card's NHV to no routine. With IHYPER = 0 there is no F, and where NHV is not 11, F stands elsewhere, behind
 /// zeros: before the first call of an element it is a rotation, or nearly one, and two of its columns tell it. After a call
 /// `failed` and `alive` tell that the state is this law's: each is 0 or 1, and not both are 0. Not seen are NHV from 14 to 19, where
-/// F seems to have a first column of zeros, and entries of F that pass for the two flags. What is not finite is left to the law.
+/// F seems to have a first column of zeros. What is not finite is left to the law.
 fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     const F: usize = HYPERELASTIC_STATE;
     let h = |j: usize| -> f64 { history(j).into() };
@@ -62,7 +62,9 @@ fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     }
     let [failed, alive] = [FAILED, ALIVE].map(h);
     if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-        return true;
+        // Entries of an F that stands elsewhere may pass for them; then there are zeros where F is read. No element becomes so flat.
+        let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
+        return !(0..3).any(|k| zeros(F + 3 * k, 1) || zeros(F + k, 3));
     }
     let is_at = |start: usize| {
         let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
