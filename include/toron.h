@@ -42,7 +42,7 @@
 #define TORON_BAD_ARGUMENT -105
 
 /*
- The host passes no deformation gradient: a small-strain analysis, or F = 0.
+ The host passes no deformation gradient: a small-strain analysis, F = 0, or F elsewhere than where it is read.
  */
 #define TORON_NO_DEFORMATION_GRADIENT -106
 
@@ -691,7 +691,7 @@ size_t toron_hyperelastic_validate_f32(const float *values,
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
 
  # Safety
- Every pointer is null or has as many values as said.
+ Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
  */
 int32_t toron_hyperelastic_point_f64(const double *values,
                                      size_t count,
@@ -736,7 +736,7 @@ int32_t toron_hyperelastic_point_f32(const float *values,
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
 
  # Safety
- Every pointer is null or has as many values as said.
+ Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
  */
 int32_t toron_hyperelastic_point_tangent_f64(const double *values,
                                              size_t count,
@@ -975,18 +975,18 @@ int32_t toron_linear_elastic_block_f32(const float *values,
  Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
  `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
  and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
- solids, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
+ solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
  pointers but `ddsdde` are the caller's and not null.
 
  DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
  one, later calls zeros.
 
- Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code,
- and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
+ Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
+ (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
  quarter.
 
  # Safety
- Every pointer has as many values as said.
+ Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_abaqus_umat_tangent_f64(double *stress,
                                       double *statev,
@@ -1053,7 +1053,7 @@ int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
  or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
 
  # Safety
- Every pointer has as many values as said.
+ Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_umat_f64(const double *cm,
                               double *sig,
@@ -1082,7 +1082,7 @@ int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t n
  carries no stress, keeps its energies and invariants, and is failed.
 
  # Safety
- Every pointer has as many values as said.
+ Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_umat_vector_f64(const double *cm,
                                      double *sig1,
@@ -1130,7 +1130,7 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
  as it is for an element that has failed.
 
  # Safety
- Every pointer has as many values as said.
+ Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_utan_f64(const double *cm,
                               const double *hsv,
@@ -1154,7 +1154,7 @@ int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, fl
  Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
 
  # Safety
- Every pointer has as many values as said.
+ Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_utan_vector_f64(const double *cm,
                                      const double *hsvs,

@@ -177,16 +177,16 @@ struct Message {
     length: usize,
 }
 
-impl From<Error> for Message {
-    fn from(error: Error) -> Self {
-        let mut message = Message { text: [0; 400], length: 0 };
+impl Message {
+    const EMPTY: Message = Message { text: [0; 400], length: 0 };
+
+    fn write(&mut self, error: Error) {
         error.describe(&mut |piece| {
-            for (to, &from) in message.text.iter_mut().skip(message.length).zip(piece.as_bytes()) {
+            for (to, &from) in self.text.iter_mut().skip(self.length).zip(piece.as_bytes()) {
                 *to = from;
-                message.length += 1;
+                self.length += 1;
             }
         });
-        message
     }
 }
 
@@ -262,7 +262,8 @@ pub unsafe extern "C" fn HYPERELASTIC(
         };
         (arguments, xstate.wrapping_add(place))
     };
-    match in_default_environment(|| arguments.evaluate().map_err(Message::from)) {
+    let mut message = Message::EMPTY;
+    match in_default_environment(|| arguments.evaluate().map_err(|error| message.write(error))) {
         // SAFETY: CalculiX's promise.
         Ok(answer) => unsafe {
             *stre.cast() = answer.stress;
@@ -271,6 +272,6 @@ pub unsafe extern "C" fn HYPERELASTIC(
             *pnewdt = answer.pnewdt;
         },
         // SAFETY: a material's name has 80 characters.
-        Err(message) => refuse(unsafe { &*amat.cast() }, &message),
+        Err(()) => refuse(unsafe { &*amat.cast() }, &message),
     }
 }

@@ -127,6 +127,9 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
     Ok(worst)
 }
 
+/// The card's properties, F by columns, and the state of an element.
+type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]);
+
 /// The card's properties, and F and the state of an element, for the number of history variables that the law needs.
 ///
 /// # Errors
@@ -134,11 +137,7 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
-unsafe fn element<'a, T: Precision>(
-    cm: *const T,
-    hsv: *const T,
-    nhv: i32,
-) -> Result<(&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]), Error> {
+unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
     if nhv != HYPERELASTIC_STATE as i32 {
         return Err(Error::Plain(status::STATE_COUNT));
     }
