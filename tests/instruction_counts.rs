@@ -5,7 +5,8 @@
 //! Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at
 //! AVX2.
 //!
-//! `umat` and `point` are the scalar law. Both prepare the law at every call.
+//! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call. Here the change of the
+//! floating-point environment is counted too.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::fmt::Write;
