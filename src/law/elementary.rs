@@ -131,6 +131,12 @@ impl<R: Real> Logarithm<R> {
         Logarithm { f: z - R::splat(1.0), k }
     }
 
+    /// Two logarithms side by side, see [`Real::pair`].
+    #[inline(always)]
+    pub fn pair(&self, other: &Self) -> Self {
+        Logarithm { f: self.f.pair(other.f), k: self.k.pair(other.k) }
+    }
+
     /// What the reciprocal is wanted of: 1 + f/2.
     #[inline(always)]
     pub fn denominator(&self) -> R {
@@ -285,7 +291,26 @@ impl<R: Real> Power<R> {
     /// The second: i^q = 2^n e^r, |r| ≤ ½ ln 2.
     #[inline(always)]
     pub fn reduce(&self, q: &Exponent<R>) -> Reduced<R> {
-        let (k, ln_z) = (self.logarithm.k, self.logarithm.of_mantissa(self.reciprocal));
+        self.reduced(q, self.logarithm.k, self.logarithm.of_mantissa(self.reciprocal))
+    }
+
+    /// The first two steps, and ln(1 + x) beside them, for a number with room for two.
+    #[inline(always)]
+    pub fn reduce_beside(i: R, q: &Exponent<R>, x: R) -> (Reduced<R>, R) {
+        let one = R::splat(1.0);
+        let least = R::splat(R::MIN_POSITIVE);
+        let y = one + x;
+        let logarithm = Logarithm::new(i.max(least).pair(y));
+        let reciprocal = logarithm.denominator().reciprocal();
+        let ([k, other_k], [ln_z, other]) = (logarithm.k.apart(), logarithm.of_mantissa(reciprocal).apart());
+        let power = Power { logarithm, reciprocal, remains: least.le(i) };
+        let lost = (x - (y - one)).mul_add(y.reciprocal(), other);
+        (power.reduced(q, k, ln_z), other_k.mul_add(R::splat(LN_2), lost))
+    }
+
+    /// With ln i = k ln 2 + ln z.
+    #[inline(always)]
+    fn reduced(&self, q: &Exponent<R>, k: R, ln_z: R) -> Reduced<R> {
         let n = q.over_ln_2.mul_add(ln_z, q.value * k).round();
         let d = q.high.mul_add(k, -n);
         let r = d.mul_add(R::splat(LN_2), q.low_ln_2.mul_add(k, q.value * ln_z));

@@ -32,9 +32,15 @@ impl<R: Real> Failure<R> {
     /// From the property ε_lim, 0 for no failure, and the weights.
     #[inline(always)]
     pub fn new(eps_lim: R, alpha: R, beta: R) -> Self {
+        Failure::with_limit(eps_lim, ln_1p(eps_lim), alpha, beta)
+    }
+
+    /// Likewise, given ln(1 + ε_lim).
+    #[inline(always)]
+    pub fn with_limit(eps_lim: R, limit: R, alpha: R, beta: R) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let fails = zero.lt(eps_lim);
-        let limit = R::select(fails, ln_1p(eps_lim).max(R::splat(LEAST_LIMIT)), one);
+        let limit = R::select(fails, limit.max(R::splat(LEAST_LIMIT)), one);
         let weight = |x: R| R::select(fails, x, zero);
         Failure {
             limit,

@@ -143,13 +143,20 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         })
     }
 
+    /// ε_lim, α and β of properties that have been checked.
+    #[inline(always)]
+    pub(super) fn failure_properties(properties: &[T]) -> [T; 3] {
+        match properties {
+            &[_, _, _, _, _, eps_lim, alpha, beta, ..] => [eps_lim, alpha, beta],
+            _ => [T::splat(0.0); 3], // not reached: their number has been checked
+        }
+    }
+
     /// The failure of properties that have been checked.
     #[inline(always)]
     pub(super) fn prepare_failure(properties: &[T]) -> Failure<T> {
-        match properties {
-            &[_, _, _, _, _, eps_lim, alpha, beta, ..] => Failure::new(eps_lim, alpha, beta),
-            _ => Failure::none(), // not reached: their number has been checked
-        }
+        let [eps_lim, alpha, beta] = Self::failure_properties(properties);
+        Failure::new(eps_lim, alpha, beta)
     }
 }
 

@@ -342,22 +342,25 @@ pub struct Strain<R> {
 impl<R: Real> Strain<R> {
     #[inline(always)]
     pub fn new(d: &Stretch<R>, section: &Section<R>, logarithms: &Logarithms<R>) -> Self {
-        let half = R::splat(0.5);
         let l = logarithms;
         let [d_3, d_4] = l.distortion.denominators();
-        let [over_1, over_2, over_3, over_4] = if R::WAITS {
-            let (d_1, d_2) = (l.stretch.denominator(), l.area.denominator());
-            [d_1.reciprocal(), d_2.reciprocal(), d_3.reciprocal(), d_4.reciprocal()]
+        let ([ln_stretch, ln_area], over) = if R::WAITS {
+            let both = l.stretch.pair(&l.area);
+            let over_both = d.inverse_square.pair(section.inverse_area_square);
+            let logarithms = both.finish(both.denominator().reciprocal(), d.lost.pair(section.lost), over_both);
+            (logarithms.apart(), [d_3.reciprocal(), d_4.reciprocal()])
         } else {
             let inverse_3 = l.inverse * d_4;
             let inverse_2 = inverse_3 * d_3;
             let (over_1, over_2) = (inverse_2 * l.area.denominator(), inverse_2 * l.stretch.denominator());
-            [over_1, over_2, inverse_3 * l.product_2, l.inverse * l.product_3]
+            let stretch = l.stretch.finish(over_1, d.lost, d.inverse_square);
+            let area = l.area.finish(over_2, section.lost, section.inverse_area_square);
+            ([stretch, area], [inverse_3 * l.product_2, l.inverse * l.product_3])
         };
-        let (i_td, distortion_ratio) = l.distortion.finish([over_3, over_4]);
+        let (i_td, distortion_ratio) = l.distortion.finish(over);
         Strain {
-            i_el: half * l.stretch.finish(over_1, d.lost, d.inverse_square),
-            i_tc: R::splat(0.25) * l.area.finish(over_2, section.lost, section.inverse_area_square),
+            i_el: R::splat(0.5) * ln_stretch,
+            i_tc: R::splat(0.25) * ln_area,
             i_td,
             distortion_ratio,
             inverse_a_square: R::splat(1.0) / section.a_square,

@@ -4,6 +4,7 @@ use core::cell::Cell;
 
 use nalgebra::Matrix3;
 
+use super::elementary::Power;
 use super::failure::Failure;
 use super::hyperelastic::{Hyperelastic, Kirchhoff, PropertyFrame, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -203,8 +204,8 @@ pub(super) trait Source<T>: Copy {
     /// The first property that is wrong.
     fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error>;
 
-    /// The law's failure, which is wanted later.
-    fn failure(&self) -> Failure<T>;
+    /// ⟨−I_tc⟩^(p−1) with the exponent of `law`, and the law's failure, which is not wanted earlier.
+    fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>);
 }
 
 impl<T: Real> Source<T> for &Hyperelastic<T> {
@@ -219,8 +220,8 @@ impl<T: Real> Source<T> for &Hyperelastic<T> {
     }
 
     #[inline(always)]
-    fn failure(&self) -> Failure<T> {
-        self.failure
+    fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
+        (law.compaction(strain).reduce(&law.exponent).finish(), self.failure.map(|x| R::of(x)))
     }
 }
 
@@ -236,8 +237,15 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     }
 
     #[inline(always)]
-    fn failure(&self) -> Failure<T> {
-        Hyperelastic::prepare_failure(self)
+    fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
+        if !R::WAITS {
+            let failure = Hyperelastic::prepare_failure(self).map(|x| R::of(x));
+            return (law.compaction(strain).reduce(&law.exponent).finish(), failure);
+        }
+        // One pass for both logarithms.
+        let [eps_lim, alpha, beta] = Hyperelastic::failure_properties(self).map(|x| R::of(x));
+        let (power, limit) = Power::reduce_beside(-strain.i_tc, &law.exponent, eps_lim);
+        (power.finish(), Failure::with_limit(eps_lim, limit, alpha, beta))
     }
 }
 
@@ -258,8 +266,8 @@ impl<T, L: Source<T>> Source<T> for InGeneralAxes<L> {
     }
 
     #[inline(always)]
-    fn failure(&self) -> Failure<T> {
-        self.0.failure()
+    fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
+        self.0.power_and_failure(law, strain)
     }
 }
 
@@ -383,9 +391,9 @@ fn point_in<
     let early = tangent.early(&stretch, &section, &images);
     let strain = Strain::new(&stretch, &section, &logarithms);
     let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
-    let power = law.compaction(&strain).reduce(&law.exponent);
-    law.failure = source.failure().map(|x| R::of(x));
-    let k = law.kirchhoff(&stretch, &strain, power.finish());
+    let (power, failure) = source.power_and_failure(&law, &strain);
+    law.failure = failure;
+    let k = law.kirchhoff(&stretch, &strain, power);
     let (request, overflows) = (tangent.request(), tangent.overflows::<R>(shear));
     let entries = tangent.of(&law, kinematics, &k, frame, &early, shear);
     let latch = R::of(state[FAILED].get());

@@ -25,7 +25,8 @@ pub trait Real:
     const SQUARES: (f64, f64);
     /// Whether this range is so wide that no stress, but for the longitudinal shear's, can leave it.
     const HEADROOM: bool;
-    /// Whether what costs is the chain of operations, each of which waits for the one before, and not their number.
+    /// Whether what costs is the chain of operations, each of which waits for the one before, and not their number. Such a number
+    /// has room for a second one, see [`pair`](Self::pair).
     const WAITS: bool = false;
     /// Coefficients of artanh, the logarithm and the exponential, see [`elementary`](super::elementary).
     const HALF_ARTANH: &'static [f64];
@@ -58,6 +59,16 @@ pub trait Real:
     #[inline(always)]
     fn reciprocal(self) -> Self {
         Self::splat(1.0) / self
+    }
+    /// Two numbers side by side, to compute with at the cost of one; the first where there is no room for a second.
+    #[inline(always)]
+    fn pair(self, _other: Self) -> Self {
+        self
+    }
+    /// The numbers of a pair.
+    #[inline(always)]
+    fn apart(self) -> [Self; 2] {
+        [self; 2]
     }
     /// `self/divisor`, correctly rounded, given the divisor's correctly rounded reciprocal; none of them very small or large.
     #[inline(always)]

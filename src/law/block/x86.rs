@@ -34,7 +34,7 @@ macro_rules! register {
         reciprocal ($rx:ident) $reciprocal:expr;
         quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
         series $artanh:ident $ln:ident $exp:ident
-        $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)? $(; waits $waits:literal)?
+        $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)? $(; waits, pair ($pa:ident, $pb:ident) $pair:expr, apart ($pxy:ident) [$pfirst:expr, $psecond:expr])?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -96,7 +96,6 @@ macro_rules! register {
             const EPSILON: f64 = <$t as Real>::EPSILON;
             const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
             const HEADROOM: bool = <$t as Real>::HEADROOM;
-            $(const WAITS: bool = $waits;)?
             const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
@@ -180,6 +179,21 @@ macro_rules! register {
                 let $qx = self;
                 $quotient
             }
+            $(
+                const WAITS: bool = true;
+                #[inline(always)]
+                fn pair(self, other: Self) -> Self {
+                    let ($pa, $pb) = (self.0, other.0);
+                    // SAFETY: the dispatch has found the instructions.
+                    $name(unsafe { $pair })
+                }
+                #[inline(always)]
+                fn apart(self) -> [Self; 2] {
+                    let $pxy = self.0;
+                    // SAFETY: the dispatch has found the instructions.
+                    unsafe { [$name($pfirst), $name($psecond)] }
+                }
+            )?
         }
 
         impl $name {
@@ -589,7 +603,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    waits true
+    waits, pair (a, b) _mm_unpacklo_pd(a, b), apart (x) [_mm_unpacklo_pd(x, x), _mm_unpackhi_pd(x, x)]
 }
 
 register! {
@@ -610,7 +624,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
-    waits true
+    waits, pair (a, b) _mm_unpacklo_ps(a, b), apart (x) [_mm_shuffle_ps::<0x00>(x, x), _mm_shuffle_ps::<0x55>(x, x)]
 }
 
 macro_rules! single {
