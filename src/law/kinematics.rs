@@ -33,6 +33,8 @@ const NEAR_REFERENCE: f64 = 0.6;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
 pub trait Axes<R: Real>: Copy {
+    /// Whether these are the coordinate axes.
+    const ALONG_COORDINATES: bool;
     /// What of the axes' images is worth keeping where F itself is at hand.
     type Kept: Copy;
     fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept;
@@ -58,6 +60,7 @@ pub struct Image<R> {
 pub struct FirstAxis;
 
 impl<R: Real> Axes<R> for FirstAxis {
+    const ALONG_COORDINATES: bool = true;
     type Kept = ();
     #[inline(always)]
     fn keep(&self, _: [[R; 3]; 3]) {}
@@ -136,6 +139,7 @@ impl<R: Real> FibreFrame<R> {
 }
 
 impl<R: Real> Axes<R> for FibreFrame<R> {
+    const ALONG_COORDINATES: bool = false;
     type Kept = [[R; 3]; 3];
     #[inline(always)]
     fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept {
@@ -279,6 +283,13 @@ impl<R: Real> Section<R> {
             lost: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
+    }
+
+    /// J_t and its reciprocal.
+    #[inline(always)]
+    pub fn area_ratio(&self) -> [R; 2] {
+        let inverse = self.inverse_area_square.sqrt();
+        [self.area_square * inverse, inverse]
     }
 }
 

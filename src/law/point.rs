@@ -48,12 +48,14 @@ pub trait Derivative<const N: usize>: Copy {
     /// Whether an entry may leave the range of R at a point whose strains are within it.
     fn overflows<R: Real>(self, shear: bool) -> bool;
 
+    #[allow(clippy::too_many_arguments)]
     fn of<R: Real>(
         self,
         law: &Hyperelastic<R>,
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
+        along_coordinates: bool,
         early: &Self::Early<R>,
         shear: bool,
     ) -> [R; N];
@@ -107,6 +109,7 @@ impl Derivative<0> for Alone {
         _: Kinematics<'_, R>,
         _: &Kirchhoff<R>,
         _: &FibreFrame<R>,
+        _: bool,
         (): &(),
         _: bool,
     ) -> [R; 0] {
@@ -142,6 +145,7 @@ impl Derivative<0> for StressAndState {
         _: Kinematics<'_, R>,
         _: &Kirchhoff<R>,
         _: &FibreFrame<R>,
+        _: bool,
         (): &(),
         _: bool,
     ) -> [R; 0] {
@@ -395,7 +399,7 @@ fn point_in<
     law.failure = failure;
     let k = law.kirchhoff(&stretch, &strain, power);
     let (request, overflows) = (tangent.request(), tangent.overflows::<R>(shear));
-    let entries = tangent.of(&law, kinematics, &k, frame, &early, shear);
+    let entries = tangent.of(&law, kinematics, &k, frame, A::ALONG_COORDINATES, &early, shear);
     let latch = R::of(state[FAILED].get());
     let doubt = R::select(usable, strain.doubt, R::splat(f64::NAN));
     let r = law.respond(kinematics, &k, frame, doubt, latch, request, shear);

@@ -5,22 +5,24 @@
 //! (derivation in `docs/theory.md`)
 //!
 //! ```text
-//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙H + E⊙G  −  2 (E⊗τ_ld + τ_ld⊗E)
+//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙H + E⊙(G − τ_ld)
 //! H = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
 //! ```
 //!
-//! In space P⊙H = 1⊙H − E⊙H, where the product with 1 is sparse, and the Jaumann modulus, c + ½ 1⊙τ, differs in H alone:
-//! ½ K P + ½ τ_el + ½ τ_ld stands there. Pulled back, E, P and D are those of F⁻¹e, F⁻¹q1, F⁻¹q2, and the same sum is dS/dE.
-//! No quotient 0/0 anywhere, and symmetric by construction: only the upper triangle is computed.
+//! In space P is 1 − E, and products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e needs no more than
+//! e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs in H alone: ½ K P + ½ τ_el + ½ τ_ld stands there.
+//!
+//! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b, each over the lengths of c, a and b, where c, a and b are
+//! orthogonal. No quotient 0/0 anywhere, and symmetric by construction: only the upper triangle is computed.
 
 use nalgebra::Matrix3;
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff, Request, shear_components};
-use super::kinematics::{Decomposition, FibreFrame, Kinematics, Section, Strain, Stretch};
+use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
+use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
 use super::point::{Derivative, Point};
 use super::real::{Real, along, dot, image, scale};
 use super::state::HYPERELASTIC_STATE;
-use super::stress::{VOIGT, paired, paired_with_one, square, symmetric_product, upper_triangle};
+use super::stress::{PAIRS, VOIGT, paired_with_one, square, symmetric_product, upper_triangle};
 
 /// Which derivative of which stress. Rows and columns of the 6×6 are 11 22 33 12 23 31, its columns engineering shears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -101,57 +103,106 @@ struct Factors<R> {
     shear: R,
 }
 
-/// The tensors that a modulus is made of, 11 22 33 12 23 31.
+/// The section's shape: J_t and its reciprocal, x = cosh 2 I_td, s = sinh 2 I_td.
+#[derive(Clone, Copy)]
+pub struct Shape<R> {
+    area_ratio: R,
+    inverse_area_ratio: R,
+    cosh: R,
+    s: R,
+}
+
+impl<R: Real> Shape<R> {
+    #[inline(always)]
+    fn new(section: &Section<R>) -> Self {
+        let [area_ratio, inverse_area_ratio] = section.area_ratio();
+        Shape {
+            area_ratio,
+            inverse_area_ratio,
+            cosh: section.half_trace * inverse_area_ratio,
+            s: section.distortion * inverse_area_ratio,
+        }
+    }
+}
+
+/// What a modulus in space is made of: e, E = e⊗e and D, tensors as 11 22 33 12 23 31.
 #[derive(Clone, Copy)]
 pub struct Bases<R> {
+    shape: Shape<R>,
+    inverse_lambda: R,
+    fibre: [R; 3],
     e: [R; 6],
-    p: [R; 6],
     d: [R; 6],
 }
 
 impl<R: Real> Bases<R> {
-    /// In space: e⊗e, P and D.
     #[inline(always)]
-    fn new(d: &Decomposition<R>) -> Self {
-        let one = R::splat(1.0);
-        let e = square(one, d.e);
-        let p = [one - e[0], one - e[1], one - e[2], -e[3], -e[4], -e[5]];
-        Bases { e, p, d: deviator(d, d.q1, d.q2()) }
+    fn new(d: &Stretch<R>, section: &Section<R>, [c, a, b]: &[[R; 3]; 3]) -> Self {
+        let shape = Shape::new(section);
+        let inverse_lambda = d.inverse_square.sqrt();
+        let fibre = scale(inverse_lambda, *c);
+        let e = square(R::splat(1.0), fibre);
+        // As in the stress, D = a⊗v + v⊗a − d1 P with v = (½(a·a − b·b) a + (a·b) b)/(a·a J_t).
+        let inverse_a_square = R::splat(1.0) / section.a_square;
+        let deviator = section.x23_square.mul_add(inverse_a_square, section.delta);
+        let share = inverse_a_square * shape.inverse_area_ratio;
+        let v = along(scale(share * section.delta, *a), share * section.x23, *b);
+        let d1 = deviator * shape.inverse_area_ratio;
+        let component = |i: usize, j: usize, rest: R| a[i].mul_add(v[j], a[j].mul_add(v[i], rest));
+        let d = [
+            component(0, 0, d1.mul_add(e[0], -d1)),
+            component(1, 1, d1.mul_add(e[1], -d1)),
+            component(2, 2, d1.mul_add(e[2], -d1)),
+            component(0, 1, d1 * e[3]),
+            component(1, 2, d1 * e[4]),
+            component(2, 0, d1 * e[5]),
+        ];
+        Bases { shape, inverse_lambda, fibre, e, d }
     }
 }
 
-/// The sum of three dyads and a product ⊙; entry by entry.
-struct Terms<R> {
-    bases: Bases<R>,
-    /// What E, P and D are multiplied with as dyads.
-    with_e: [R; 6],
-    with_p: [R; 6],
+/// w (1⊗1 − 1⊗E − E⊗1) + D⊗(W2 D) + E⊙G + 1⊙S, entry by entry.
+struct Terms<'a, R> {
+    bases: &'a Bases<R>,
+    /// w (½ − E_rr).
+    direct: [R; 3],
+    /// −w E.
+    sheared: [R; 6],
     with_d: [R; 6],
-    /// What E is multiplied with by ⊙.
-    paired: [R; 6],
-    /// The two factors of the other product; none: 1, and the second one.
-    first: Option<[R; 6]>,
-    second: [R; 6],
+    /// [`along_fibre`] of G.
+    with_fibre: [[R; 6]; 3],
+    with_one: [R; 6],
+}
+
+impl<'a, R: Real> Terms<'a, R> {
+    #[inline(always)]
+    fn new(bases: &'a Bases<R>, w: R, curvature: R, g: &[R; 6], with_one: [R; 6]) -> Self {
+        let Bases { fibre, e, d, .. } = *bases;
+        let half = R::splat(0.5);
+        Terms {
+            bases,
+            direct: [w * (half - e[0]), w * (half - e[1]), w * (half - e[2])],
+            sheared: multiple(-w, &e),
+            with_d: multiple(curvature, &d),
+            with_fibre: along_fibre(fibre, g),
+            with_one,
+        }
+    }
 }
 
 #[inline(always)]
 fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
-    let Bases { e, p, d } = &t.bases;
-    let dyads = e[ROW].mul_add(t.with_e[COLUMN], p[ROW].mul_add(t.with_p[COLUMN], d[ROW] * t.with_d[COLUMN]));
-    let sum = dyads + paired::<R, ROW, COLUMN>(e, &t.paired);
-    match &t.first {
-        Some(first) => sum + paired::<R, ROW, COLUMN>(first, &t.second),
-        None => match paired_with_one::<R, ROW, COLUMN>(&t.second) {
-            Some(one) => sum + one,
-            None => sum,
-        },
-    }
-}
-
-/// An entry of a⊗b + b⊗a.
-#[inline(always)]
-fn coupled<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
-    a[ROW].mul_add(b[COLUMN], a[COLUMN] * b[ROW])
+    let Bases { fibre, d, .. } = t.bases;
+    let one = paired_with_one::<R, ROW, COLUMN>(&t.with_one);
+    let start = match one {
+        Some(one) if COLUMN < 3 => one + (t.direct[ROW] + t.direct[COLUMN]),
+        None if COLUMN < 3 => t.direct[ROW] + t.direct[COLUMN],
+        Some(one) if ROW < 3 => one + t.sheared[COLUMN],
+        None => t.sheared[COLUMN],
+        Some(one) => one,
+    };
+    let sum = d[ROW].mul_add(t.with_d[COLUMN], start);
+    paired_along::<R, ROW, COLUMN>(*fibre, &t.with_fibre, sum)
 }
 
 /// a A.
@@ -185,16 +236,16 @@ impl<R: Real> Hyperelastic<R> {
     }
 
     #[inline(always)]
-    fn factors(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
+    fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = self.compaction_slopes(strain, k);
         // D⊗D W2 = (D/s)⊗(D/s)(k_td/4)(1 − x a/s): the bracket has an error of some roundings of 1 and D/s is a direction, so
         // that no series is needed near s = 0, only something to divide by. Where s² is below a rounding of 1, so is the
         // term beside W1.
-        let square = (d.s * d.s).max(R::splat(R::EPSILON));
+        let square = (shape.s * shape.s).max(R::splat(R::EPSILON));
         // a/s and x a/s.
-        let ratio = R::splat(2.0) * strain.distortion_ratio * d.area_ratio;
-        let stiffness = d.cosh * ratio;
+        let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
+        let stiffness = shape.cosh * ratio;
         let distortion = quarter * self.k_td * over;
         let elongation = self.k_el * (one - R::splat(2.0) * strain.i_el);
         Factors {
@@ -205,113 +256,87 @@ impl<R: Real> Hyperelastic<R> {
             stiffness: distortion * stiffness,
             curvature: distortion * ((one - stiffness) / square),
             tension: k.tension * over,
-            shear: k.shear * d.area_ratio * over,
-        }
-    }
-
-    /// The sum for given bases, with `first` as the metric (none: the spatial one), less the longitudinal shear's coupling.
-    #[inline(always)]
-    fn terms(&self, bases: Bases<R>, f: &Factors<R>, x: R, measure: Measure, pulled: bool) -> Terms<R> {
-        let half = R::splat(0.5);
-        let Bases { e, p, d } = &bases;
-        // G, and in space G − H.
-        let (on_p, on_d) = (f.pressure, -f.distortion);
-        let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * on_d);
-        let (g_p, g_d) = if pulled { (on_p, on_d) } else { (on_p - h_p, on_d - h_d) };
-        let second = if measure == Measure::Jaumann {
-            combination(half * f.stiffness, p, half * f.tension, e)
-        } else {
-            combination(h_p, p, h_d, d)
-        };
-        Terms {
-            with_e: multiple(f.elongation, e),
-            with_p: multiple(f.compaction - f.stiffness, p),
-            with_d: multiple(f.curvature, d),
-            paired: combination(f.shear.mul_add(x, g_p), p, g_d + f.shear, d),
-            first: if pulled { Some(*p) } else { None },
-            second,
-            bases,
+            shear: k.shear * shape.area_ratio * over,
         }
     }
 
     /// The Truesdell modulus of σ or the Jaumann modulus of τ over J.
     #[inline(always)]
-    pub fn spatial_tangent(
+    fn spatial_tangent(
         &self,
-        d: &Decomposition<R>,
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
+        bases: &Bases<R>,
         k: &Kirchhoff<R>,
         measure: Measure,
         shear: bool,
     ) -> Moduli<R> {
-        self.spatial_tangent_of(d, Bases::new(d), strain, k, measure, shear)
+        let (half, quarter) = (R::splat(0.5), R::splat(0.25));
+        let over = kinematics.stretch.inverse_jacobian;
+        let f = self.factors(&bases.shape, kinematics.strain, k, over);
+        // Products with P = 1 − E are products with 1 and with E: H = h_p P + h_d D, G − H = g_p P + g_d D.
+        let w = f.compaction - f.stiffness;
+        let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
+        let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
+        let g_d = f.shear + h_d - f.distortion;
+        let (on_one, on_e) = if measure == Measure::Jaumann {
+            let on_p = half * f.stiffness;
+            (on_p, half.mul_add(f.tension, g_p - on_p))
+        } else {
+            (h_p, g_p - h_p)
+        };
+        let mut with_fibre = combination(quarter.mul_add(f.elongation + w, -g_p), &bases.e, g_d, &bases.d);
+        let mut with_one = multiple(on_e, &bases.e);
+        for diagonal in with_one.iter_mut().take(3) {
+            *diagonal = *diagonal + on_one;
+        }
+        if measure != Measure::Jaumann {
+            with_one = added(&with_one, -h_d, &bases.d);
+        }
+        if shear {
+            let slip = slip(kinematics, k.shear * over * bases.inverse_lambda, bases.fibre);
+            with_fibre = added(&with_fibre, R::splat(-1.0), &slip);
+            if measure == Measure::Jaumann {
+                with_one = added(&with_one, half, &slip);
+            }
+        }
+        let terms = Terms::new(bases, w, f.curvature, &with_fibre, with_one);
+        Moduli(upper_triangle!(entry(&terms)))
     }
 
-    /// Likewise, given the tensors that it is made of.
+    /// dS/dE in reference axes, `n` the fibre's; `along_coordinates` says that they are the coordinate axes.
     #[inline(always)]
-    fn spatial_tangent_of(
+    fn material_tangent(
         &self,
-        d: &Decomposition<R>,
-        bases: Bases<R>,
-        strain: &Strain<R>,
-        k: &Kirchhoff<R>,
-        measure: Measure,
-        shear: bool,
-    ) -> Moduli<R> {
-        let one = R::splat(1.0);
-        let over = d.inverse_jacobian;
-        let (q1, q2, e) = (d.q1, d.q2(), bases.e);
-        let f = self.factors(d, strain, k, over);
-        let mut terms = self.terms(bases, &f, d.cosh, measure, false);
-        if !shear {
-            return Moduli(upper_triangle!(entry(&terms)));
-        }
-        let slip = slip(d, k.shear * over, d.e, q1, q2);
-        if measure == Measure::Jaumann {
-            terms.second = combination(one, &terms.second, R::splat(0.5), &slip);
-        }
-        let slip = slip.map(|x| R::splat(-2.0) * x);
-        Moduli(add(upper_triangle!(entry(&terms)), upper_triangle!(coupled(&e, &slip))))
-    }
-
-    /// dS/dE in reference axes.
-    #[inline(always)]
-    pub fn material_tangent(
-        &self,
-        d: &Decomposition<R>,
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
+        shape: &Shape<R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
+        along_coordinates: bool,
         shear: bool,
     ) -> Moduli<R> {
-        let one = R::splat(1.0);
-        let [w1, w2, w3] = d.pulled_back(n);
-        let e = square(one, w1);
-        let p = add(square(one, w2), square(one, w3));
-        let bases = Bases { e, p, d: deviator(d, w2, w3) };
-        let terms = self.terms(bases, &self.factors(d, strain, k, one), d.cosh, Measure::Material, true);
-        let moduli = upper_triangle!(entry(&terms));
-        if !shear {
-            return Moduli(moduli);
-        }
-        let slip = slip(d, R::splat(-2.0) * k.shear, w1, w2, w3);
-        Moduli(add(moduli, upper_triangle!(coupled(&e, &slip))))
+        let local = Local::new(self, kinematics, shape, k, shear);
+        if along_coordinates { local.in_fibre_axes(shear) } else { local.in_reference_axes(n, shear) }
     }
 
     /// The tangent of a 6×6 measure; [`Measure::Nominal`] has nine columns and [`nominal_tangent`](Self::nominal_tangent).
     #[inline(always)]
     pub fn moduli(
         &self,
-        d: &Decomposition<R>,
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
+        along_coordinates: bool,
         measure: Measure,
         shear: bool,
     ) -> Moduli<R> {
+        let Kinematics { stretch, section, images, .. } = kinematics;
         match measure {
-            Measure::Material | Measure::Nominal => self.material_tangent(d, strain, k, n, shear),
-            Measure::Truesdell | Measure::Jaumann => self.spatial_tangent(d, strain, k, measure, shear),
+            Measure::Material | Measure::Nominal => {
+                self.material_tangent(kinematics, &Shape::new(section), k, n, along_coordinates, shear)
+            }
+            Measure::Truesdell | Measure::Jaumann => {
+                self.spatial_tangent(kinematics, &Bases::new(stretch, section, &images), k, measure, shear)
+            }
         }
     }
 
@@ -320,22 +345,25 @@ impl<R: Real> Hyperelastic<R> {
     #[inline(always)]
     pub fn nominal_tangent(
         &self,
-        d: &Decomposition<R>,
-        strain: &Strain<R>,
+        kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
         stress: &[R; 6],
         shear: bool,
     ) -> [R; 81] {
-        let c = self.spatial_tangent(d, strain, k, Measure::Truesdell, shear).matrix();
-        let [w1, w2, w3] = d.pulled_back(n);
-        let (e, q1, q2) = (d.e, d.q1, d.q2());
-        // Rows of F⁻¹; a closure would be compiled without the lanes' instructions.
-        let axes = [e, q1, q2];
+        let Kinematics { stretch, section, images, .. } = kinematics;
+        let bases = Bases::new(stretch, section, &images);
+        let c = self.spatial_tangent(kinematics, &bases, k, Measure::Truesdell, shear).matrix();
+        // F⁻¹ takes c to m, a to α and b to β: its rows, from the vectors dual to these.
+        let local = Section3::new(kinematics);
+        let [m, alpha, beta] = local.pulled_back(n);
+        let [c1, a, b] = images;
+        let b = along(b, -local.shift, a);
+        let duals = [scale(stretch.inverse_square, c1), scale(local.over_a, a), scale(local.over_b, b)];
         let inverse = [
-            image(&axes, [w1[0], w2[0], w3[0]]),
-            image(&axes, [w1[1], w2[1], w3[1]]),
-            image(&axes, [w1[2], w2[2], w3[2]]),
+            image(&duals, [m[0], alpha[0], beta[0]]),
+            image(&duals, [m[1], alpha[1], beta[1]]),
+            image(&duals, [m[2], alpha[2], beta[2]]),
         ];
         let mut a = [R::splat(0.0); 81];
         for i in 0..3 {
@@ -348,7 +376,7 @@ impl<R: Real> Hyperelastic<R> {
                 };
                 let rows = [row(0), row(1), row(2)];
                 for (big_l, last) in inverse.iter().enumerate() {
-                    let half = scale(d.jacobian, [dot(rows[0], *last), dot(rows[1], *last), dot(rows[2], *last)]);
+                    let half = scale(stretch.jacobian, [dot(rows[0], *last), dot(rows[1], *last), dot(rows[2], *last)]);
                     // With i = k the block is symmetric of itself.
                     for (big_j, first) in inverse.iter().enumerate().take(if i == k { big_l + 1 } else { 3 }) {
                         let entry = dot(*first, half);
@@ -362,20 +390,224 @@ impl<R: Real> Hyperelastic<R> {
     }
 }
 
-/// D of two axes across the fibre.
-#[inline(always)]
-fn deviator<R: Real>(d: &Decomposition<R>, a: [R; 3], b: [R; 3]) -> [R; 6] {
-    let u = along(scale(d.d1, a), d.d2, b);
-    let v = along(scale(d.d2, a), -d.d1, b);
-    let component = |i: usize, j: usize| a[i].mul_add(u[j], b[i] * v[j]);
-    [component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(1, 2), component(2, 0)]
+/// The orthogonal basis c, a, b' = b − (a·b)/(a·a) a of the images, and what F⁻¹ makes of it.
+struct Section3<R> {
+    /// (a·b)/(a·a), the parts of the other two images along the fibre's, 1/(a·a) and 1/(b'·b').
+    shift: R,
+    slip: [R; 2],
+    over_a: R,
+    over_b: R,
 }
 
-/// `factor` (P b e ⊗ e + e ⊗ P b e).
+impl<R: Real> Section3<R> {
+    #[inline(always)]
+    fn new(kinematics: Kinematics<'_, R>) -> Self {
+        let Kinematics { stretch: d, section, .. } = kinematics;
+        let over_a = R::splat(1.0) / section.a_square;
+        let [_, inverse_area_ratio] = section.area_ratio();
+        Section3 {
+            shift: section.x23 * over_a,
+            slip: [d.h[0] * d.inverse_square, d.h[1] * d.inverse_square],
+            over_a,
+            over_b: section.a_square * inverse_area_ratio * inverse_area_ratio,
+        }
+    }
+
+    /// F⁻¹ of the basis.
+    #[inline(always)]
+    fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
+        let alpha = along(n.t1, -self.slip[0], n.m);
+        let beta = along(along(n.t2, -self.slip[1], n.m), -self.shift, alpha);
+        [n.m, alpha, beta]
+    }
+}
+
+/// The components of dS/dE on F⁻¹ of the orthogonal basis, 1 for the fibre: those that are not 0.
+struct Local<R> {
+    basis: Section3<R>,
+    c_1111: R,
+    /// 12 12, 31 31 and 12 31.
+    along: [R; 3],
+    /// 11 12 and 11 31.
+    slip: [R; 2],
+    /// 22 22, 22 33, 22 23, 33 33, 33 23 and 23 23.
+    across: [R; 6],
+}
+
+impl<R: Real> Local<R> {
+    #[inline(always)]
+    fn new(
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        shape: &Shape<R>,
+        k: &Kirchhoff<R>,
+        shear: bool,
+    ) -> Self {
+        let (zero, two) = (R::splat(0.0), R::splat(2.0));
+        let Kinematics { stretch, section, strain, .. } = kinematics;
+        let f = law.factors(shape, strain, k, R::splat(1.0));
+        let basis = Section3::new(kinematics);
+        let Section3 { shift, over_a, over_b, .. } = basis;
+        let over_area = shape.inverse_area_ratio;
+        // D = d1 (q1⊗q1 − q2⊗q2) + d2 (q1⊗q2 + q2⊗q1).
+        let (d1, d2) = (section.x23.mul_add(shift, section.delta) * over_area, shift);
+        let over_square = stretch.inverse_square;
+        let on_p = f.shear.mul_add(shape.cosh, f.pressure);
+        let on_d = f.shear - f.distortion;
+        let direct = two.mul_add(f.pressure, f.compaction + f.stiffness);
+        let (twice, curved) = (two * f.distortion * d1, f.curvature * d1);
+        let (second, third) = (over_a * over_area, over_b * over_area);
+        let slip = if shear {
+            let factor = R::splat(-2.0) * k.shear * over_square * over_square;
+            [factor * stretch.h[1].mul_add(shift, stretch.h[0]), factor * stretch.h[1]]
+        } else {
+            [zero; 2]
+        };
+        Local {
+            c_1111: f.elongation * over_square * over_square,
+            along: [
+                on_d.mul_add(d1, on_p) * over_square * over_a,
+                (-on_d).mul_add(d1, on_p) * over_square * over_b,
+                on_d * d2 * over_square * over_area,
+            ],
+            slip,
+            across: [
+                curved.mul_add(d1, direct - twice) * (over_a * over_a),
+                (-curved).mul_add(d1, f.compaction - f.stiffness) * (over_area * over_area),
+                (curved - f.distortion) * d2 * second,
+                curved.mul_add(d1, direct + twice) * (over_b * over_b),
+                (-curved - f.distortion) * d2 * third,
+                (f.curvature * d2).mul_add(d2, f.pressure + f.stiffness) * (over_area * over_area),
+            ],
+            basis,
+        }
+    }
+
+    /// In the axes of the fibre, m, t1 and t2, to which F⁻¹a = t1 − y m and F⁻¹b' = t2 − z m − u F⁻¹a are near.
+    #[inline(always)]
+    fn in_fibre_axes(&self, shear: bool) -> Moduli<R> {
+        let zero = R::splat(0.0);
+        let Section3 { shift, slip: [y, z], .. } = self.basis;
+        let less = |s: R, x: R, t: R| (-s).mul_add(x, t);
+        // On F⁻¹b for F⁻¹b': columns, then rows.
+        let turn = |[c22, c33, c23]: [R; 3]| {
+            let turned = less(shift, c33, c23);
+            [less(shift, c23 + turned, c22), c33, turned]
+        };
+        let [c_2222, c_2233, c_2223, c_3333, c_3323, c_2323] = self.across;
+        let (r22, r33, r23) =
+            (turn([c_2222, c_2233, c_2223]), turn([c_2233, c_3333, c_3323]), turn([c_2223, c_3323, c_2323]));
+        let [c_2222, _, _] = turn([r22[0], r33[0], r23[0]]);
+        let [c_2233, c_3333, c_3323] = turn([r22[1], r33[1], r23[1]]);
+        let [c_2223, _, c_2323] = turn([r22[2], r33[2], r23[2]]);
+        let [c_1212, c_3131, c_1231] = self.along;
+        let turned = less(shift, c_3131, c_1231);
+        let (c_1212, c_1231) = (less(shift, c_1231 + turned, c_1212), turned);
+        // On m, t1 and t2: the new components 12, 31 and 11 of a row.
+        let lean = |[c22, c33, c23]: [R; 3], [c12, c31]: [R; 2], c11: R| {
+            let (new12, new31) = (less(y, c22, less(z, c23, c12)), less(y, c23, less(z, c33, c31)));
+            (less(y, c12 + new12, less(z, c31 + new31, c11)), new12, new31)
+        };
+        let nothing = [zero; 2];
+        let (c_2211, c_2212, c_2231) = lean([c_2222, c_2233, c_2223], nothing, zero);
+        let (c_3311, c_3312, c_3331) = lean([c_2233, c_3333, c_3323], nothing, zero);
+        let (c_2311, c_2312, c_2331) = lean([c_2223, c_3323, c_2323], nothing, zero);
+        let (mut from_12, mut from_31, mut c_1111) = (zero, zero, self.c_1111);
+        if shear {
+            let [c_1112, c_1131] = self.slip;
+            (from_12, from_31) = (less(shift, c_1131, c_1112), c_1131);
+            c_1111 = less(y + y, from_12, less(z + z, from_31, c_1111));
+        }
+        let from_12 = less(y + y, c_1212, less(z + z, c_1231, from_12));
+        let from_31 = less(y + y, c_1231, less(z + z, c_3131, from_31));
+        // Columns 12, 31 and 11 of the rows 12, 31 and 11.
+        let (n_1212, n_1231) = (less(y, c_2212, less(z, c_2312, c_1212)), less(y, c_2231, less(z, c_2331, c_1231)));
+        let n_3131 = less(y, c_2331, less(z, c_3331, c_3131));
+        let (n_1112, n_1131) = (less(y, c_2211, less(z, c_2311, from_12)), less(y, c_2311, less(z, c_3311, from_31)));
+        let n_1111 = less(y, from_12 + n_1112, less(z, from_31 + n_1131, c_1111));
+        Moduli([
+            n_1111, c_2211, c_3311, n_1112, c_2311, n_1131, c_2222, c_2233, c_2212, c_2223, c_2231, c_3333, c_3312,
+            c_3323, c_3331, n_1212, c_2312, n_1231, c_2323, c_2331, n_3131,
+        ])
+    }
+
+    /// In the axes that the fibre's are given in: the sum of dyads of F⁻¹a and F⁻¹b', and a product of m⊗m.
+    #[inline(always)]
+    fn in_reference_axes(&self, n: &FibreFrame<R>, shear: bool) -> Moduli<R> {
+        let one = R::splat(1.0);
+        let [m, alpha, beta] = self.basis.pulled_back(n);
+        let (a, b, mixed) = (square(one, alpha), square(one, beta), symmetric_product(R::splat(2.0), alpha, beta));
+        let [c_2222, c_2233, c_2223, c_3333, c_3323, c_2323] = self.across;
+        let [c_1212, c_3131, c_1231] = self.along;
+        let sum = |x: R, y: R, z: R| added(&combination(x, &a, y, &b), z, &mixed);
+        let mut with_fibre = added(&sum(c_1212, c_3131, c_1231), R::splat(0.25) * self.c_1111, &square(one, m));
+        if shear {
+            // c_1112 is twice the component of what m⊗m is multiplied with.
+            let half = R::splat(0.5);
+            let across = along(scale(half * self.slip[0], alpha), half * self.slip[1], beta);
+            with_fibre = added(&with_fibre, one, &symmetric_product(R::splat(2.0), m, across));
+        }
+        let with = [sum(c_2222, c_2233, c_2223), sum(c_2233, c_3333, c_3323), sum(c_2223, c_3323, c_2323)];
+        let (dyads, with_fibre) = ([a, b, mixed], along_fibre(m, &with_fibre));
+        Moduli(upper_triangle!(material_entry(&dyads, &with, m, &with_fibre)))
+    }
+}
+
+/// An entry of A⊗A' + B⊗B' + C⊗C' + (m⊗m)⊙G.
 #[inline(always)]
-fn slip<R: Real>(d: &Decomposition<R>, factor: R, e: [R; 3], a: [R; 3], b: [R; 3]) -> [R; 6] {
-    let [on_a, on_b] = shear_components(d, factor);
-    symmetric_product(R::splat(2.0), e, along(scale(on_a, a), on_b, b))
+fn material_entry<R: Real, const ROW: usize, const COLUMN: usize>(
+    [a, b, c]: &[[R; 6]; 3],
+    [with_a, with_b, with_c]: &[[R; 6]; 3],
+    m: [R; 3],
+    along: &[[R; 6]; 3],
+) -> R {
+    let sum = a[ROW].mul_add(with_a[COLUMN], b[ROW].mul_add(with_b[COLUMN], c[ROW] * with_c[COLUMN]));
+    paired_along::<R, ROW, COLUMN>(m, along, sum)
+}
+
+/// `rest` and an entry of (m⊗m)⊙G, given [`along_fibre`] of G.
+#[inline(always)]
+fn paired_along<R: Real, const ROW: usize, const COLUMN: usize>(m: [R; 3], along: &[[R; 6]; 3], rest: R) -> R {
+    let (i, j) = PAIRS[ROW];
+    if ROW < 3 {
+        return (m[i] + m[i]).mul_add(along[i][COLUMN], rest);
+    }
+    m[i].mul_add(along[j][COLUMN], m[j].mul_add(along[i][COLUMN], rest))
+}
+
+/// m_k G_jl + m_l G_jk for each j and the pairs kl.
+#[inline(always)]
+fn along_fibre<R: Real>([x, y, z]: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
+    let row = |j: usize| {
+        let g = [g[VOIGT[j][0]], g[VOIGT[j][1]], g[VOIGT[j][2]]];
+        [
+            (x + x) * g[0],
+            (y + y) * g[1],
+            (z + z) * g[2],
+            x.mul_add(g[1], y * g[0]),
+            y.mul_add(g[2], z * g[1]),
+            z.mul_add(g[0], x * g[2]),
+        ]
+    };
+    [row(0), row(1), row(2)]
+}
+
+/// `factor` (P b e ⊗ e + e ⊗ P b e) λ.
+#[inline(always)]
+fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] {
+    let Kinematics { stretch, images: [_, a, b], .. } = kinematics;
+    let across = along(scale(factor * stretch.h[0], a), factor * stretch.h[1], b);
+    symmetric_product(R::splat(2.0), e, across)
+}
+
+/// A + b B.
+#[inline(always)]
+fn added<R: Real>(x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
+    let mut sum = *x;
+    for (s, &y) in sum.iter_mut().zip(y) {
+        *s = b.mul_add(y, *s);
+    }
+    sum
 }
 
 #[inline(always)]
@@ -421,7 +653,7 @@ pub(super) fn unrepresentable<R: Real>(values: &[R]) -> R {
 pub struct Six(pub Request, pub Measure);
 
 impl Derivative<21> for Six {
-    type Early<R: Real> = Decomposition<R>;
+    type Early<R: Real> = ();
     type General = Self;
 
     fn general(self) -> Self {
@@ -429,9 +661,7 @@ impl Derivative<21> for Six {
     }
 
     #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
-        Decomposition::of(d, section, images)
-    }
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
 
     #[inline(always)]
     fn request(self) -> Request {
@@ -450,10 +680,11 @@ impl Derivative<21> for Six {
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
-        d: &Decomposition<R>,
+        along_coordinates: bool,
+        (): &(),
         shear: bool,
     ) -> [R; 21] {
-        law.moduli(d, kinematics.strain, k, n, self.1, shear).0
+        law.moduli(kinematics, k, n, along_coordinates, self.1, shear).0
     }
 }
 
@@ -462,7 +693,7 @@ impl Derivative<21> for Six {
 pub struct Jaumann;
 
 impl Derivative<21> for Jaumann {
-    type Early<R: Real> = (Decomposition<R>, Bases<R>);
+    type Early<R: Real> = Bases<R>;
     type General = Six;
 
     fn general(self) -> Six {
@@ -470,14 +701,8 @@ impl Derivative<21> for Jaumann {
     }
 
     #[inline(always)]
-    fn early<R: Real>(
-        self,
-        d: &Stretch<R>,
-        section: &Section<R>,
-        images: &[[R; 3]; 3],
-    ) -> (Decomposition<R>, Bases<R>) {
-        let d = Decomposition::of(d, section, images);
-        (d, Bases::new(&d))
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Bases<R> {
+        Bases::new(d, section, images)
     }
 
     #[inline(always)]
@@ -497,10 +722,11 @@ impl Derivative<21> for Jaumann {
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         _: &FibreFrame<R>,
-        (d, bases): &(Decomposition<R>, Bases<R>),
+        _: bool,
+        bases: &Bases<R>,
         shear: bool,
     ) -> [R; 21] {
-        law.spatial_tangent_of(d, *bases, kinematics.strain, k, Measure::Jaumann, shear).0
+        law.spatial_tangent(kinematics, bases, k, Measure::Jaumann, shear).0
     }
 }
 
@@ -509,7 +735,7 @@ impl Derivative<21> for Jaumann {
 pub struct Nine(pub Request);
 
 impl Derivative<81> for Nine {
-    type Early<R: Real> = Decomposition<R>;
+    type Early<R: Real> = ();
     type General = Self;
 
     fn general(self) -> Self {
@@ -517,9 +743,7 @@ impl Derivative<81> for Nine {
     }
 
     #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Decomposition<R> {
-        Decomposition::of(d, section, images)
-    }
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
 
     #[inline(always)]
     fn request(self) -> Request {
@@ -538,12 +762,13 @@ impl Derivative<81> for Nine {
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
         n: &FibreFrame<R>,
-        d: &Decomposition<R>,
+        _: bool,
+        (): &(),
         shear: bool,
     ) -> [R; 81] {
         let zero = R::splat(0.0);
         let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
-        law.nominal_tangent(d, kinematics.strain, k, n, &stress, shear)
+        law.nominal_tangent(kinematics, k, n, &stress, shear)
     }
 }
 

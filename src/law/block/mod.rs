@@ -30,7 +30,7 @@ use core::ops::Range;
 
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
-use super::kinematics::{Axes, Decomposition, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
+use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, StressAndState};
 use super::real::{Real, Single};
 use super::state::{self, HYPERELASTIC_STATE};
@@ -1201,7 +1201,6 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
     frame: &FibreFrame<R>,
     shear: bool,
 ) -> R {
-    let d = Decomposition::new(kinematics);
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
             // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
@@ -1211,11 +1210,11 @@ unsafe fn store_tangent<T: Precision, R: Lanes<T>>(
     if block.measure == Measure::Nominal {
         let zero = R::splat(0.0);
         let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
-        let nominal = law.nominal_tangent(&d, kinematics.strain, k, frame, &stress, shear);
+        let nominal = law.nominal_tangent(kinematics, k, frame, &stress, shear);
         store(&nominal);
         unrepresentable(&nominal)
     } else {
-        let moduli = law.moduli(&d, kinematics.strain, k, frame, block.measure, shear);
+        let moduli = law.moduli(kinematics, k, frame, false, block.measure, shear);
         store(moduli.matrix().as_flattened());
         if overflows::<R>(block.measure, shear) { unrepresentable(&moduli.0) } else { R::splat(0.0) }
     }
