@@ -146,7 +146,8 @@ impl<R: Real> Logarithm<R> {
     /// ln(1 + f) = 2 artanh(f/(2 + f)).
     #[inline(always)]
     fn of_mantissa(&self, reciprocal: R) -> R {
-        let s = self.f * reciprocal;
+        // Where the chain of operations is what costs, a division that need not wait for the reciprocal.
+        let s = if R::WAITS { self.f / self.denominator() } else { self.f * reciprocal };
         let square = s * s;
         s.mul_add(square * polynomial(R::LN, square), s)
     }

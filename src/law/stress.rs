@@ -172,21 +172,7 @@ macro_rules! upper_triangle {
 
 pub(super) use upper_triangle;
 
-/// An entry of A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik.
-#[inline(always)]
-pub(super) fn paired<R: Real, const ROW: usize, const COLUMN: usize>(a: &[R; 6], b: &[R; 6]) -> R {
-    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
-    let (ik, jl, il, jk) = (VOIGT[i][k], VOIGT[j][l], VOIGT[i][l], VOIGT[j][k]);
-    if ROW < 3 && COLUMN < 3 {
-        R::splat(4.0) * a[ik] * b[ik]
-    } else if ROW < 3 {
-        R::splat(2.0) * a[ik].mul_add(b[il], a[il] * b[ik])
-    } else {
-        a[ik].mul_add(b[jl], a[jl].mul_add(b[ik], a[il].mul_add(b[jk], a[jk] * b[il])))
-    }
-}
-
-/// An entry of 1⊙B, where there is one.
+/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, where there is one.
 #[inline(always)]
 pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
     let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);

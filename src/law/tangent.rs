@@ -125,11 +125,12 @@ impl<R: Real> Shape<R> {
     }
 }
 
-/// What a modulus in space is made of: e, E = e⊗e and D, tensors as 11 22 33 12 23 31.
+/// What a modulus in space is made of; tensors as 11 22 33 12 23 31.
 #[derive(Clone, Copy)]
 pub struct Bases<R> {
     shape: Shape<R>,
     inverse_lambda: R,
+    /// e, E = e⊗e and D.
     fibre: [R; 3],
     e: [R; 6],
     d: [R; 6],
@@ -314,8 +315,8 @@ impl<R: Real> Hyperelastic<R> {
         along_coordinates: bool,
         shear: bool,
     ) -> Moduli<R> {
-        let local = Local::new(self, kinematics, shape, k, shear);
-        if along_coordinates { local.in_fibre_axes(shear) } else { local.in_reference_axes(n, shear) }
+        let components = FibreComponents::new(self, kinematics, shape, k, shear);
+        if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
     }
 
     /// The tangent of a 6×6 measure; [`Measure::Nominal`] has nine columns and [`nominal_tangent`](Self::nominal_tangent).
@@ -355,11 +356,11 @@ impl<R: Real> Hyperelastic<R> {
         let bases = Bases::new(stretch, section, &images);
         let c = self.spatial_tangent(kinematics, &bases, k, Measure::Truesdell, shear).matrix();
         // F⁻¹ takes c to m, a to α and b to β: its rows, from the vectors dual to these.
-        let local = Section3::new(kinematics);
-        let [m, alpha, beta] = local.pulled_back(n);
+        let basis = Orthogonal::new(kinematics);
+        let [m, alpha, beta] = basis.pulled_back(n);
         let [c1, a, b] = images;
-        let b = along(b, -local.shift, a);
-        let duals = [scale(stretch.inverse_square, c1), scale(local.over_a, a), scale(local.over_b, b)];
+        let b = along(b, -basis.shift, a);
+        let duals = [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(basis.over_b, b)];
         let inverse = [
             image(&duals, [m[0], alpha[0], beta[0]]),
             image(&duals, [m[1], alpha[1], beta[1]]),
@@ -390,8 +391,8 @@ impl<R: Real> Hyperelastic<R> {
     }
 }
 
-/// The orthogonal basis c, a, b' = b − (a·b)/(a·a) a of the images, and what F⁻¹ makes of it.
-struct Section3<R> {
+/// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a of the axes' images, and what F⁻¹ makes of it.
+struct Orthogonal<R> {
     /// (a·b)/(a·a), the parts of the other two images along the fibre's, 1/(a·a) and 1/(b'·b').
     shift: R,
     slip: [R; 2],
@@ -399,13 +400,13 @@ struct Section3<R> {
     over_b: R,
 }
 
-impl<R: Real> Section3<R> {
+impl<R: Real> Orthogonal<R> {
     #[inline(always)]
     fn new(kinematics: Kinematics<'_, R>) -> Self {
         let Kinematics { stretch: d, section, .. } = kinematics;
         let over_a = R::splat(1.0) / section.a_square;
         let [_, inverse_area_ratio] = section.area_ratio();
-        Section3 {
+        Orthogonal {
             shift: section.x23 * over_a,
             slip: [d.h[0] * d.inverse_square, d.h[1] * d.inverse_square],
             over_a,
@@ -423,8 +424,8 @@ impl<R: Real> Section3<R> {
 }
 
 /// The components of dS/dE on F⁻¹ of the orthogonal basis, 1 for the fibre: those that are not 0.
-struct Local<R> {
-    basis: Section3<R>,
+struct FibreComponents<R> {
+    basis: Orthogonal<R>,
     c_1111: R,
     /// 12 12, 31 31 and 12 31.
     along: [R; 3],
@@ -434,7 +435,7 @@ struct Local<R> {
     across: [R; 6],
 }
 
-impl<R: Real> Local<R> {
+impl<R: Real> FibreComponents<R> {
     #[inline(always)]
     fn new(
         law: &Hyperelastic<R>,
@@ -446,8 +447,8 @@ impl<R: Real> Local<R> {
         let (zero, two) = (R::splat(0.0), R::splat(2.0));
         let Kinematics { stretch, section, strain, .. } = kinematics;
         let f = law.factors(shape, strain, k, R::splat(1.0));
-        let basis = Section3::new(kinematics);
-        let Section3 { shift, over_a, over_b, .. } = basis;
+        let basis = Orthogonal::new(kinematics);
+        let Orthogonal { shift, over_a, over_b, .. } = basis;
         let over_area = shape.inverse_area_ratio;
         // D = d1 (q1⊗q1 − q2⊗q2) + d2 (q1⊗q2 + q2⊗q1).
         let (d1, d2) = (section.x23.mul_add(shift, section.delta) * over_area, shift);
@@ -463,7 +464,7 @@ impl<R: Real> Local<R> {
         } else {
             [zero; 2]
         };
-        Local {
+        FibreComponents {
             c_1111: f.elongation * over_square * over_square,
             along: [
                 on_d.mul_add(d1, on_p) * over_square * over_a,
@@ -487,31 +488,25 @@ impl<R: Real> Local<R> {
     #[inline(always)]
     fn in_fibre_axes(&self, shear: bool) -> Moduli<R> {
         let zero = R::splat(0.0);
-        let Section3 { shift, slip: [y, z], .. } = self.basis;
-        let less = |s: R, x: R, t: R| (-s).mul_add(x, t);
+        let Orthogonal { shift, slip, .. } = self.basis;
+        let [y, z] = slip;
         // On F⁻¹b for F⁻¹b': columns, then rows.
-        let turn = |[c22, c33, c23]: [R; 3]| {
-            let turned = less(shift, c33, c23);
-            [less(shift, c23 + turned, c22), c33, turned]
-        };
         let [c_2222, c_2233, c_2223, c_3333, c_3323, c_2323] = self.across;
-        let (r22, r33, r23) =
-            (turn([c_2222, c_2233, c_2223]), turn([c_2233, c_3333, c_3323]), turn([c_2223, c_3323, c_2323]));
-        let [c_2222, _, _] = turn([r22[0], r33[0], r23[0]]);
-        let [c_2233, c_3333, c_3323] = turn([r22[1], r33[1], r23[1]]);
-        let [c_2223, _, c_2323] = turn([r22[2], r33[2], r23[2]]);
+        let (r22, r33, r23) = (
+            turn([c_2222, c_2233, c_2223], shift),
+            turn([c_2233, c_3333, c_3323], shift),
+            turn([c_2223, c_3323, c_2323], shift),
+        );
+        let [c_2222, _, _] = turn([r22[0], r33[0], r23[0]], shift);
+        let [c_2233, c_3333, c_3323] = turn([r22[1], r33[1], r23[1]], shift);
+        let [c_2223, _, c_2323] = turn([r22[2], r33[2], r23[2]], shift);
         let [c_1212, c_3131, c_1231] = self.along;
         let turned = less(shift, c_3131, c_1231);
         let (c_1212, c_1231) = (less(shift, c_1231 + turned, c_1212), turned);
-        // On m, t1 and t2: the new components 12, 31 and 11 of a row.
-        let lean = |[c22, c33, c23]: [R; 3], [c12, c31]: [R; 2], c11: R| {
-            let (new12, new31) = (less(y, c22, less(z, c23, c12)), less(y, c23, less(z, c33, c31)));
-            (less(y, c12 + new12, less(z, c31 + new31, c11)), new12, new31)
-        };
-        let nothing = [zero; 2];
-        let (c_2211, c_2212, c_2231) = lean([c_2222, c_2233, c_2223], nothing, zero);
-        let (c_3311, c_3312, c_3331) = lean([c_2233, c_3333, c_3323], nothing, zero);
-        let (c_2311, c_2312, c_2331) = lean([c_2223, c_3323, c_2323], nothing, zero);
+        // Columns on m, t1 and t2.
+        let (c_2211, c_2212, c_2231) = lean([c_2222, c_2233, c_2223], slip);
+        let (c_3311, c_3312, c_3331) = lean([c_2233, c_3333, c_3323], slip);
+        let (c_2311, c_2312, c_2331) = lean([c_2223, c_3323, c_2323], slip);
         let (mut from_12, mut from_31, mut c_1111) = (zero, zero, self.c_1111);
         if shear {
             let [c_1112, c_1131] = self.slip;
@@ -553,6 +548,27 @@ impl<R: Real> Local<R> {
     }
 }
 
+/// t − s x.
+#[inline(always)]
+fn less<R: Real>(s: R, x: R, t: R) -> R {
+    (-s).mul_add(x, t)
+}
+
+/// Components 22, 33, 23 on the vectors α and β of those on α and β − u α.
+#[inline(always)]
+fn turn<R: Real>([c22, c33, c23]: [R; 3], u: R) -> [R; 3] {
+    let turned = less(u, c33, c23);
+    [less(u, c23 + turned, c22), c33, turned]
+}
+
+/// Components 11, 12, 31 on m, α and β of a tensor that has 22, 33, 23 on m, α − y m and β − z m, and no others there.
+#[inline(always)]
+fn lean<R: Real>([c22, c33, c23]: [R; 3], [y, z]: [R; 2]) -> (R, R, R) {
+    let zero = R::splat(0.0);
+    let (c12, c31) = (less(y, c22, less(z, c23, zero)), less(y, c23, less(z, c33, zero)));
+    (less(y, c12, less(z, c31, zero)), c12, c31)
+}
+
 /// An entry of A⊗A' + B⊗B' + C⊗C' + (m⊗m)⊙G.
 #[inline(always)]
 fn material_entry<R: Real, const ROW: usize, const COLUMN: usize>(
@@ -592,7 +608,7 @@ fn along_fibre<R: Real>([x, y, z]: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
     [row(0), row(1), row(2)]
 }
 
-/// `factor` (P b e ⊗ e + e ⊗ P b e) λ.
+/// `factor` λ (w⊗e + e⊗w) with w = P b e, b = F Fᵀ.
 #[inline(always)]
 fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] {
     let Kinematics { stretch, images: [_, a, b], .. } = kinematics;
