@@ -162,12 +162,13 @@ impl<R: Real> Bases<R> {
     }
 }
 
-/// w (1⊗1 − 1⊗E − E⊗1) + D⊗(W2 D) + E⊙G + 1⊙S, entry by entry.
+/// P⊗(w P) + D⊗(W2 D) + E⊙G + 1⊙S, entry by entry.
 struct Terms<'a, R> {
     bases: &'a Bases<R>,
-    /// w (½ − E_rr).
-    direct: [R; 3],
-    /// −w E.
+    /// 1 − E_rr, and w P_rr.
+    p: [R; 3],
+    with_p: [R; 3],
+    /// −w E; P is −E off the diagonal.
     sheared: [R; 6],
     with_d: [R; 6],
     /// [`along_fibre`] of G.
@@ -175,34 +176,22 @@ struct Terms<'a, R> {
     with_one: [R; 6],
 }
 
-impl<'a, R: Real> Terms<'a, R> {
-    #[inline(always)]
-    fn new(bases: &'a Bases<R>, w: R, curvature: R, g: &[R; 6], with_one: [R; 6]) -> Self {
-        let Bases { fibre, e, d, .. } = *bases;
-        let half = R::splat(0.5);
-        Terms {
-            bases,
-            direct: [w * (half - e[0]), w * (half - e[1]), w * (half - e[2])],
-            sheared: multiple(-w, &e),
-            with_d: multiple(curvature, &d),
-            with_fibre: along_fibre(fibre, g),
-            with_one,
-        }
-    }
-}
-
 #[inline(always)]
 fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
-    let Bases { fibre, d, .. } = t.bases;
-    let one = paired_with_one::<R, ROW, COLUMN>(&t.with_one);
-    let start = match one {
-        Some(one) if COLUMN < 3 => one + (t.direct[ROW] + t.direct[COLUMN]),
-        None if COLUMN < 3 => t.direct[ROW] + t.direct[COLUMN],
-        Some(one) if ROW < 3 => one + t.sheared[COLUMN],
-        None => t.sheared[COLUMN],
-        Some(one) => one,
+    let Bases { fibre, e, d, .. } = t.bases;
+    // A product of P's components, off the diagonal −E's.
+    let (factor, other) = if COLUMN < 3 {
+        (t.with_p[ROW], t.p[COLUMN])
+    } else if ROW < 3 {
+        (t.p[ROW], t.sheared[COLUMN])
+    } else {
+        (-t.sheared[ROW], e[COLUMN])
     };
-    let sum = d[ROW].mul_add(t.with_d[COLUMN], start);
+    let across = match paired_with_one::<R, ROW, COLUMN>(&t.with_one) {
+        Some(one) => factor.mul_add(other, one),
+        None => factor * other,
+    };
+    let sum = d[ROW].mul_add(t.with_d[COLUMN], across);
     paired_along::<R, ROW, COLUMN>(*fibre, &t.with_fibre, sum)
 }
 
@@ -274,24 +263,31 @@ impl<R: Real> Hyperelastic<R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, kinematics.strain, k, over);
-        // Products with P = 1 − E are products with 1 and with E: H = h_p P + h_d D, G − H = g_p P + g_d D.
-        let w = f.compaction - f.stiffness;
+        // H = h_p P − h_d D, G − H = g_p P + g_d D. Each term is 0 where its factors are: a slack fibre along an axis has no stiffness
+        // at all.
         let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
         let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
         let g_d = f.shear + h_d - f.distortion;
-        let (on_one, on_e) = if measure == Measure::Jaumann {
-            let on_p = half * f.stiffness;
-            (on_p, half.mul_add(f.tension, g_p - on_p))
-        } else {
-            (h_p, g_p - h_p)
-        };
-        let mut with_fibre = combination(quarter.mul_add(f.elongation + w, -g_p), &bases.e, g_d, &bases.d);
-        let mut with_one = multiple(on_e, &bases.e);
+        let Bases { e, d, .. } = &bases;
+        let one = R::splat(1.0);
+        let p = [one - e[0], one - e[1], one - e[2]];
+        let along = combination(quarter * f.elongation, e, g_d, d);
+        let mut with_fibre = [
+            g_p.mul_add(p[0], along[0]),
+            g_p.mul_add(p[1], along[1]),
+            g_p.mul_add(p[2], along[2]),
+            (-g_p).mul_add(e[3], along[3]),
+            (-g_p).mul_add(e[4], along[4]),
+            (-g_p).mul_add(e[5], along[5]),
+        ];
+        let on_p = if measure == Measure::Jaumann { half * f.stiffness } else { h_p };
+        let on_e = if measure == Measure::Jaumann { half.mul_add(f.tension, -on_p) } else { -on_p };
+        let mut with_one = multiple(on_e, e);
         for diagonal in with_one.iter_mut().take(3) {
-            *diagonal = *diagonal + on_one;
+            *diagonal = *diagonal + on_p;
         }
         if measure != Measure::Jaumann {
-            with_one = added(&with_one, -h_d, &bases.d);
+            with_one = added(&with_one, -h_d, d);
         }
         if shear {
             let slip = slip(kinematics, k.shear * over * bases.inverse_lambda, bases.fibre);
@@ -300,7 +296,16 @@ impl<R: Real> Hyperelastic<R> {
                 with_one = added(&with_one, half, &slip);
             }
         }
-        let terms = Terms::new(bases, w, f.curvature, &with_fibre, with_one);
+        let w = f.compaction - f.stiffness;
+        let terms = Terms {
+            bases,
+            p,
+            with_p: [w * p[0], w * p[1], w * p[2]],
+            sheared: multiple(-w, e),
+            with_d: multiple(f.curvature, d),
+            with_fibre: along_fibre(bases.fibre, &with_fibre),
+            with_one,
+        };
         Moduli(upper_triangle!(entry(&terms)))
     }
 

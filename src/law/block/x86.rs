@@ -454,7 +454,13 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series HALF_ARTANH_F64 LN_F64 EXP_F64
+    series HALF_ARTANH_F64 LN_F64 EXP_F64;
+    // By bytes: the compiler would make a masked store of the select, which AMD's processors before Zen 4 execute in microcode.
+    store_where (mask, x, to) {
+        let old = _mm256_castpd_si256(_mm256_loadu_pd(to));
+        let new = _mm256_blendv_epi8(old, _mm256_castpd_si256(x), _mm256_castpd_si256(mask.0));
+        _mm256_storeu_pd(to, _mm256_castsi256_pd(new))
+    }
 }
 
 register! {
@@ -474,7 +480,12 @@ register! {
     scale (x, k) x.scale_bits(k);
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series HALF_ARTANH_F32 LN_F32 EXP_F32
+    series HALF_ARTANH_F32 LN_F32 EXP_F32;
+    store_where (mask, x, to) {
+        let old = _mm256_castps_si256(_mm256_loadu_ps(to));
+        let new = _mm256_blendv_epi8(old, _mm256_castps_si256(x), _mm256_castps_si256(mask.0));
+        _mm256_storeu_ps(to, _mm256_castsi256_ps(new))
+    }
 }
 
 register! {
