@@ -32,7 +32,7 @@
 //! The documents beside the README say the rest: `docs/theory.md` the law as it is computed, `docs/hosts.md` how it goes
 //! into a solver, `docs/validation.md` how the numbers are checked, `docs/load-paths.md` what the program reads.
 
-#[cfg(feature = "driver")]
-pub mod driver;
+#![cfg_attr(not(test), no_std)]
+
 pub mod host;
 pub mod law;

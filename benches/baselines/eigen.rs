@@ -2,7 +2,7 @@
 //! eigenvectors, and each principal direction carries its own Kirchhoff stress.
 
 use nalgebra::{Matrix3, Matrix3x2, SymmetricEigen, Vector3};
-use toron::driver::bench::Answer;
+use toron_program::bench::Answer;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 

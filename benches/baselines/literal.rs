@@ -5,7 +5,7 @@
 //! here, the least that lets it run.
 
 use nalgebra::Matrix3;
-use toron::driver::bench::Answer;
+use toron_program::bench::Answer;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 

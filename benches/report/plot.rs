@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use plotters::prelude::*;
-use toron::driver::picture::{
+use toron_program::picture::{
     self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text,
 };
 
@@ -18,7 +18,7 @@ const MOST: f64 = 1e-5;
 const MARKER: i32 = 8;
 
 /// Writes `speed.svg` and `speed.png`.
-pub fn write(report: &Report, folder: &Path) -> Result<(), toron::driver::Error> {
+pub fn write(report: &Report, folder: &Path) -> Result<(), toron_program::Error> {
     picture::write(&folder.join("speed.svg"), &folder.join("speed.png"), SIZE, |root| draw(root, report))
 }
 

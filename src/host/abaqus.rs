@@ -26,7 +26,7 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status;
 use crate::law::tangent::{Jaumann, Measure, Moduli};
 
-use super::c_api::properties;
+use super::c::properties;
 use super::environment::in_default_environment;
 
 /// What PNEWDT is lowered to where a point cannot be evaluated.
@@ -43,26 +43,12 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
     }
 }
 
-/// The hyperelastic law as a UMAT of Abaqus/Standard.
-///
-/// Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
-/// `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
-/// and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
-/// solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
-/// pointers but `ddsdde` are the caller's and not null.
-///
-/// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
-/// one, later calls zeros.
-///
-/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
-/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
-/// quarter.
+/// `toron_abaqus_umat_tangent_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; outputs overlap nothing.
-#[unsafe(no_mangle)]
+/// As said there.
 #[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
+pub unsafe extern "C" fn umat_tangent_f64(
     stress: *mut f64,
     statev: *mut f64,
     ddsdde: *mut f64,
@@ -209,13 +195,12 @@ fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
     [c11, c22, c33, c12, c31, c23]
 }
 
-/// As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
+/// `toron_abaqus_umat_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_abaqus_umat_tangent_f64`.
-#[unsafe(no_mangle)]
+/// As said there.
 #[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_abaqus_umat_f64(
+pub unsafe extern "C" fn umat_f64(
     stress: *mut f64,
     statev: *mut f64,
     sse: *mut f64,
@@ -230,11 +215,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
 ) -> i32 {
     let none = core::ptr::null_mut();
     // SAFETY: the caller's promise.
-    unsafe {
-        toron_abaqus_umat_tangent_f64(
-            stress, statev, none, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
-        )
-    }
+    unsafe { umat_tangent_f64(stress, statev, none, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom) }
 }
 
 /// The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
@@ -433,30 +414,20 @@ unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
     }
 }
 
-/// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
-///
-/// `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
-/// law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
-/// `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
-///
-/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
-/// nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
-/// and is failed and deleted.
+/// `toron_abaqus_vumat_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; old and new arrays do not overlap.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
     // SAFETY: the caller's promise.
     in_default_environment(move || unsafe { vumat(block) })
 }
 
-/// As `toron_abaqus_vumat_f64`, for jobs in single precision.
+/// `toron_abaqus_vumat_f32` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_abaqus_vumat_f64`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_abaqus_vumat_f32(block: *const Vumat<f32>) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>) -> i32 {
     // SAFETY: the caller's promise.
     in_default_environment(move || unsafe { vumat(block) })
 }

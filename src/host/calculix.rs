@@ -26,7 +26,7 @@ use crate::law::status::{self, Error};
 use crate::law::tangent::{Measure, Moduli, Six};
 use nalgebra::{Matrix3, Vector3};
 
-use super::c_api::properties;
+use super::c::properties;
 use super::environment::in_default_environment;
 
 /// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
@@ -209,10 +209,8 @@ fn refuse(material: &[u8; 80], message: &Message) -> ! {
 ///
 /// # Safety
 /// CalculiX's promise: every pointer has as many values as said there.
-#[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
-#[allow(non_snake_case)] // CalculiX looks for capitals.
-pub unsafe extern "C" fn HYPERELASTIC(
+pub unsafe extern "C" fn hyperelastic(
     amat: *const c_char,
     iel: *const i32,
     iint: *const i32,

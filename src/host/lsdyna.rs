@@ -24,7 +24,7 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status::{self, Error};
 use crate::law::tangent::{Measure, Six};
 
-use super::c_api::{PointAnswer, entry, properties, store};
+use super::c::{PointAnswer, entry, properties, store};
 
 /// Elements `first` to `last`, counted from 0, of a vector block.
 struct Elements<T> {
@@ -197,40 +197,20 @@ unsafe fn scalar<T: Precision>(
     Ok(status)
 }
 
-/// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
-///
-/// `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
-/// `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
-///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
-/// or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
+/// `toron_lsdyna_umat_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; outputs overlap nothing.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_umat_f64(
-    cm: *const f64,
-    sig: *mut f64,
-    hsv: *mut f64,
-    nhv: i32,
-    failel: *mut c_int,
-) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
 }
 
-/// As `toron_lsdyna_umat_f64`, in single precision.
+/// `toron_lsdyna_umat_f32` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_lsdyna_umat_f64`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_umat_f32(
-    cm: *const f32,
-    sig: *mut f32,
-    hsv: *mut f32,
-    nhv: i32,
-    failel: *mut c_int,
-) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn umat_f32(cm: *const f32, sig: *mut f32, hsv: *mut f32, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
 }
@@ -276,22 +256,12 @@ unsafe fn vector<T: Precision>(
     }
 }
 
-/// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
-///
-/// `cm`: 11 properties or more; `sig1` … `sig6`: `nlq` each, out; `hsvs`: (`nlq`, 20), `nhv` = 11 state variables, in
-/// and out, then F, in; `failels`: `nlq`, out, 1 where an element has failed or could not be evaluated, else 0. Elements
-/// `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
-///
-/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
-/// `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
-/// and nothing is written; or the most negative −3xx code of an element: that one
-/// carries no stress, keeps its energies and invariants, and is failed.
+/// `toron_lsdyna_umat_vector_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; outputs overlap nothing.
-#[unsafe(no_mangle)]
+/// As said there.
 #[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
+pub unsafe extern "C" fn umat_vector_f64(
     cm: *const f64,
     sig1: *mut f64,
     sig2: *mut f64,
@@ -310,13 +280,12 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
     entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
 }
 
-/// As `toron_lsdyna_umat_vector_f64`, in single precision.
+/// `toron_lsdyna_umat_vector_f32` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-#[unsafe(no_mangle)]
+/// As said there.
 #[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
+pub unsafe extern "C" fn umat_vector_f32(
     cm: *const f32,
     sig1: *mut f32,
     sig2: *mut f32,
@@ -359,30 +328,20 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
     Ok(status)
 }
 
-/// The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
-///
-/// `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as the material routine has left
-/// them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
-/// may be null.
-///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
-/// written; or a −3xx code, and `es` is 0,
-/// as it is for an element that has failed.
+/// `toron_lsdyna_utan_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; outputs overlap nothing.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
 }
 
-/// As `toron_lsdyna_utan_f64`, in single precision.
+/// `toron_lsdyna_utan_f32` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_lsdyna_utan_f64`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
 }
@@ -440,17 +399,11 @@ unsafe fn vector_tangent<T: Precision>(
     }
 }
 
-/// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
-///
-/// `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
-/// as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
-///
-/// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
+/// `toron_lsdyna_utan_vector_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// Every pointer has as many values as said; outputs overlap nothing.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
+/// As said there.
+pub unsafe extern "C" fn utan_vector_f64(
     cm: *const f64,
     hsvs: *const f64,
     nhv: i32,
@@ -463,12 +416,11 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
-/// As `toron_lsdyna_utan_vector_f64`, in single precision.
+/// `toron_lsdyna_utan_vector_f32` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// As for `toron_lsdyna_utan_vector_f64`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
+/// As said there.
+pub unsafe extern "C" fn utan_vector_f32(
     cm: *const f32,
     hsvs: *const f32,
     nhv: i32,
@@ -481,20 +433,11 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
-/// Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
-///
-/// LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
-/// `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+/// `toron_lsdyna_bulk_and_shear_f64` of the C interface, which says what its arguments are.
 ///
 /// # Safety
-/// `values` points to `count` values; `bulk` and `shear` are writable.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
-    values: *const f64,
-    count: usize,
-    bulk: *mut f64,
-    shear: *mut f64,
-) -> i32 {
+/// As said there.
+pub unsafe extern "C" fn bulk_and_shear_f64(values: *const f64, count: usize, bulk: *mut f64, shear: *mut f64) -> i32 {
     if bulk.is_null() || shear.is_null() {
         return status::NULL_ARGUMENT;
     }

@@ -4,17 +4,21 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// The repository.
+pub const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
-/// The folder of libtoron.a and libtoron.so, built from today's source as a user builds them.
+/// The folder of libtoron.a, libtoron.so and libtoron_calculix.so, built from today's source as a user builds them
+/// but for the names of functions inside.
 pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| {
     let folder = Path::new(BUILD).join("library");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--manifest-path"]);
+    // Names that tell what a kernel is built for.
+    cargo.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
+    cargo.args(["build", "--release", "--package=toron-c", "--package=toron-calculix", "--offline", "--manifest-path"]);
     run(cargo.arg(Path::new(ROOT).join("Cargo.toml")).arg("--target-dir").arg(&folder), "cargo");
     folder.join("release")
 });

@@ -1,16 +1,29 @@
-//! `src/law` and `src/host` as they stand, without the standard library: a dependency that brought it in would clash
-//! with the panic handler below.
+//! The package toron as it is published, under the functions that libtoron and libtoron_calculix export, without the standard
+//! library: a dependency that brought it in would clash with the panic handler below.
 //!
-//! That handler calls a function which does not exist. Code that no entry reaches is dropped before the linker looks,
-//! so that this library links if, and only if, no C entry can panic.
+//! That handler calls a function which does not exist. The linker drops code that nothing reaches before it looks, so that this
+//! library links if, and only if, no function here can panic.
 
 #![no_std]
 
-#[cfg(feature = "host")]
-#[path = "../../../src/host/mod.rs"]
-pub mod host;
-#[path = "../../../src/law/mod.rs"]
-pub mod law;
+#[path = "../../../c/src/abaqus.rs"]
+pub mod abaqus;
+#[path = "../../../c/src/about.rs"]
+pub mod about;
+#[path = "../../../c/src/blocks.rs"]
+pub mod blocks;
+#[path = "../../../calculix/src/lib.rs"]
+pub mod calculix;
+#[path = "../../../c/src/linear_elastic.rs"]
+pub mod linear_elastic;
+#[path = "../../../c/src/lsdyna.rs"]
+pub mod lsdyna;
+#[path = "../../../c/src/points.rs"]
+pub mod points;
+#[path = "../../../c/src/tables.rs"]
+pub mod tables;
+#[path = "../../../c/src/tangents.rs"]
+pub mod tangents;
 
 unsafe extern "C" {
     fn toron_an_entry_can_panic() -> !;
@@ -26,5 +39,5 @@ fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
 #[cfg(feature = "control")]
 #[unsafe(no_mangle)]
 pub extern "C" fn toron_control(index: usize) -> i32 {
-    law::status::TABLE[index].0
+    toron::law::status::TABLE[index].0
 }

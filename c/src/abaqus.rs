@@ -1,0 +1,85 @@
+//! Abaqus: UMAT and VUMAT.
+
+use toron::host::abaqus::Vumat;
+
+/// The hyperelastic law as a UMAT of Abaqus/Standard.
+///
+/// Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
+/// `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
+/// and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
+/// solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
+/// pointers but `ddsdde` are the caller's and not null.
+///
+/// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
+/// one, later calls zeros.
+///
+/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
+/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
+/// quarter.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::abaqus::umat_tangent_f64(
+            stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+        )
+    }
+}
+
+/// As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::abaqus::umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)
+    }
+}
+
+/// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
+///
+/// `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
+/// law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
+/// `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
+///
+/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
+/// nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
+/// and is failed and deleted.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::abaqus::vumat_f64(block) }
+}
+
+/// As `toron_abaqus_vumat_f64`, for jobs in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_vumat_f32(block: *const Vumat<f32>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::abaqus::vumat_f32(block) }
+}

@@ -1,0 +1,76 @@
+//! Tables of properties and state variables, presets.
+
+use libc::{c_char, size_t};
+use toron::host::c::TableRow;
+
+/// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
+#[unsafe(no_mangle)]
+pub extern "C" fn toron_property_count(law: i32) -> i32 {
+    toron::host::c::property_count(law)
+}
+
+/// Writes the property of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_property(law: i32, index: i32, row: *mut TableRow) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::property(law, index, row) }
+}
+
+/// The index, from 0, of the property of this name, or `TORON_UNKNOWN_NAME`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_property_index(law: i32, property: *const c_char) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::property_index(law, property) }
+}
+
+/// The number of state variables of a law, or `TORON_UNKNOWN_NAME`.
+#[unsafe(no_mangle)]
+pub extern "C" fn toron_state_count(law: i32) -> i32 {
+    toron::host::c::state_count(law)
+}
+
+/// Writes the state variable of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_state_variable(law: i32, index: i32, row: *mut TableRow) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::state_variable(law, index, row) }
+}
+
+/// The index, from 0, of the state variable of this name, or `TORON_UNKNOWN_NAME`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_state_index(law: i32, variable: *const c_char) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::state_index(law, variable) }
+}
+
+/// The properties and the reference density of a preset, in the units of the user's model.
+///
+/// - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: three units of length, mass and time joined by
+///   "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+/// - `values`: room for `count` values, the law's number of properties; `density`: one value, or null.
+///
+/// Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_preset_f64(
+    preset: *const c_char,
+    units: *const c_char,
+    values: *mut f64,
+    count: size_t,
+    density: *mut f64,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::preset_f64(preset, units, values, count, density) }
+}
+
+/// As `toron_preset_f64`, rounded to single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_preset_f32(
+    preset: *const c_char,
+    units: *const c_char,
+    values: *mut f32,
+    count: size_t,
+    density: *mut f32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::preset_f32(preset, units, values, count, density) }
+}

@@ -1,0 +1,162 @@
+//! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is shipped,
+//! against the truth's numbers.
+
+
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::c_programs::{CASES, PRECISIONS, compile};
+use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+
+/// Compiles and runs a program of `ffi-tests/c`.
+fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], reads_cases: bool) {
+    let mut program = Command::new(compile(name, options, libraries));
+    if reads_cases {
+        program.arg(&*CASES);
+    }
+    run(&mut program, "");
+}
+
+#[test]
+fn c_programs() {
+    let library = [LIBRARY.join("libtoron.a")];
+    for precision in PRECISIONS {
+        c_program("about", precision, &library, false);
+        for name in ["points", "hosts", "threads", "levels"] {
+            c_program(name, precision, &library, true);
+        }
+    }
+    c_program("linear_elastic", &[], &library, false);
+}
+
+#[test]
+fn c_programs_with_the_shared_library() {
+    let folder = LIBRARY.display();
+    let library = [format!("-L{folder}"), "-ltoron".into(), format!("-Wl,-rpath,{folder}")];
+    c_program("points", &[], &library, true);
+    c_program("hosts", &[], &library, true);
+}
+
+/// The shims' own flags: they name all arguments that the solver passes, and use few.
+const SHIM_WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Wno-unused-dummy-argument", "-Werror"];
+
+/// Kinds of a solver's build.
+const INTEGERS_64: &str = "-fdefault-integer-8";
+const REALS_64: &str = "-fdefault-real-8";
+
+/// Hosts that stop at the first floating-point exception: none may leave the library.
+const TRAPS: &str = "-ffpe-trap=invalid,zero,overflow";
+
+fn shim(name: &str) -> PathBuf {
+    Path::new(ROOT).join("fortran-shim").join(name)
+}
+
+/// Compiles and runs a program of `ffi-tests/fortran` with these sources.
+fn fortran_program(name: &str, options: &[&str], sources: &[PathBuf]) {
+    let folder = folder(&format!("fortran-{name}{}", options.concat()));
+    let program = folder.join("program");
+    let fortran = Path::new(ROOT).join("ffi-tests/fortran");
+    let mut gfortran = Command::new("gfortran");
+    gfortran.args(["-std=f2018", "-O1", "-fcheck=bounds", "-Wno-compare-reals"]).args(SHIM_WARNINGS).args(options);
+    gfortran.arg("-J").arg(&folder).args(sources).arg(fortran.join("cases.f90")).arg(fortran.join(name));
+    run(gfortran.arg(LIBRARY.join("libtoron.a")).args(SYSTEM).arg("-o").arg(&program), "gfortran");
+    run(Command::new(program).arg(&*CASES), "");
+}
+
+#[test]
+fn fortran_module() {
+    for traps in [&[][..], &[TRAPS]] {
+        fortran_program("module.f90", traps, &[Path::new(ROOT).join("include/toron.f90")]);
+    }
+}
+
+#[test]
+fn shims_of_abaqus() {
+    for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64], &[TRAPS]] {
+        fortran_program("umat.f90", kinds, &[shim("abaqus_umat.f")]);
+        fortran_program("vumat.F90", kinds, &[shim("abaqus_vumat_dp.f")]);
+        fortran_program("vumat.F90", &[kinds, &["-DSINGLE"]].concat(), &[shim("abaqus_vumat_sp.f")]);
+    }
+}
+
+#[test]
+fn shims_of_lsdyna() {
+    let sources = ["lsdyna_umat41.f", "lsdyna_umat41v.f", "lsdyna_utan41.f", "lsdyna_utan41v.f"].map(shim);
+    let kinds: [&[&str]; 4] = [&[], &[INTEGERS_64], &[REALS_64], &[INTEGERS_64, REALS_64]];
+    for kinds in kinds.into_iter().chain([&[TRAPS][..], &[INTEGERS_64, REALS_64, TRAPS]]) {
+        fortran_program("lsdyna.f90", kinds, &sources);
+    }
+}
+
+/// All seven.
+fn shims() -> Vec<PathBuf> {
+    let folder = std::fs::read_dir(Path::new(ROOT).join("fortran-shim")).expect("fortran-shim");
+    let files = folder.map(|entry| entry.expect("a file").path());
+    let shims: Vec<_> = files.filter(|path| path.extension() == Some("f".as_ref())).collect();
+    assert_eq!(shims.len(), 7);
+    shims
+}
+
+/// Abaqus compiles fixed form with 132 columns (`-extend_source`), other builds with 72: both must read the same text, so that
+/// no statement may be continued by what stands beyond column 72.
+const LINE_LENGTHS: [u32; 2] = [72, 132];
+
+#[test]
+fn shims_are_plain_fixed_form() {
+    for path in shims() {
+        let text = std::fs::read_to_string(&path).expect("a shim");
+        for (number, line) in (1..).zip(text.lines()) {
+            let place = format!("{}, line {number}", path.display());
+            assert!(line.chars().all(|c| c == ' ' || c.is_ascii_graphic()), "{place}: a tab, or not ASCII");
+            assert!(line.len() <= 72, "{place}: beyond column 72");
+            if line.is_empty() || line.starts_with(['!', 'C']) {
+                continue;
+            }
+            let (label, statement) = line.split_at(6);
+            assert!(label == "      " || label == "     &", "{place}: columns 1 to 6");
+            assert!(!statement.ends_with(['&', ' ']), "{place}: ends with an ampersand or a blank");
+        }
+    }
+}
+
+#[test]
+fn shims_compile_at_both_line_lengths_with_all_kinds() {
+    for length in LINE_LENGTHS {
+        for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
+            let mut gfortran = Command::new("gfortran");
+            gfortran.args(["-std=f2008", "-fsyntax-only"]).arg(format!("-ffixed-line-length-{length}"));
+            run(gfortran.args(SHIM_WARNINGS).args(kinds).args(shims()), "gfortran");
+        }
+    }
+}
+
+/// LLVM's Fortran compiler by one of the names that distributions give it.
+fn flang() -> Option<String> {
+    let versions = (16..=22).rev().flat_map(|version| [format!("flang-{version}"), format!("flang-new-{version}")]);
+    let mut names = ["flang".into(), "flang-new".into()].into_iter().chain(versions);
+    names.find(|name| Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success()))
+}
+
+#[test]
+fn shims_compile_with_flang() {
+    let Some(flang) = flang() else {
+        // Past the capture of a passing test's output.
+        let message = "skipped: no flang here; on Debian or Ubuntu: apt-get install flang-16";
+        writeln!(std::io::stderr(), "{message}").expect("stderr");
+        return;
+    };
+    let folder = folder("fortran-flang");
+    for length in LINE_LENGTHS {
+        for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
+            for shim in shims() {
+                let mut command = Command::new(&flang);
+                command.args(["-c", "-pedantic"]).arg(format!("-ffixed-line-length={length}")).args(kinds);
+                let output = run(command.arg(&shim).arg("-o").arg(folder.join("shim.o")), "flang-16");
+                let warnings = String::from_utf8_lossy(&output.stderr);
+                assert!(warnings.is_empty(), "{}: {warnings}", shim.display());
+            }
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The committed C header is what cbindgen makes of the source today. `TORON_WRITE_HEADER=1 cargo test -p toron-c header`
+//! writes it anew.
+
+use std::path::Path;
+
+use crate::library::ROOT;
+
+use toron::law::status;
+
+/// Constants and structures, then what is exported.
+const SOURCES: [&str; 14] = [
+    "src/law/status.rs",
+    "src/host/c/mod.rs",
+    "src/host/c/tables.rs",
+    "src/host/c/blocks.rs",
+    "src/host/c/linear_elastic.rs",
+    "src/host/abaqus.rs",
+    "c/src/about.rs",
+    "c/src/tables.rs",
+    "c/src/points.rs",
+    "c/src/tangents.rs",
+    "c/src/blocks.rs",
+    "c/src/linear_elastic.rs",
+    "c/src/abaqus.rs",
+    "c/src/lsdyna.rs",
+];
+
+fn generated() -> String {
+    let root = Path::new(ROOT);
+    let mut config = cbindgen::Config::from_file(root.join("cbindgen.toml")).expect("cbindgen.toml");
+    for (_, name, _) in status::TABLE {
+        let name = name.to_uppercase();
+        config.export.rename.insert(name.clone(), format!("TORON_{name}"));
+    }
+    let mut builder = cbindgen::Builder::new().with_config(config);
+    for source in SOURCES {
+        builder = builder.with_src(root.join(source));
+    }
+    let mut header = Vec::new();
+    builder.generate().expect("a header").write(&mut header);
+    String::from_utf8(header).expect("UTF-8")
+}
+
+#[test]
+fn the_committed_header_is_current() {
+    let path = Path::new(ROOT).join("include/toron.h");
+    let generated = generated();
+    if std::env::var_os("TORON_WRITE_HEADER").is_some() {
+        std::fs::write(&path, &generated).expect("include/toron.h is writable");
+    }
+    let committed = std::fs::read_to_string(&path).expect("include/toron.h");
+    assert!(
+        committed == generated,
+        "include/toron.h is not current: run TORON_WRITE_HEADER=1 cargo test -p toron-c header"
+    );
+}
+
+#[test]
+fn every_status_code_is_in_the_header() {
+    let header = generated();
+    for (code, name, _) in status::TABLE {
+        let line = format!("#define TORON_{} {code}\n", name.to_uppercase());
+        assert!(header.contains(&line), "{line}");
+    }
+}

@@ -1,0 +1,15 @@
+//! libtoron as C, Fortran and Python load it: answers, floating-point environments, sanitizers, machine code.
+
+#[path = "../../../tests/common/library.rs"]
+mod library;
+
+mod c_programs;
+mod environment;
+mod felupe;
+mod ffi;
+mod fortran_module;
+mod freestanding;
+mod header;
+mod instruction_counts;
+mod instrumented;
+mod machine_code;

@@ -1,0 +1,72 @@
+//! `toron run`: from the file of a load path to its table, plot and summary.
+
+use std::path::Path;
+use std::sync::Once;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::path::LoadPath;
+use super::run::{self, End, History};
+use super::{Error, plot, print, report, table};
+
+const DEMONSTRATION: &str = include_str!("../assets/compaction-then-tension.toml");
+/// A run that is over before this needs no progress bar.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Runs the load path of a file, or the demonstration, and writes what came of it to the directory `output`.
+///
+/// # Errors
+/// The input, a file that cannot be written, or the evaluation of a point; what was computed before is written all the
+/// same.
+pub fn run(path: Option<&Path>, output: &Path) -> Result<(), Error> {
+    let path = match path {
+        Some(path) => LoadPath::read(path)?,
+        None => LoadPath::parse("demonstration", DEMONSTRATION)?,
+    };
+    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    let histories = run_with_progress(&path);
+    print(&format!("{}\n", path.title));
+    for history in &histories {
+        let name = if path.points.len() > 1 { format!("-{}", history.point.name) } else { String::new() };
+        let mut text = report::summary(&path, history);
+        if path.points.len() > 1 {
+            text = format!("\n{}\n{text}", history.point.name);
+        }
+        print(&text);
+        if history.increments.is_empty() {
+            continue;
+        }
+        let [table, svg, png] = ["increments{}.csv", "plot{}.svg", "plot{}.png"].map(|file| file.replace("{}", &name));
+        table::write(&output.join(&table), &path, history)?;
+        plot::write(&output.join(&svg), &output.join(&png), &path, history)?;
+        print(&format!("  {:<22} {table}, {svg}, {png} in {}\n", "written", output.display()));
+    }
+    first_failure(&histories)
+}
+
+/// Runs the path; a progress bar shows up where that takes long and someone is looking.
+fn run_with_progress(path: &LoadPath) -> Vec<History<'_>> {
+    let bar = ProgressBar::with_draw_target(Some(path.increments() as u64), ProgressDrawTarget::hidden());
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} increments, {eta} left") {
+        bar.set_style(style);
+    }
+    let (start, shown) = (Instant::now(), Once::new());
+    let histories = run::run(path, &|| {
+        bar.inc(1);
+        if !shown.is_completed() && start.elapsed() > PATIENCE {
+            shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
+        }
+    });
+    bar.finish_and_clear();
+    histories
+}
+
+fn first_failure(histories: &[History]) -> Result<(), Error> {
+    for history in histories {
+        if let End::Failed(reason) = &history.end {
+            return Err(Error::Evaluation(format!("point {}: {reason}", history.point.name)));
+        }
+    }
+    Ok(())
+}

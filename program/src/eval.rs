@@ -1,0 +1,205 @@
+//! `toron eval`: one point a line, JSON in and JSON out, through any of the C entries as its host would call it.
+
+use std::io::{self, BufRead, Write};
+
+use serde::{Deserialize, Serialize};
+
+use super::Error;
+use super::polar::polar_decomposition;
+use crate::entries::{self, Answer};
+use toron::host::{abaqus, c};
+use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
+use toron::law::status;
+
+/// The C entry that evaluates a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Entry {
+    /// `toron_hyperelastic_point_f64`.
+    Law,
+    /// `toron_hyperelastic_point_f32`, inputs rounded to single precision.
+    LawF32,
+    /// `toron_hyperelastic_block_f64`, the point amid others.
+    Block,
+    /// `toron_hyperelastic_block_f32`, inputs rounded to single precision.
+    BlockF32,
+    /// `toron_abaqus_umat_f64`.
+    Umat,
+    /// `toron_abaqus_vumat_f64`; the driver forms U and R and turns the stress back.
+    Vumat,
+    /// `toron_abaqus_vumat_f32`; properties, U and outputs rounded to single precision.
+    VumatSp,
+    /// `toron_lsdyna_umat_f64`.
+    LsDyna,
+    /// `toron_lsdyna_umat_vector_f64`, the element amid others.
+    LsDynaVector,
+}
+
+/// A line of input.
+#[derive(Debug, Deserialize)]
+struct Input {
+    /// Rows of the deformation gradient.
+    #[serde(rename = "F")]
+    f: [[f64; 3]; 3],
+    m: [f64; 3],
+    params: Params,
+}
+
+#[derive(Debug, Deserialize)]
+struct Params {
+    #[serde(alias = "k_el")]
+    kel: f64,
+    #[serde(alias = "k_tc")]
+    ktc: f64,
+    p: f64,
+    #[serde(alias = "k_td")]
+    ktd: f64,
+    #[serde(alias = "k_ld", default)]
+    kld: f64,
+    #[serde(default)]
+    eps_lim: f64,
+    #[serde(default)]
+    alpha: f64,
+    #[serde(default)]
+    beta: f64,
+}
+
+/// A line of output. Stresses are 11 22 33 12 13 23.
+#[derive(Debug, Default, Serialize)]
+struct Output {
+    iel: f64,
+    itc: f64,
+    itd: f64,
+    ild: f64,
+    wel: f64,
+    wtc: f64,
+    wtd: f64,
+    wld: f64,
+    sigma: [f64; 6],
+    failed: bool,
+    failure_index: f64,
+    status: i32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    message: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ddsdde: Option<[[f64; 6]; 6]>,
+    #[serde(rename = "Sel", skip_serializing_if = "Option::is_none")]
+    s_el: Option<[f64; 6]>,
+    #[serde(rename = "Stc", skip_serializing_if = "Option::is_none")]
+    s_tc: Option<[f64; 6]>,
+    #[serde(rename = "Std", skip_serializing_if = "Option::is_none")]
+    s_td: Option<[f64; 6]>,
+    #[serde(rename = "Sld", skip_serializing_if = "Option::is_none")]
+    s_ld: Option<[f64; 6]>,
+}
+
+/// `toron eval`: from the standard input to the standard output.
+///
+/// # Errors
+/// Reading or writing fails.
+pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
+    match evaluate(entry, tangent, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
+        // A reader that has gone is no error.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Evaluation(error.to_string())),
+        _ => Ok(()),
+    }
+}
+
+/// Evaluates every line of `input`, from a fresh state each; with `tangent` DDSDDE too, where the entry has a tangent.
+///
+/// # Errors
+/// Reading or writing fails. A line that cannot be read or evaluated is answered by a line with its status.
+pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+    let mut number = 0;
+    for line in input.split(b'\n') {
+        let line = line?;
+        number += 1;
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        let answer = match serde_json::from_slice::<Input>(&line) {
+            Ok(point) => evaluate_point(entry, tangent, &point, number),
+            Err(error) => Output {
+                status: status::BAD_ARGUMENT,
+                message: Some(format!(
+                    "line {number}: {error}; expected {{\"F\": 3×3 rows, \"m\": [3], \"params\": {{kel, ktc, p, ktd, \
+                     kld, eps_lim, alpha, beta}}}}"
+                )),
+                ..Output::default()
+            },
+        };
+        serde_json::to_writer(&mut output, &answer)?;
+        output.write_all(b"\n")?;
+    }
+    output.flush()
+}
+
+fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Output {
+    let p = &point.params;
+    let [m1, m2, m3] = point.m;
+    let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
+    let f = point.f;
+    let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
+    let answer = match entry {
+        Entry::Law => entries::point(&properties, &columns, tangent),
+        Entry::LawF32 => entries::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
+        Entry::Block => entries::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
+        Entry::BlockF32 => {
+            let single = |x: f64| x as f32;
+            entries::block(
+                &properties.map(single),
+                &columns.map(single),
+                line,
+                tangent,
+                c::hyperelastic_block_tangent_f32,
+            )
+        }
+        Entry::Umat => entries::umat(&properties, &columns, tangent),
+        Entry::Vumat => via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
+        Entry::VumatSp => {
+            via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
+        }
+        Entry::LsDyna => entries::lsdyna(&properties, &columns, tangent),
+        Entry::LsDynaVector => entries::lsdyna_vector(&properties, &columns, line, tangent),
+    };
+    let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
+    let state = answer.state;
+    Output {
+        wel: state[ENERGIES],
+        wtc: state[ENERGIES + 1],
+        wtd: state[ENERGIES + 2],
+        wld: state[ENERGIES + 3],
+        iel: state[INVARIANTS],
+        itc: state[INVARIANTS + 1],
+        itd: state[INVARIANTS + 2],
+        ild: state[INVARIANTS + 3],
+        failure_index: state[FAILURE_INDEX],
+        failed: state[FAILED] == 1.0,
+        sigma: order(answer.stress),
+        status: answer.status,
+        message: (answer.status != status::OK).then(|| entries::message(answer.status, &properties)),
+        ddsdde: answer.ddsdde.map(|rows| order(rows.map(order))),
+        s_el: mode(0),
+        s_tc: mode(1),
+        s_td: mode(2),
+        s_ld: mode(3),
+    }
+}
+
+/// 11 22 33 12 23 31 to 11 22 33 12 13 23.
+fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
+    [s[0], s[1], s[2], s[3], s[5], s[4]]
+}
+
+/// Plays Abaqus/Explicit: U goes in, the corotational stress comes out and is turned by R.
+fn via_vumat(f: &[[f64; 3]; 3], entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
+    let (r, u) = polar_decomposition(f);
+    let answer = entry([u[0][0], u[1][1], u[2][2], u[0][1], u[1][2], u[2][0]]);
+    let [s11, s22, s33, s12, s23, s31] = answer.stress;
+    let corotational = [[s11, s12, s31], [s12, s22, s23], [s31, s23, s33]];
+    let turned = |i: usize, j: usize| -> f64 {
+        (0..3).map(|k| r[i][k] * (0..3).map(|l| corotational[k][l] * r[j][l]).sum::<f64>()).sum()
+    };
+    let stress = [turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(1, 2), turned(2, 0)];
+    // R of an F that is not finite may not be either.
+    Answer { stress: if answer.status == status::OK { stress } else { [0.0; 6] }, ..answer }
+}

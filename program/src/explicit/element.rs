@@ -1,0 +1,626 @@
+//! The one-point hexahedron, many side by side: deformation gradient, nodal forces, hourglass control.
+//!
+//! Everything refers to the reference placement, so that nothing is computed anew in a step but what depends on the
+//! displacement. At an element's centre the gradient of a field is the sum of its nodal values, with the signs of ξ, η
+//! and ζ, times the inverse Jacobian. For the prisms that yarns are meshed with that is the mean over the element, which
+//! is what Flanagan and Belytschko take (Int. J. Numer. Meth. Eng. 17, 1981). Their four hourglass modes are the sums with
+//! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
+//! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+use crate::entries::BlockPrecision;
+
+/// Elements side by side in an inner loop.
+pub const LANES: usize = 8;
+
+/// The number that a run is computed in: f64 or f32.
+pub trait Number:
+    BlockPrecision
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+}
+
+impl Number for f64 {}
+impl Number for f32 {}
+
+/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub struct Lanes<T>(pub [T; LANES]);
+
+impl<T: Number> Lanes<T> {
+    #[inline(always)]
+    pub fn splat(value: T) -> Self {
+        Lanes([value; LANES])
+    }
+
+    #[inline(always)]
+    pub fn at(array: &[T], first: usize) -> Self {
+        let mut lanes = Lanes::splat(T::default());
+        lanes.0.copy_from_slice(&array[first..][..LANES]);
+        lanes
+    }
+
+    #[inline(always)]
+    pub fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
+        let mut result = self;
+        for (a, b) in result.0.iter_mut().zip(other.0) {
+            *a = of(*a, b);
+        }
+        result
+    }
+
+    /// These where the others are above 0, elsewhere 0.
+    #[inline(always)]
+    pub fn only_where(self, others: Self) -> Self {
+        self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
+    }
+
+    /// The larger ones; the others' where one is NaN.
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+}
+
+impl<T: Number> Add for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self.zip(other, T::add)
+    }
+}
+
+impl<T: Number> Sub for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self.zip(other, T::sub)
+    }
+}
+
+impl<T: Number> Mul for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.zip(other, T::mul)
+    }
+}
+
+impl<T: Number> Div for Lanes<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.zip(other, T::div)
+    }
+}
+
+/// Components that begin at `first`, of an array with this leading dimension.
+#[inline(always)]
+pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
+    let mut components = [Lanes::splat(T::default()); N];
+    for (c, lanes) in components.iter_mut().enumerate() {
+        *lanes = Lanes::at(array, c * stride + first);
+    }
+    components
+}
+
+#[inline(always)]
+pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
+    array[first..][..LANES].copy_from_slice(&lanes.0);
+}
+
+/// Where the groups of lanes of a block begin.
+#[inline(always)]
+pub fn groups(stride: usize) -> impl Iterator<Item = usize> {
+    (0..stride).step_by(LANES)
+}
+
+/// The modes that are sums with the signs of one coordinate.
+const LINEAR: [usize; 3] = [1, 2, 4];
+/// Those with the signs of a product: ξη, ηζ, ζξ, ξηζ.
+const HOURGLASS: [usize; 4] = [3, 6, 5, 7];
+/// The lower corners of the four edges along each coordinate.
+const EDGES: [(usize, [usize; 4]); 3] = [(1, [0, 2, 4, 6]), (2, [0, 1, 4, 5]), (4, [0, 1, 2, 3])];
+
+/// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
+#[inline(always)]
+fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for (bit, corners) in EDGES {
+        for corner in corners {
+            let (low, high) = (values[corner], values[corner | bit]);
+            values[corner] = low + high;
+            values[corner | bit] = high - low;
+        }
+    }
+    values
+}
+
+/// The transpose of [`modes`]: what every corner gets.
+#[inline(always)]
+fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
+    for (bit, corners) in EDGES {
+        for corner in corners {
+            let (even, odd) = (values[corner], values[corner | bit]);
+            values[corner] = even - odd;
+            values[corner | bit] = even + odd;
+        }
+    }
+    values
+}
+
+/// What does not change: nodes and reference shapes of a block of elements, component-major.
+#[derive(Clone, Debug)]
+pub struct Shapes<T> {
+    /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
+    pub n: usize,
+    pub stride: usize,
+    pub nodes: Vec<[u32; 8]>,
+    /// 9 components by columns: ⅛ ∂ξ_k/∂X_j, entry k + 3j.
+    inverse: Vec<T>,
+    /// 12: mode α of X_j, entry α + 4j.
+    hourglass: Vec<T>,
+    /// 1: reference volume.
+    pub volume: Vec<T>,
+    /// 1: stiffness against the hourglass modes.
+    stiffness: Vec<T>,
+    /// 6: 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+    gradients: Vec<T>,
+    /// The largest square of a frequency of the hourglass modes, times the density.
+    pub hourglass_frequency: f64,
+}
+
+/// The reference shape of one element.
+struct Shape {
+    inverse: [[f64; 3]; 3],
+    hourglass: [[f64; 4]; 3],
+    volume: f64,
+    /// Σ over corners of ∂N/∂X_i ∂N/∂X_j.
+    gradients: [f64; 6],
+}
+
+impl Shape {
+    fn new(corners: [[f64; 3]; 8]) -> Shape {
+        let sums: [[f64; 8]; 3] = [0, 1, 2].map(|j| modes(corners.map(|corner| corner[j])));
+        let jacobian = nalgebra::Matrix3::from_fn(|j, k| sums[j][LINEAR[k]] / 8.0);
+        let inverse = jacobian.try_inverse().unwrap_or_default();
+        // Σ_a ξ_ka ξ_la = 8 δ_kl, and each gradient has a factor ⅛.
+        let product = inverse.transpose() * inverse / 8.0;
+        let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+        Shape {
+            inverse: std::array::from_fn(|j| std::array::from_fn(|k| inverse[(k, j)] / 8.0)),
+            hourglass: sums.map(|sum| HOURGLASS.map(|mode| sum[mode])),
+            volume: 8.0 * jacobian.determinant(),
+            gradients: pairs.map(|pair| product[pair]),
+        }
+    }
+
+    /// A bound of Σ over the corners of a hourglass mode's squares: 8, and what it sheds of linear fields.
+    fn hourglass_square(&self) -> f64 {
+        let shed =
+            |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
+        8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
+    }
+}
+
+/// Coefficients of what holds hourglass modes and shocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Fraction of the stiffness with which a material would resist the modes.
+    pub hourglass: f64,
+    /// Coefficients of viscosity: linear, quadratic, and against a change of the section's shape.
+    pub linear: f64,
+    pub quadratic: f64,
+    pub shape: f64,
+}
+
+impl<T: Number> Shapes<T> {
+    /// A block of elements. `coordinates` are the nodes in the reference placement, `modulus` is what hourglass modes are
+    /// held by.
+    pub fn new(elements: &[[u32; 8]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
+        let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
+        let array = |components: usize| vec![T::default(); components * stride];
+        let mut block = Shapes {
+            n,
+            stride,
+            nodes: elements.to_vec(),
+            inverse: array(9),
+            hourglass: array(12),
+            volume: array(1),
+            stiffness: array(1),
+            gradients: array(6),
+            hourglass_frequency: 0.0,
+        };
+        block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
+        for (i, element) in elements.iter().enumerate() {
+            let shape = Shape::new(element.map(|node| coordinates[node as usize]));
+            for j in 0..3 {
+                for k in 0..3 {
+                    block.inverse[(k + 3 * j) * stride + i] = T::from_f64(shape.inverse[j][k]);
+                }
+                for mode in 0..4 {
+                    block.hourglass[(mode + 4 * j) * stride + i] = T::from_f64(shape.hourglass[j][mode]);
+                }
+            }
+            let trace: f64 = shape.gradients[..3].iter().sum();
+            block.volume[i] = T::from_f64(shape.volume);
+            // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
+            let stiffness = 0.5 * modulus * trace * shape.volume / 8.0;
+            block.stiffness[i] = T::from_f64(stiffness);
+            let frequency = stiffness * shape.hourglass_square() / (shape.volume / 8.0);
+            block.hourglass_frequency = block.hourglass_frequency.max(frequency);
+            for (c, sum) in shape.gradients.into_iter().enumerate() {
+                block.gradients[c * stride + i] = T::from_f64(8.0 * sum);
+            }
+        }
+        block
+    }
+
+    /// Length of an element along axis 0: for a prism of this axis, 8 Σ(∂N/∂X)² is 4 over its square.
+    pub fn length(&self, element: usize) -> f64 {
+        2.0 / self.gradients[element].into().sqrt()
+    }
+
+    /// An eighth of the element's mass rests on each corner.
+    pub fn corner_volume(&self, element: usize) -> f64 {
+        self.volume[element].into() / 8.0
+    }
+
+    /// F by columns and the hourglass modes of the displacement, all elements.
+    #[inline(always)]
+    pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
+        let stride = self.stride;
+        for first in groups(stride) {
+            let u = self.gather(displacement, first);
+            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
+            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
+            for (i, u) in u.iter().enumerate() {
+                let m = modes(*u);
+                // The displacement's gradient, row i.
+                let mut h = [Lanes::splat(T::default()); 3];
+                for j in 0..3 {
+                    h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
+                    let identity = Lanes::splat(T::from_f64(if i == j { 1.0 } else { 0.0 }));
+                    store(identity + h[j], f, (i + 3 * j) * stride + first);
+                }
+                for (mode, k) in HOURGLASS.into_iter().enumerate() {
+                    let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
+                    store(m[k] - linear, modal, (mode + 4 * i) * stride + first);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn gather(&self, displacement: &[[T; 3]], first: usize) -> [[Lanes<T>; 8]; 3] {
+        let mut u = [[Lanes::splat(T::default()); 8]; 3];
+        for (l, nodes) in self.nodes[first..first + LANES].iter().enumerate() {
+            for (corner, &node) in nodes.iter().enumerate() {
+                let value = displacement[node as usize];
+                for i in 0..3 {
+                    u[i][corner].0[l] = value[i];
+                }
+            }
+        }
+        u
+    }
+
+    /// P by columns, all elements.
+    #[inline(always)]
+    pub fn nominal_stress(&self, point: &Points<'_, T>, nominal: &mut [T]) {
+        let stride = self.stride;
+        for first in groups(stride) {
+            let f = load(point.deformation_gradient, stride, first);
+            let stress = load(point.stress, stride, first);
+            let [along] = load(point.along, stride, first);
+            let section = load(point.section, stride, first);
+            let p = first_piola_kirchhoff(&f, &stress, along, &section);
+            for (component, &entry) in p.as_flattened().iter().enumerate() {
+                store(entry, nominal, component * stride + first);
+            }
+        }
+    }
+
+    /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements
+    /// (1, others 0) hold.
+    #[inline(always)]
+    pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
+        let stride = self.stride;
+        for first in groups(stride) {
+            let p: [Lanes<T>; 9] = load(nominal, stride, first);
+            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
+            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
+            let [volume] = load(&self.volume, stride, first);
+            let [stiffness] = load(&self.stiffness, stride, first);
+            let [intact] = load(intact, stride, first);
+            let k = stiffness * intact;
+            let zero = Lanes::splat(T::default());
+            let mut nodal = [[zero; 8]; 3];
+            for i in 0..3 {
+                let mut held = [zero; 4];
+                for (mode, held) in held.iter_mut().enumerate() {
+                    *held = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
+                }
+                let mut force = [zero; 3];
+                for j in 0..3 {
+                    // The linear field in the hourglass modes is none of theirs.
+                    let [xy, yz, zx, xyz] = held;
+                    let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
+                    let nominal = volume * p[i + 3 * j] - linear;
+                    for m in 0..3 {
+                        force[m] = force[m] + nominal * b[3 * j + m];
+                    }
+                }
+                let ([xy, yz, zx, xyz], [x, y, z]) = (held, force);
+                nodal[i] = corners([zero, x, y, xy, z, zx, yz, xyz]);
+            }
+            self.scatter(&nodal, first, forces);
+        }
+    }
+
+    /// In the order of the elements, so that a run repeats bit by bit.
+    #[inline(always)]
+    fn scatter(&self, nodal: &[[Lanes<T>; 8]; 3], first: usize, forces: &mut [[T; 3]]) {
+        let count = LANES.min(self.n.saturating_sub(first));
+        for (l, nodes) in self.nodes[first..first + count].iter().enumerate() {
+            for (corner, &node) in nodes.iter().enumerate() {
+                let force = &mut forces[node as usize];
+                for i in 0..3 {
+                    force[i] -= nodal[i][corner].0[l];
+                }
+            }
+        }
+    }
+
+    /// What the step's bound and viscosity need to know of F, all elements.
+    #[inline(always)]
+    pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
+        for first in groups(self.stride) {
+            let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
+            let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
+            let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
+            let (ratio, square) = (dot(u, a), dot(u, u));
+            let [aa, bb, cc, ab, bc, ca] = load(&self.gradients, self.stride, first);
+            let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
+            let (squares, products) =
+                (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
+            let per_square = Lanes::splat(T::from_f64(1.0)) / square;
+            store(ratio, &mut to.volume_ratio, first);
+            store(square, &mut to.stretch_square, first);
+            store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
+            store(aa * per_square, &mut to.spread_along, first);
+            for (component, metric) in [second, third, Lanes::splat(T::default()) - both].into_iter().enumerate() {
+                store(metric * per_square, &mut to.metric, component * self.stride + first);
+            }
+        }
+    }
+
+    /// The energy in the hourglass modes of an element.
+    pub fn hourglass_energy(&self, element: usize, modal: &[T]) -> f64 {
+        let square = |c: usize| modal[c * self.stride + element].into().powi(2);
+        0.5 * self.stiffness[element].into() * (0..12).map(square).sum::<f64>()
+    }
+}
+
+/// What F is measured by, one number an element where nothing else is said.
+#[derive(Clone, Debug)]
+pub struct Measures<T> {
+    /// J, and the square of the stretch along axis 0, where the fibres are.
+    pub volume_ratio: Vec<T>,
+    pub stretch_square: Vec<T>,
+    /// The square of the highest frequency over that of the wave speed: the largest eigenvalue of 8 Σ ∇N ⊗ ∇N in the
+    /// current placement is no larger than its trace; ∇N = cof F ∂N/∂X / J. And the trace's part along the fibre, where
+    /// m·∇N = ∂N/∂X over the stretch.
+    pub spread: Vec<T>,
+    pub spread_along: Vec<T>,
+    /// 3: the section's metric, 22 33 23, the products of F's second and third column without their parts along the first.
+    /// The cofactors of C have them, times the square of the stretch.
+    pub metric: Vec<T>,
+    /// The rate at which viscosity damps the highest frequency.
+    pub damping: Vec<T>,
+}
+
+impl<T: Number> Measures<T> {
+    /// Of as many elements.
+    pub fn new(stride: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * stride];
+        Measures {
+            volume_ratio: array(1),
+            stretch_square: array(1),
+            spread: array(1),
+            spread_along: array(1),
+            metric: array(3),
+            damping: array(1),
+        }
+    }
+
+    /// J of the elements that are intact and not inverted, 0 for the others.
+    #[inline(always)]
+    pub fn standing(&self, intact: &[T], first: usize) -> Lanes<T> {
+        Lanes::at(&self.volume_ratio, first).max(Lanes::splat(T::default())).only_where(Lanes::at(intact, first))
+    }
+}
+
+/// What P follows from, component-major.
+pub struct Points<'a, T> {
+    pub deformation_gradient: &'a [T],
+    /// Cauchy stress, and viscosity's: along the fibre, and of the section.
+    pub stress: &'a [T],
+    pub along: &'a [T],
+    pub section: &'a [T],
+}
+
+/// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
+/// without their parts along the first, which has minus as much of theirs as they slant.
+#[inline(always)]
+pub fn first_piola_kirchhoff<T: Number>(
+    f: &[Lanes<T>; 9],
+    stress: &[Lanes<T>; 6],
+    along: Lanes<T>,
+    section: &[Lanes<T>; 3],
+) -> [[Lanes<T>; 3]; 3] {
+    let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
+    let [r22, r33, r23] = *section;
+    let per_square = Lanes::splat(T::from_f64(1.0)) / dot(a, a);
+    let (slant_b, slant_c) = (dot(a, b) * per_square, dot(a, c) * per_square);
+    let (across_b, across_c) = (less(b, slant_b, a), less(c, slant_c, a));
+    let (second, third) = (combine(r22, across_b, r23, across_c), combine(r23, across_b, r33, across_c));
+    let [p1, p2, p3] = [times(stress, cross(b, c)), times(stress, cross(c, a)), times(stress, cross(a, b))];
+    let slanting = combine(slant_b, second, slant_c, third);
+    [add(less(p1, along, a), slanting), sub(p2, second), sub(p3, third)]
+}
+
+/// A symmetric matrix times a vector.
+#[inline(always)]
+fn times<T: Number>(matrix: &[Lanes<T>; 6], [x, y, z]: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    let [s11, s22, s33, s12, s23, s31] = *matrix;
+    [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z]
+}
+
+#[inline(always)]
+fn add<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[inline(always)]
+fn sub<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// a − k b.
+#[inline(always)]
+fn less<T: Number>(a: [Lanes<T>; 3], k: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[0] - k * b[0], a[1] - k * b[1], a[2] - k * b[2]]
+}
+
+/// k a + l b.
+#[inline(always)]
+fn combine<T: Number>(k: Lanes<T>, a: [Lanes<T>; 3], l: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [k * a[0] + l * b[0], k * a[1] + l * b[1], k * a[2] + l * b[2]]
+}
+
+#[inline(always)]
+fn cross<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[inline(always)]
+fn dot<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> Lanes<T> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODULUS: f64 = 0.6;
+    /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
+    const NODES: [[f64; 3]; 8] = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.1, 0.0],
+        [0.1, 1.0, 0.1],
+        [2.1, 1.2, 0.0],
+        [0.0, 0.1, 1.5],
+        [2.0, 0.0, 1.4],
+        [0.2, 1.0, 1.5],
+        [2.0, 1.1, 1.6],
+    ];
+    const ELEMENTS: [[u32; 8]; 2] = [[0, 1, 2, 3, 4, 5, 6, 7], [0, 1, 2, 3, 4, 5, 4, 5]];
+
+    struct State {
+        f: Vec<f64>,
+        modal: Vec<f64>,
+    }
+
+    fn deform(shapes: &Shapes<f64>, displacement: &[[f64; 3]]) -> State {
+        let mut state = State { f: vec![0.0; 9 * shapes.stride], modal: vec![0.0; 12 * shapes.stride] };
+        shapes.deform(displacement, &mut state.f, &mut state.modal);
+        state
+    }
+
+    /// Displacements that are no linear field.
+    fn crooked() -> Vec<[f64; 3]> {
+        (0..8).map(|i| [0.1, 0.7, 1.3].map(|phase| 0.05 * (phase + 2.3 * f64::from(i)).sin())).collect()
+    }
+
+    fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
+        let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
+        let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
+        let mut nominal = vec![0.0; 9 * shapes.stride];
+        let point = Points { deformation_gradient: &state.f, stress: &stress, along: &none, section: &none };
+        shapes.nominal_stress(&point, &mut nominal);
+        let mut forces = vec![[0.0; 3]; NODES.len()];
+        shapes.forces(&nominal, &state.modal, &intact, &mut forces);
+        forces
+    }
+
+    #[test]
+    fn a_linear_field_has_its_gradient_and_no_hourglass() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let field: Vec<[f64; 3]> = NODES.iter().map(|&x| (h * nalgebra::Vector3::from(x)).into()).collect();
+        let state = deform(&shapes, &field);
+        for element in 0..shapes.n {
+            for (c, expected) in (h + nalgebra::Matrix3::identity()).iter().enumerate() {
+                assert!((state.f[c * shapes.stride + element] - expected).abs() < 1e-14);
+            }
+            assert!((0..12).all(|c| state.modal[c * shapes.stride + element].abs() < 1e-14));
+        }
+    }
+
+    #[test]
+    fn forces_are_in_balance() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
+        let displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let forces = forces(&shapes, &state, [3.0, -1.0, 2.0, 0.5, -0.7, 0.2]);
+        let sum = forces.iter().fold(nalgebra::Vector3::zeros(), |sum, &f| sum + nalgebra::Vector3::from(f));
+        assert!(sum.norm() < 1e-14, "{sum}");
+    }
+
+    #[test]
+    fn hourglass_forces_are_the_slope_of_their_energy() {
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
+        let mut displacement = crooked();
+        let state = deform(&shapes, &displacement);
+        let force = forces(&shapes, &state, [0.0; 6]);
+        assert!(force.iter().flatten().any(|f| f.abs() > 1e-4), "there is something to compare");
+        let step = 1e-6;
+        for (node, i) in [(0, 0), (3, 1), (6, 2), (7, 0)] {
+            let [low, high] = [-step, step].map(|change| {
+                displacement[node][i] += change;
+                let energy = shapes.hourglass_energy(0, &deform(&shapes, &displacement).modal);
+                displacement[node][i] -= change;
+                energy
+            });
+            let slope = (high - low) / (2.0 * step);
+            assert!((slope + force[node][i]).abs() < 1e-8, "{slope} {}", force[node][i]);
+        }
+    }
+
+    #[test]
+    fn nodal_forces_do_the_work_of_the_stress() {
+        // δW = V P:δF for a displacement that is a linear field; the hourglass does none.
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
+        let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
+        let state = deform(&shapes, &crooked());
+        let force = forces(&shapes, &state, stress);
+        let f = nalgebra::Matrix3::from_fn(|i, j| state.f[(i + 3 * j) * shapes.stride]);
+        let p = toron::law::stress::first_piola_kirchhoff(&stress, &f);
+        let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
+        let work: f64 = NODES
+            .iter()
+            .zip(&force)
+            .map(|(&x, &f)| -(h * nalgebra::Vector3::from(x)).dot(&nalgebra::Vector3::from(f)))
+            .sum();
+        assert!((work - shapes.volume[0] * p.dot(&h)).abs() < 1e-13 * work.abs().max(1.0), "{work}");
+    }
+}

@@ -1,0 +1,442 @@
+//! Blocks of elements of one law: the history arrays, and the call of the law through its C entry.
+
+use std::time::{Duration, Instant};
+
+use pulp::{Arch, Simd, WithSimd};
+
+use super::element::{Control, Lanes, Measures, Number, Points, Shapes, groups, store};
+use super::largest;
+use super::viscosity::Viscosity;
+use crate::Error;
+use crate::entries::{self, LinearFrame, LinearSolverBlock, SolverBlock};
+use crate::material::{Law, Material};
+use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use toron::law::linear_elastic::{Criterion, Rotation};
+use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use toron::law::state::{
+    FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
+    LINEAR_STRESS, LINEAR_WORK,
+};
+use toron::law::status;
+
+/// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
+/// first cache (vector lengths of explicit solvers are of this order).
+pub const BLOCK: usize = 128;
+
+/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
+pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
+
+/// A law as a solver holds it.
+#[derive(Clone, Debug)]
+pub enum Entry<T> {
+    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
+    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
+}
+
+/// A material as the host uses it.
+#[derive(Clone, Debug)]
+pub struct Medium<T> {
+    pub entry: Entry<T>,
+    pub density: f64,
+    pub control: Control,
+    /// What hourglass modes are held by.
+    hourglass: f64,
+    /// Whether elements may fail, and the linear elastic law's stress at failure.
+    pub fails: bool,
+    strength: f64,
+    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
+    /// changes its shape; for viscosity.
+    pub wave_speed: f64,
+    pub compaction_speed: f64,
+    pub distortion_speed: f64,
+}
+
+impl<T: Number> Medium<T> {
+    /// # Errors
+    /// The frame is the spin's, which needs axes of its own.
+    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
+        let property = |name: &str| material.property(name).unwrap_or_default();
+        let (entry, along, across, shear) = match &material.law {
+            Law::Hyperelastic(_) => {
+                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
+                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
+                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
+                let p = property("p");
+                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
+                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
+                let frame = match frame {
+                    Rotation::Fibre => LinearFrame::Fibre,
+                    Rotation::Polar => LinearFrame::Polar,
+                    Rotation::Spin => {
+                        return Err(Error::Input("frame is \"spin\"; allowed here: fibre, polar".to_string()));
+                    }
+                };
+                let criterion = match criterion {
+                    Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
+                    Criterion::FibreStress => TORON_CRITERION_FIBRE,
+                };
+                let [across, shear] = [property("e_2"), property("g")];
+                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
+            }
+        };
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        Ok(Medium {
+            entry,
+            density,
+            control,
+            hourglass: control.hourglass * distortion,
+            fails: material.can_fail(),
+            strength: property("sigma_lim"),
+            wave_speed: (along / density).sqrt(),
+            compaction_speed: (across / density).sqrt(),
+            distortion_speed: (shear / density).sqrt(),
+        })
+    }
+
+    /// The law's number of state variables, and where the latch stands among them.
+    fn state(&self) -> (usize, usize) {
+        match self.entry {
+            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
+            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
+        }
+    }
+}
+
+/// What every block needs during its turn and none keeps.
+#[derive(Debug)]
+pub struct Scratch<T> {
+    deformation_gradient: Vec<T>,
+    modal: Vec<T>,
+    stress: Vec<T>,
+    /// P by columns.
+    nominal: Vec<T>,
+    measures: Measures<T>,
+    wave_speed: Vec<T>,
+    /// 1 where an element's own step is too short.
+    collapsed: Vec<T>,
+    status: Vec<i32>,
+}
+
+impl<T: Number> Default for Scratch<T> {
+    fn default() -> Self {
+        let array = |components: usize| vec![T::default(); components * BLOCK];
+        Scratch {
+            deformation_gradient: array(9),
+            modal: array(12),
+            stress: array(6),
+            nominal: array(9),
+            measures: Measures::new(BLOCK),
+            wave_speed: array(1),
+            collapsed: array(1),
+            status: vec![0; BLOCK],
+        }
+    }
+}
+
+/// What a turn asks for beside the forces.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Energies and invariants of the law.
+    pub law: bool,
+    /// What else the balance of energies needs.
+    pub balance: bool,
+    /// Length of the step that led here, and the shortest that an element which may fail is worth.
+    pub step: f64,
+    pub shortest: f64,
+}
+
+/// What a turn adds to the sums of a step.
+#[derive(Clone, Debug, Default)]
+pub struct Sums {
+    /// Energy that viscosity has dissipated.
+    pub viscosity: f64,
+    /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
+    pub hourglass: f64,
+    pub released: f64,
+    /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
+    /// which viscosity damps one.
+    pub stiffness: f64,
+    pub damping: f64,
+    /// Elements deleted in this step, and how many of them because they have collapsed.
+    pub deleted: Vec<usize>,
+    pub collapsed: usize,
+    /// The code of a law that has refused its call.
+    pub refused: Option<i32>,
+    /// Time spent inside the law's entries.
+    pub law: Duration,
+}
+
+/// What is done with the processor's widest instructions: before the law's turn, and after it.
+struct Deform<'a, T> {
+    shapes: &'a Shapes<T>,
+    displacement: &'a [[T; 3]],
+    scratch: &'a mut Scratch<T>,
+}
+
+struct Forces<'a, T> {
+    block: &'a mut ElementBlock<T>,
+    medium: &'a Medium<T>,
+    scratch: &'a mut Scratch<T>,
+    wanted: Wanted,
+    sums: &'a mut Sums,
+    forces: &'a mut [[T; 3]],
+}
+
+impl<T: Number> WithSimd for Deform<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Scratch { deformation_gradient, modal, .. } = self.scratch;
+        self.shapes.deform(self.displacement, deformation_gradient, modal);
+    }
+}
+
+impl<T: Number> WithSimd for Forces<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Forces { block, medium, scratch, wanted, sums, forces } = self;
+        block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
+        let Wanted { step, shortest, .. } = wanted;
+        sums.viscosity += block.viscosity.advance(medium, &block.shapes, &mut scratch.measures, &block.intact, step);
+        block.bound_step(medium, scratch, shortest, sums);
+        let point = Points {
+            deformation_gradient: &scratch.deformation_gradient,
+            stress: &scratch.stress,
+            along: &block.viscosity.along,
+            section: &block.viscosity.section,
+        };
+        block.shapes.nominal_stress(&point, &mut scratch.nominal);
+        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);
+    }
+}
+
+/// Elements of one medium, with their history.
+#[derive(Clone, Debug)]
+pub struct ElementBlock<T> {
+    pub shapes: Shapes<T>,
+    /// The body's number of the first element, and the number of the medium.
+    pub first: usize,
+    pub medium: usize,
+    /// State variables, component-major.
+    pub state: Vec<T>,
+    /// 1, or 0 once the element is deleted.
+    pub intact: Vec<T>,
+    viscosity: Viscosity<T>,
+    /// The linear elastic law's deformation gradient at the start of the step.
+    f_old: Vec<T>,
+}
+
+impl<T: Number> ElementBlock<T> {
+    pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
+        let shapes = Shapes::<T>::new(elements, coordinates, of.hourglass);
+        let (stride, one) = (shapes.stride, T::from_f64(1.0));
+        let mut f_old = vec![T::default(); 9 * stride];
+        for diagonal in [0, 4, 8] {
+            f_old[diagonal * stride..(diagonal + 1) * stride].fill(one);
+        }
+        ElementBlock {
+            first,
+            medium,
+            state: vec![T::default(); of.state().0 * stride],
+            intact: vec![one; stride],
+            viscosity: Viscosity::new(&shapes),
+            f_old,
+            shapes,
+        }
+    }
+
+    /// From the nodes' displacements to their forces, the history moved on.
+    pub fn advance(
+        &mut self,
+        medium: &Medium<T>,
+        displacement: &[[T; 3]],
+        forces: &mut [[T; 3]],
+        scratch: &mut Scratch<T>,
+        wanted: Wanted,
+        sums: &mut Sums,
+    ) {
+        let wide = Arch::new();
+        wide.dispatch(Deform { shapes: &self.shapes, displacement, scratch });
+        let start = Instant::now();
+        match &medium.entry {
+            Entry::Hyperelastic(properties) => {
+                let code = self.call_hyperelastic(properties, medium, scratch, wanted);
+                sums.refused = sums.refused.or(refused(code));
+            }
+            Entry::LinearElastic { properties, frame, criterion } => {
+                self.call_linear_elastic(properties, *frame, *criterion, scratch);
+                scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
+                sums.refused = sums.refused.or(scratch.status[..self.shapes.n].iter().find_map(|&code| refused(code)));
+            }
+        }
+        sums.law += start.elapsed();
+        // What cannot be evaluated goes before it weighs on its nodes; what has failed or collapsed carries its last stress.
+        self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
+        wide.dispatch(Forces { block: self, medium, scratch, wanted, sums, forces });
+        let (latch, stride) = (medium.state().1, self.shapes.stride);
+        self.delete(medium, scratch, sums, |block, _, i| {
+            block.state[latch * stride + i] != T::default() && block.is_intact(i)
+        });
+        let failed = sums.deleted.len();
+        self.delete(medium, scratch, sums, |block, scratch, i| {
+            medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
+        });
+        sums.collapsed += sums.deleted.len() - failed;
+        if wanted.balance {
+            let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
+            sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
+        }
+    }
+
+    fn call_hyperelastic(
+        &mut self,
+        properties: &[T; HYPERELASTIC_PROPERTIES],
+        medium: &Medium<T>,
+        scratch: &mut Scratch<T>,
+        wanted: Wanted,
+    ) -> i32 {
+        let wave_speed = &mut scratch.wave_speed[..];
+        let arrays = SolverBlock {
+            n: self.shapes.n,
+            leading_dimension: self.shapes.stride,
+            deformation_gradient: &scratch.deformation_gradient,
+            state: &mut self.state,
+            energies: wanted.law,
+            failure: medium.fails,
+            stress: &mut scratch.stress,
+            wave_speed: Some((T::from_f64(medium.density), wave_speed)),
+            status: &mut scratch.status,
+        };
+        entries::hyperelastic_block(properties, arrays)
+    }
+
+    fn call_linear_elastic(
+        &mut self,
+        properties: &[T; LINEAR_ELASTIC_PROPERTIES],
+        frame: LinearFrame,
+        criterion: i32,
+        scratch: &mut Scratch<T>,
+    ) {
+        let stride = self.shapes.stride;
+        let arrays = LinearSolverBlock {
+            n: self.shapes.n,
+            leading_dimension: stride,
+            f_old: &self.f_old,
+            f_new: &scratch.deformation_gradient,
+            state: &mut self.state,
+            stress: &mut scratch.stress,
+            status: &mut scratch.status,
+        };
+        // The code is the worst of the points': each has its own in `status`.
+        entries::linear_elastic_block(properties, arrays, frame, criterion);
+        self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
+    }
+
+    /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping; which
+    /// elements have collapsed.
+    #[inline(always)]
+    fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
+        let splat = |value: f64| Lanes::splat(T::from_f64(value));
+        let (zero, one, four) = (splat(0.0), splat(1.0), splat(4.0));
+        // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
+        let hourglass = splat(self.shapes.hourglass_frequency / medium.density);
+        let (square, twice) = (splat(shortest * shortest), splat(2.0 * shortest));
+        // A largest number drops what is NaN, a sum does not.
+        let [mut stiffest, mut most_damped, mut sum] = [hourglass, zero, zero];
+        for first in groups(self.shapes.stride) {
+            let at = |array: &[T]| Lanes::at(array, first);
+            let standing = scratch.measures.standing(&self.intact, first);
+            let speed = at(&scratch.wave_speed);
+            let stiffness = (hourglass + speed * speed * at(&scratch.measures.spread)).only_where(standing);
+            let damping = at(&scratch.measures.damping).only_where(standing);
+            (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
+            sum = sum + stiffness + damping;
+            // As in the body's stable step.
+            let collapsed = one.only_where(square * stiffness + twice * damping - four);
+            store(collapsed, &mut scratch.collapsed, first);
+        }
+        let greatest = |lanes: Lanes<T>| lanes.0.into_iter().map(Into::into).fold(0.0, largest);
+        sums.stiffness = largest(sums.stiffness, greatest(stiffest));
+        sums.damping = largest(sums.damping, greatest(most_damped));
+        if sum.0.into_iter().any(|value| value.into().is_nan()) {
+            sums.stiffness = f64::NAN;
+        }
+    }
+
+    /// Deletes the elements that are picked, and latches those that the law has not.
+    fn delete(
+        &mut self,
+        medium: &Medium<T>,
+        scratch: &Scratch<T>,
+        sums: &mut Sums,
+        picked: impl Fn(&Self, &Scratch<T>, usize) -> bool,
+    ) {
+        let latch = medium.state().1 * self.shapes.stride;
+        for i in 0..self.shapes.n {
+            if picked(self, scratch, i) {
+                self.intact[i] = T::default();
+                self.state[latch + i] = T::from_f64(1.0);
+                self.viscosity.remove(i);
+                sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
+                sums.deleted.push(self.first + i);
+            }
+        }
+    }
+
+    pub fn is_intact(&self, i: usize) -> bool {
+        self.intact[i] != T::default()
+    }
+
+    fn variable(&self, row: usize, i: usize) -> f64 {
+        self.state[row * self.shapes.stride + i].into()
+    }
+
+    /// Energy densities, as [`ENERGY_NAMES`] has them.
+    pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
+        match medium.entry {
+            Entry::Hyperelastic(_) => {
+                let [el, tc, td, ld] = std::array::from_fn(|mode| self.variable(mode, i));
+                [el, tc, td, ld, 0.0]
+            }
+            Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+        }
+    }
+
+    /// 1 at the failure limit, 0 without one.
+    pub fn failure_index(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match medium.entry {
+            Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
+            Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
+                self.variable(LINEAR_STRESS, i) / medium.strength
+            }
+            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / medium.strength,
+        }
+    }
+
+    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1.
+    pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
+        match &medium.entry {
+            Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
+            Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0].into(),
+        }
+    }
+}
+
+/// The code of a call that the law refuses, whatever the points: bad properties, counts, arguments.
+fn refused(code: i32) -> Option<i32> {
+    (code != status::OK && code > status::INVERTED).then_some(code)
+}

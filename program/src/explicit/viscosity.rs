@@ -1,0 +1,267 @@
+//! Artificial viscosity by direction: along the fibre, and of the section in area and in shape.
+//!
+//! A shock is spread over some elements by a stress that resists the rate of compression, in a quadratic term (von Neumann
+//! and Richtmyer, J. Appl. Phys. 21, 1950) and a linear one that has the speed of a wave (Landshoff, LA-1930, 1955). Of a
+//! yarn's waves that along the fibre is ten times as fast as that which compacts the section: one pressure for both would
+//! either let the first ring or hold the second up. Here the Cauchy stress is −q_m m ⊗ m − q_t (1 − m ⊗ m) + 2 η dev D̄, m
+//! being the fibre's direction and D̄ the rate of deformation across it, with q = ρ l (c2 l ⟨ε̇⟩² + c1 c ε̇), η = ρ l c3 c and
+//! the element's length or breadth l at rest: what has collapsed is damped all the more. Along the fibre ε̇ = −D_mm, and the
+//! linear term resists stretching as well, so that fronts do not ring. Across it ε̇ = −tr D̄ counts in compression only:
+//! swelling, which the law leaves free, stays so. A change of shape is resisted with the speed of distortion's wave, or the
+//! section would ring long after the kink has wrenched it.
+//!
+//! D̄ is told by the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
+//! With half its rate the stress R̄ is conjugate that is kept here.
+
+use super::element::{Lanes, Measures, Number, Shapes, groups, load, store};
+use super::material::Medium;
+
+/// What viscosity keeps of the last step, by element.
+#[derive(Clone, Debug)]
+pub struct Viscosity<T> {
+    /// Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ with the square Λ of the
+    /// stretch, and 22 33 23 of the section's R̄.
+    pub along: Vec<T>,
+    pub section: Vec<T>,
+    stretch_square: Vec<T>,
+    metric: Vec<T>,
+    /// In the reference placement: along the fibre, and the side of a square as large as the section.
+    length: Vec<T>,
+    breadth: Vec<T>,
+}
+
+/// Of one direction: coefficients of the rate and of its square, speeds included.
+#[derive(Clone, Copy)]
+struct Direction<T> {
+    length: Lanes<T>,
+    linear: Lanes<T>,
+    quadratic: Lanes<T>,
+}
+
+impl<T: Number> Direction<T> {
+    /// q/ρ, and its slope: the kinematic viscosity.
+    #[inline(always)]
+    fn resist(self, rate: Lanes<T>) -> (Lanes<T>, Lanes<T>) {
+        let closing = self.quadratic * self.length * rate.max(Lanes::splat(T::default()));
+        (self.length * (closing + self.linear) * rate, self.length * (closing + closing + self.linear))
+    }
+}
+
+impl<T: Number> Viscosity<T> {
+    pub fn new(shapes: &Shapes<T>) -> Self {
+        let array = |value: f64| vec![T::from_f64(value); shapes.stride];
+        let (mut length, mut breadth) = (array(1.0), array(1.0));
+        for i in 0..shapes.n {
+            length[i] = T::from_f64(shapes.length(i));
+            breadth[i] = T::from_f64((shapes.volume[i].into() / shapes.length(i)).sqrt());
+        }
+        let mut metric = vec![T::from_f64(1.0); 3 * shapes.stride];
+        metric[2 * shapes.stride..].fill(T::default());
+        let section = vec![T::default(); 3 * shapes.stride];
+        Viscosity { along: array(0.0), section, stretch_square: array(1.0), metric, length, breadth }
+    }
+
+    /// A deleted element resists nothing.
+    pub fn remove(&mut self, i: usize) {
+        let stride = self.along.len();
+        for stress in [&mut self.along[i..], &mut self.section[i..]] {
+            stress.iter_mut().step_by(stride).for_each(|component| *component = T::default());
+        }
+    }
+
+    /// The stresses at the end of a step of this length. Returns the energy dissipated in it, by the trapezoidal rule of
+    /// central differences; the rates at which elements are damped go to the measures.
+    #[inline(always)]
+    pub fn advance(
+        &mut self,
+        medium: &Medium<T>,
+        shapes: &Shapes<T>,
+        measures: &mut Measures<T>,
+        intact: &[T],
+        step: f64,
+    ) -> f64 {
+        let splat = |value: f64| Lanes::splat(T::from_f64(value));
+        let (zero, half, two) = (splat(0.0), splat(0.5), splat(2.0));
+        let per_step = splat(if step > 0.0 { 1.0 / step } else { 0.0 });
+        let control = medium.control;
+        let (density, quadratic) = (splat(medium.density), splat(control.quadratic));
+        let linear = [medium.wave_speed, medium.compaction_speed].map(|speed| splat(control.linear * speed));
+        let shape = splat(control.shape * medium.distortion_speed);
+        let (mut dissipated, stride) = (zero, shapes.stride);
+        for first in groups(stride) {
+            let at = |array: &[T]| Lanes::at(array, first);
+            let standing = measures.standing(intact, first);
+            let (ratio, square, square_old) =
+                (at(&measures.volume_ratio), at(&measures.stretch_square), at(&self.stretch_square));
+            let [c22, c33, c23] = load(&measures.metric, stride, first);
+            let [old22, old33, old23] = load(&self.metric, stride, first);
+            let [d22, d33, d23] = [c22 - old22, c33 - old33, c23 - old23];
+            // Λ/J² is 1/det C̄, and half of tr C̄⁻¹ΔC̄ the section's growth; of ΔC̄ the rest changes the shape.
+            let per_area = square / (ratio * ratio);
+            let growth = half * (c33 * d22 + c22 * d33 - two * c23 * d23) * per_area;
+            let [e22, e33, e23] = [d22 - growth * c22, d33 - growth * c33, d23 - growth * c23];
+            let along = Direction { length: at(&self.length), linear: linear[0], quadratic };
+            let across = Direction { length: at(&self.breadth), linear: linear[1], quadratic };
+            let (q_m, damping_along) = along.resist((square_old - square) / (square_old + square) * per_step);
+            let (q_t, damping) = across.resist((zero - growth * per_step).max(zero));
+            let eta = across.length * shape;
+            // R̄ = q_t J C̄⁻¹ − η J C̄⁻¹ Ē C̄⁻¹, where C̄⁻¹ Ē C̄⁻¹ det C̄ is less the adjugate of Ē, whose trace with C̄⁻¹ is 0.
+            let (scale, turning) = (density * per_area, eta * per_step);
+            let r22 = (scale * (q_t * c33 + turning * e33)).only_where(standing);
+            let r33 = (scale * (q_t * c22 + turning * e22)).only_where(standing);
+            let r23 = (zero - scale * (q_t * c23 + turning * e23)).only_where(standing);
+            let t = (density / square * q_m).only_where(standing);
+            // Stress power ½ (t Λ̇ + R̄ : C̄̇).
+            let [old_r22, old_r33, old_r23] = load(&self.section, stride, first);
+            let work = (t + at(&self.along)) * (square_old - square)
+                - (r22 + old_r22) * d22
+                - (r33 + old_r33) * d33
+                - two * (r23 + old_r23) * d23;
+            dissipated = dissipated + half * half * work * at(&shapes.volume);
+            let spread_along = at(&measures.spread_along);
+            let damping = damping_along * spread_along + (damping + eta) * (at(&measures.spread) - spread_along);
+            store(damping, &mut measures.damping, first);
+            store(t, &mut self.along, first);
+            store(square, &mut self.stretch_square, first);
+            for (component, (stress, metric)) in [(r22, c22), (r33, c33), (r23, c23)].into_iter().enumerate() {
+                store(stress, &mut self.section, component * stride + first);
+                store(metric, &mut self.metric, component * stride + first);
+            }
+        }
+        dissipated.0.into_iter().map(Into::into).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+    use crate::explicit::element::{Control, first_piola_kirchhoff};
+    use crate::material::{Law, Material};
+    use toron::law::linear_elastic::{Criterion, Rotation};
+    use toron::law::parameters;
+
+    const STEP: f64 = 1e-8;
+    const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3 };
+    /// Of the brick below: along the fibre, and the side of a square as large as the section.
+    const LENGTH: f64 = 2e-3;
+    const BREADTH: f64 = 0.6e-3;
+
+    fn medium() -> Medium<f64> {
+        let preset = parameters::preset("kevlar-km2-600").expect("it exists");
+        let law = Law::new(preset.table, preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        let (values, density) = (preset.values.to_vec(), preset.density);
+        let material = Material { law, values, density: Some(density), label: String::new() };
+        Medium::new(&material, density, CONTROL).expect("valid")
+    }
+
+    /// The Cauchy stress after a step from one deformation gradient to another, and what was dissipated in it by volume at
+    /// rest with the stress that was there before.
+    fn resist(from: Matrix3<f64>, to: Matrix3<f64>) -> (Matrix3<f64>, f64) {
+        let corner = |i: usize, size: f64, bit: usize| if i >> bit & 1 == 1 { size } else { 0.0 };
+        let nodes: Vec<[f64; 3]> =
+            (0..8).map(|i| [corner(i, LENGTH, 0), corner(i, 0.4e-3, 1), corner(i, 0.9e-3, 2)]).collect();
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &nodes, 0.0);
+        let (intact, stride) = (vec![1.0; shapes.stride], shapes.stride);
+        let (mut viscosity, mut measures, mut dissipated) = (Viscosity::new(&shapes), Measures::new(stride), 0.0);
+        // No time passes up to the first: it is where the yarn starts.
+        for (f, step) in [(from, 0.0), (to, STEP)] {
+            let columns: Vec<f64> = f.iter().flat_map(|&entry| vec![entry; stride]).collect();
+            shapes.measure(&columns, &mut measures);
+            dissipated = viscosity.advance(&medium(), &shapes, &mut measures, &intact, step);
+        }
+        let splat = |array: &[f64], component: usize| Lanes::splat(array[component * stride]);
+        let section = [0, 1, 2].map(|component| splat(&viscosity.section, component));
+        let columns: Vec<Lanes<f64>> = to.iter().map(|&entry| Lanes::splat(entry)).collect();
+        let columns = columns.try_into().unwrap_or_else(|_| unreachable!("nine entries"));
+        let nominal = first_piola_kirchhoff(&columns, &[Lanes::splat(0.0); 6], splat(&viscosity.along, 0), &section);
+        let nominal = Matrix3::from_fn(|i, j| nominal[j][i].0[0]);
+        (nominal * to.transpose() / to.determinant(), dissipated / shapes.volume[0])
+    }
+
+    /// The same by the formulas at the head of this file.
+    fn expected(from: Matrix3<f64>, to: Matrix3<f64>) -> Matrix3<f64> {
+        let Medium { density, wave_speed, compaction_speed, distortion_speed, .. } = medium();
+        let rate = (to - from) / STEP * to.try_inverse().expect("it is regular");
+        let rate = 0.5 * (rate + rate.transpose());
+        let m = to.column(0).normalize();
+        let (along, across) = (m * m.transpose(), Matrix3::identity() - m * m.transpose());
+        let [shortening, narrowing] = [-along.dot(&rate), -across.dot(&rate)];
+        let resist = |length: f64, speed: f64, rate: f64, closing: f64| {
+            length * (CONTROL.quadratic * length * closing.powi(2) + CONTROL.linear * speed * rate)
+        };
+        let q_m = resist(LENGTH, wave_speed, shortening, shortening.max(0.0));
+        let q_t = resist(BREADTH, compaction_speed, narrowing.max(0.0), narrowing.max(0.0));
+        let shape = across * rate * across + 0.5 * narrowing * across;
+        let stress = 2.0 * BREADTH * CONTROL.shape * distortion_speed * shape - q_m * along - q_t * across;
+        density / to.determinant() * stress
+    }
+
+    fn assert_close(found: f64, expected: f64, scale: f64) {
+        assert!((found - expected).abs() < 1e-4 * scale, "{found}, expected {expected}");
+    }
+
+    /// Placements from which a step is made: at rest, and stretched, slipped and turned.
+    fn placements() -> [Matrix3<f64>; 2] {
+        [Matrix3::identity(), Matrix3::new(0.6, -0.9, 0.2, 0.8, 0.7, -0.4, 0.1, 0.3, 0.9)]
+    }
+
+    #[test]
+    fn every_motion_is_resisted_as_the_formulas_say() {
+        let steps = [
+            Matrix3::from_diagonal(&[1.0, 0.0, 0.0].into()),
+            Matrix3::from_diagonal(&[-1.0, 0.0, 0.0].into()),
+            Matrix3::from_diagonal(&[0.0, -1.0, 0.0].into()),
+            Matrix3::from_diagonal(&[0.0, 1.0, 1.0].into()),
+            Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0),
+            Matrix3::new(0.3, -0.5, 0.2, 0.1, -0.7, 0.4, 0.6, -0.2, 0.5),
+        ];
+        // Rates at which the linear terms lead, and the quadratic ones.
+        for (from, size) in placements().into_iter().flat_map(|from| [(from, 1e-6), (from, 1e-3)]) {
+            for step in steps {
+                let to = from + size * step;
+                let ((found, _), expected) = (resist(from, to), expected(from, to));
+                // A stress of 1 Pa is rounding: these are of some thousands.
+                let scale = expected.norm().max(1.0);
+                // Rates are told from differences here, exact to their size.
+                let error = (found - expected).norm();
+                assert!(error < 1e-4_f64.max(10.0 * size) * scale, "{found} expected {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn swelling_slip_and_rotation_are_free() {
+        for from in placements() {
+            let turn = nalgebra::Rotation3::from_euler_angles(1e-4, -2e-4, 3e-4).into_inner();
+            let slip = Matrix3::new(1.0, 1e-4, -2e-4, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+            let swell = Matrix3::from_diagonal(&[1.0, 1.0 + 1e-4, 1.0 + 1e-4].into());
+            for to in [turn * from, from * slip] {
+                assert!(resist(from, to).0.norm() < 1e-9 * resist(from, from * swell.transpose() * 0.999).0.norm());
+            }
+        }
+        let (stress, dissipated) = resist(Matrix3::identity(), Matrix3::from_diagonal(&[1.0, 1.0001, 1.0001].into()));
+        assert!(stress.norm() < 1e-6 && dissipated.abs() < 1e-12, "{stress}, {dissipated}");
+    }
+
+    #[test]
+    fn what_is_dissipated_is_the_work_of_the_stress() {
+        // The trapezoidal rule has half of it: there was none before.
+        for from in placements() {
+            let to = from + 1e-6 * Matrix3::new(0.3, -0.5, 0.2, 0.1, -0.7, 0.4, 0.6, -0.2, 0.5);
+            let (stress, dissipated) = resist(from, to);
+            let nominal = to.determinant() * stress * to.try_inverse().expect("it is regular").transpose();
+            let work = 0.5 * nominal.dot(&(to - from));
+            assert!(work > 0.0, "{work}");
+            assert_close(dissipated, work, work);
+        }
+    }
+
+    #[test]
+    fn compaction_and_distortion_have_their_speeds() {
+        let Medium { compaction_speed, distortion_speed, .. } = medium();
+        assert!((compaction_speed - 797.0).abs() < 1.0, "{compaction_speed}");
+        assert!((distortion_speed - 346.7).abs() < 0.1, "{distortion_speed}");
+    }
+}

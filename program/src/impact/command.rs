@@ -1,0 +1,117 @@
+//! `toron impact`: from the file of a scene to its histories, pictures and table.
+
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rayon::prelude::*;
+
+use super::run::{self, Observer, Outcome};
+use super::scene::{Case, Scene};
+use super::{plot, report, summary, yarn_picture};
+use crate::explicit::vtu;
+use crate::{Error, print};
+
+/// Ticks of the progress bar for each case.
+const TICKS: u64 = 1000;
+
+/// Runs the cases of a scene and writes what came of them to the directory `output`.
+///
+/// A case that has no result keeps no other from having one.
+///
+/// # Errors
+/// The input, a file that cannot be written, or the cases that have no result.
+pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
+    let scene = Scene::read(path)?;
+    if output.exists() && !output.is_dir() {
+        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
+    }
+    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    let bar = ProgressBar::with_draw_target(Some(TICKS * scene.cases.len() as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
+        bar.set_style(style);
+    }
+    let runs: Vec<_> = scene.cases.par_iter().map(|case| run_case(&scene, case, output, &bar)).collect();
+    bar.finish_and_clear();
+    let (mut results, mut faults) = (Vec::new(), Vec::new());
+    for (case, run) in scene.cases.iter().zip(runs) {
+        match run {
+            Ok(outcome) => results.push((case, outcome)),
+            Err(error) => faults.push(error),
+        }
+    }
+    if !results.is_empty() {
+        write_comparison(&scene, &results, output)?;
+    }
+    all(faults)
+}
+
+/// What the cases that have a result have in common.
+fn write_comparison(scene: &Scene, results: &[(&Case, Outcome)], output: &Path) -> Result<(), Error> {
+    if let Some(abscissa) = scene.abscissa {
+        let [svg, png] = ["residual-speed.svg", "residual-speed.png"].map(|name| output.join(name));
+        plot::write_comparison(&svg, &png, scene, abscissa, results)?;
+    }
+    summary::write(&output.join("summary.csv"), results)?;
+    print(&report::report(scene, results, output));
+    Ok(())
+}
+
+/// The errors of the cases that have no result as one.
+fn all(faults: Vec<Error>) -> Result<(), Error> {
+    let messages: Vec<String> = faults.iter().map(Error::to_string).collect();
+    match faults.first() {
+        None => Ok(()),
+        Some(Error::Input(_)) => Err(Error::Input(messages.join("\n"))),
+        Some(Error::Evaluation(_)) => Err(Error::Evaluation(messages.join("\n"))),
+    }
+}
+
+/// Runs a case and writes its files.
+fn run_case(scene: &Scene, case: &Case, output: &Path, bar: &ProgressBar) -> Result<Outcome, Error> {
+    let mut follower = Follower { case, output, bar, ticks: 0, frames: Vec::new() };
+    let result = run::run(case, &mut follower);
+    // A case that ends early has not used its ticks.
+    follower.progress(1.0);
+    let result = result?;
+    write_case(scene, case, &result, output)?;
+    Ok(result)
+}
+
+/// Moves the bar, and writes ParaView's files as they come.
+struct Follower<'a> {
+    case: &'a Case,
+    output: &'a Path,
+    bar: &'a ProgressBar,
+    ticks: u64,
+    frames: Vec<(f64, String)>,
+}
+
+impl Observer for Follower<'_> {
+    fn progress(&mut self, fraction: f64) {
+        let ticks = (fraction.clamp(0.0, 1.0) * TICKS as f64) as u64;
+        self.bar.inc(ticks - self.ticks);
+        self.ticks = ticks;
+    }
+
+    fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
+        let name = format!("{}-{:04}.vtu", self.case.name, self.frames.len());
+        write_text(&self.output.join(&name), text)?;
+        self.frames.push((time, name));
+        write_text(&self.output.join(format!("{}.pvd", self.case.name)), &vtu::collection(&self.frames))
+    }
+}
+
+fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
+    let file = |ending: &str| output.join(format!("{}{ending}", case.name));
+    summary::write_history(&file(".csv"), result)?;
+    plot::write_history(&file(".svg"), &file(".png"), scene, case, result)?;
+    for (number, snapshot) in result.snapshots.iter().enumerate() {
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("-yarn-{}.{ending}", number + 1)));
+        yarn_picture::write(&svg, &png, scene, case, result, snapshot)?;
+    }
+    Ok(())
+}
+
+fn write_text(file: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(file, text).map_err(|error| Error::Input(format!("{}: {error}", file.display())))
+}

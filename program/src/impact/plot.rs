@@ -1,0 +1,180 @@
+//! Plots of a case's history, and of the residual speed over what the cases differ in.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+
+use super::run::{Outcome, STATIONS, Sample};
+use super::scene::{Abscissa, Case, Scene, Striker};
+use crate::Error;
+use crate::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::plot::{self, Panel, Series, tidy};
+use crate::unit_names::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
+use toron::law::parameters::ENERGY_DENSITY;
+
+/// Width of a history, height of its titles and of a row of panels, and the panels of a row.
+const WIDTH: u32 = 1280;
+const HEAD: u32 = 84;
+const ROW: u32 = 378;
+const PER_ROW: usize = 2;
+/// A line that moves by less than this part of itself stands still to the eye.
+const STILL: f64 = 0.01;
+const COMPARISON: [u32; 2] = [760, 480];
+
+/// Speed, energies, largest energy densities and widths of a case over time, as far as they change.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
+    let panels: Vec<Panel> = panels(scene, case, result).into_iter().filter(moves).collect();
+    let rows = panels.len().div_ceil(PER_ROW).max(1);
+    picture::write(svg, png, [WIDTH, HEAD + ROW * rows as u32], |root| {
+        root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+        root.draw_text(&case.name, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+        let (_, body) = root.split_vertically(fine(HEAD as i32));
+        let abscissa = plot::Abscissa {
+            label: format!("time ({})", unit(&scene.units, TIME)),
+            values: result.samples.iter().map(|sample| sample.time).collect(),
+            failure: result.broken.map(|(time, _)| time),
+        };
+        for (panel, area) in panels.iter().zip(body.split_evenly((rows, PER_ROW))) {
+            panel.draw(&area, &abscissa)?;
+        }
+        Ok(())
+    })
+}
+
+/// Whether anything happens in a panel.
+fn moves(panel: &Panel) -> bool {
+    panel.series.iter().any(|series| {
+        let bounds = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = series.values.iter().fold(bounds, |(low, high), &value| (low.min(value), high.max(value)));
+        high - low > STILL * high.abs().max(low.abs())
+    })
+}
+
+fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
+        name: name.to_string(),
+        colour: COLOURS[colour % COLOURS.len()],
+        values: result.samples.iter().map(of).collect(),
+    };
+    let panel = |title, dimension, series: Vec<Series>| Panel {
+        title,
+        unit: unit(&scene.units, dimension),
+        series: tidy(series),
+        limit: None,
+    };
+    let mut energies = vec![
+        line(1, "kinetic", &|s| s.energies.kinetic),
+        line(2, "internal", &|s| s.energies.internal),
+        line(3, "all other", &|s| s.energies.other()),
+    ];
+    // What is held or driven has its energy from outside.
+    if let Striker::Cylinder { held: false, .. } = case.striker {
+        energies.insert(0, line(0, "projectile", &|s| s.energies.projectile));
+        energies.push(Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) });
+    } else {
+        energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.energies.external) });
+    }
+    let modes = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
+    let length = scene.units.names()[0];
+    let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.yarn.length);
+    [
+        panel("Speed of the projectile", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        panel("Energies", ENERGY, energies),
+        panel(
+            "Largest energy per reference volume",
+            ENERGY_DENSITY,
+            (0..modes.len()).map(|mode| line(mode, modes[mode], &|s| s.largest[mode])).collect(),
+        ),
+        Panel {
+            title: "Width of the section by place",
+            unit: length.to_string(),
+            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.widths[i])).collect(),
+            limit: None,
+        },
+    ]
+}
+
+/// The residual speeds of all cases over the scene's abscissa, which is logarithmic.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_comparison(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    abscissa: Abscissa,
+    results: &[(&Case, Outcome)],
+) -> Result<(), Error> {
+    let points: Vec<Point> = results.iter().map(|(case, result)| point(abscissa, case, result)).collect();
+    let label = match abscissa {
+        Abscissa::Elements => "elements".to_string(),
+        Abscissa::ContactStiffness => format!("contact stiffness ({})", unit(&scene.units, CONTACT_STIFFNESS)),
+    };
+    picture::write(svg, png, COMPARISON, |root| draw_comparison(root, scene, &label, &points))
+}
+
+/// A case in the comparison.
+struct Point<'a> {
+    name: &'a str,
+    place: (f64, f64),
+    /// Whether its speed is the residual one, or what the run has ended with.
+    residual: bool,
+}
+
+fn point<'a>(abscissa: Abscissa, case: &'a Case, result: &Outcome) -> Point<'a> {
+    let x = match (abscissa, case.striker) {
+        (Abscissa::ContactStiffness, Striker::Cylinder { cylinder, .. }) => cylinder.stiffness,
+        _ => result.mesh.elements.len() as f64,
+    };
+    let residual = result.residual_speed();
+    Point { name: &case.name, place: (x, residual.unwrap_or(result.last().speed)), residual: residual.is_some() }
+}
+
+fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[Point]) -> Drawn<()> {
+    root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+    let hollow = if points.iter().all(|point| point.residual) { "" } else { "; hollow: at the end of the run" };
+    let ordinate = format!("Residual speed ({}){hollow}", unit(&scene.units, SPEED));
+    root.draw_text(&ordinate, &text(HEADING, &INK), (fine(24), fine(56)))?;
+    let (_, body) = root.split_vertically(fine(88));
+    let (left, right) =
+        points.iter().fold((f64::INFINITY, 0.0_f64), |(l, r), point| (l.min(point.place.0), r.max(point.place.0)));
+    let top = points.iter().map(|point| point.place.1).fold(0.0, f64::max);
+    let (x, y) = ((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0));
+    let x_label = |x: &f64| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") };
+    let mut chart = plot::chart(&body, x, y, label, [&x_label, &|y| format!("{y:.0}")])?;
+    for point in points {
+        chart.draw_series([Circle::new(
+            point.place,
+            fine(5),
+            if point.residual { COLOURS[0].filled() } else { stroke(COLOURS[0], 2) },
+        )])?;
+        let (x, y) = chart.backend_coord(&point.place);
+        let style = text(TEXT, &INK);
+        let (width, _) = body.estimate_text_size(point.name, &style)?;
+        let (_, above) = body.get_base_pixel();
+        body.draw_text(point.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_where_nothing_happens_is_empty() {
+        let panel = |lines: &[[f64; 3]]| {
+            let line = |values: &[f64; 3]| Series { name: String::new(), colour: INK, values: values.to_vec() };
+            Panel { title: "", unit: String::new(), series: lines.iter().map(line).collect(), limit: None }
+        };
+        assert!(!moves(&panel(&[])));
+        assert!(!moves(&panel(&[[0.0; 3]])));
+        assert!(!moves(&panel(&[[200.0; 3], [0.534, 0.534, 0.536]])));
+        assert!(moves(&panel(&[[200.0; 3], [0.534, 0.534, 0.55]])));
+        assert!(moves(&panel(&[[0.0, 1e-6, 0.0]])));
+        assert!(moves(&panel(&[[-120.0, 3.0, -120.0]])));
+    }
+}

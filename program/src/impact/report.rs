@@ -1,0 +1,175 @@
+//! What the program says of a scene when it has run: a table that a terminal has room for, warnings, and where the files are.
+
+use std::path::Path;
+
+use super::run::Outcome;
+use super::scene::{Case, Scene, Striker};
+use super::summary::{NONE, maybe, outcome};
+use crate::unit_names::{SPEED, TIME, number, unit};
+
+/// Columns of a terminal.
+const WIDTH: usize = 100;
+/// A case's name of more letters is cut in the table.
+const LONGEST_NAME: usize = 30;
+/// What stands between two columns of the table.
+const GAP: &str = "  ";
+/// The columns of every table, which are never left out: the case, and one thing about it.
+const FEWEST: usize = 2;
+/// Hourglass modes that hold more than this part of the internal energy are no longer beside the point.
+const LARGEST_HOURGLASS: f64 = 0.1;
+
+type Results<'a> = [(&'a Case, Outcome)];
+
+/// Title, tables, warnings and the files in `output`.
+pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
+    let warnings: String = results.iter().filter_map(|(case, result)| hourglass_warning(case, result)).collect();
+    let parts = [table(struck(scene, results)), table(driven(scene, results)), warnings, files(scene, results, output)];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    format!("{}\n\n{}", scene.title, parts.join("\n"))
+}
+
+/// What to do about hourglass modes that hold too much.
+///
+/// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held against.
+pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
+    let share = result.hourglass_share();
+    let measured_to = result.broken.map_or(result.last().time, |(time, _)| time);
+    let at_clamp = case.yarn.length / result.smith.fastest;
+    (share > LARGEST_HOURGLASS && measured_to >= 2.0 * at_clamp).then(|| {
+        format!(
+            "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
+             take a finer mesh, or another hourglass than {}\n",
+            case.name,
+            100.0 * share,
+            100.0 * LARGEST_HOURGLASS,
+            case.control.hourglass
+        )
+    })
+}
+
+/// A column of a table: two lines of heading, and an entry for each case.
+struct Column {
+    heading: [String; 2],
+    entries: Vec<String>,
+}
+
+impl Column {
+    fn width(&self) -> usize {
+        self.heading.iter().chain(&self.entries).map(|text| text.chars().count()).fold(0, usize::max)
+    }
+
+    fn says_something(&self) -> bool {
+        self.entries.iter().any(|entry| entry != NONE)
+    }
+}
+
+/// A name that leaves room for something beside it.
+fn shortened(name: &str) -> String {
+    if name.chars().count() <= LONGEST_NAME {
+        name.to_string()
+    } else {
+        name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
+    }
+}
+
+/// Builds a column of the cases that belong to a table.
+fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn(&Case, &Outcome) -> String) -> Column {
+    let entries = cases.iter().map(|(case, result)| entry(case, result)).collect();
+    Column { heading: [above.to_string(), below.to_string()], entries }
+}
+
+fn broken_at(_: &Case, result: &Outcome) -> String {
+    maybe(result.broken.map(|(time, _)| time), number)
+}
+
+/// The columns for what a projectile has struck, the most important first.
+fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
+    let cases: Vec<_> = results.iter().filter(|(case, _)| case.striker != Striker::Driven).collect();
+    let [time, speed] = [TIME, SPEED].map(|dimension| unit(&scene.units, dimension));
+    let at_end = |result: &Outcome| result.residual_speed().is_none().then(|| result.last().speed);
+    let index = |result: &Outcome| Some(result.largest_index()).filter(|&index| index > 0.0);
+    let mut columns = vec![
+        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
+        column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
+        column(&cases, ["broken at", &time], broken_at),
+        column(&cases, ["residual", &speed], |_, result| maybe(result.residual_speed(), number)),
+        column(&cases, ["at end", &speed], |_, result| maybe(at_end(result), number)),
+        column(&cases, ["failure", "index"], |_, result| maybe(index(result), |index| format!("{index:.3}"))),
+        column(&cases, ["elements", "deleted"], |_, result| result.last().deleted.to_string()),
+    ];
+    columns.extend(costs(&cases));
+    columns
+}
+
+/// The columns for yarns whose middle is driven, beside Smith's theory.
+fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
+    let cases: Vec<_> = results.iter().filter(|(case, _)| case.striker == Striker::Driven).collect();
+    let speed = unit(&scene.units, SPEED);
+    let wave = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.longitudinal);
+    let kink = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.transverse);
+    let percent = |strain: f64| number(100.0 * strain);
+    let strain = |case: &Case, result: &Outcome| result.plateau(case.yarn.length);
+    // Theory stands only beside what was measured.
+    let beside = |measured: Option<f64>, theory: String| measured.map_or(NONE.to_string(), |_| theory);
+    let waves = |result: &Outcome| format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest));
+    let mut columns = vec![
+        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
+        column(&cases, ["longitudinal", &speed], |case, result| maybe(wave(case, result), number)),
+        column(&cases, ["theory", &speed], |case, result| beside(wave(case, result), waves(result))),
+        column(&cases, ["strain", "%"], |case, result| maybe(strain(case, result), percent)),
+        column(&cases, ["theory", "%"], |case, result| beside(strain(case, result), percent(result.smith.strain))),
+        column(&cases, ["transverse", &speed], |case, result| maybe(kink(case, result), number)),
+        column(&cases, ["theory", &speed], |case, result| beside(kink(case, result), number(result.smith.transverse))),
+        column(&cases, ["broken at", &unit(&scene.units, TIME)], broken_at),
+    ];
+    columns.extend(costs(&cases));
+    columns
+}
+
+/// What the balance of energy has lost, and the time that a run took.
+fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
+    [
+        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.imbalance())),
+        column(cases, ["run", "s"], |_, result| format!("{:.1}", result.cost.total().as_secs_f64())),
+    ]
+}
+
+/// The table without columns that say nothing and, where it is too wide, without the last ones. Words stand on the left of
+/// their column, numbers on the right.
+fn table(columns: Vec<Column>) -> String {
+    let mut columns: Vec<Column> = columns.into_iter().filter(Column::says_something).collect();
+    let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
+    while columns.len() > FEWEST && width(&columns) > WIDTH {
+        columns.pop();
+    }
+    let Some(cases) = columns.first().map(|column| column.entries.len()) else { return String::new() };
+    let line = |text: &dyn Fn(&Column) -> String| {
+        let cells = columns.iter().map(|column| {
+            let (text, width) = (text(column), column.width());
+            // Words have no unit.
+            if column.heading[1].is_empty() { format!("{text:<width$}") } else { format!("{text:>width$}") }
+        });
+        format!("{}\n", cells.collect::<Vec<_>>().join(GAP).trim_end())
+    };
+    let mut text: String = (0..2).map(|i| line(&|column| column.heading[i].clone())).collect();
+    text.push_str(&line(&|column| "-".repeat(column.width())));
+    text.extend((0..cases).map(|case| line(&|column| column.entries[case].clone())));
+    text
+}
+
+/// The names of what was written, with `NAME` for the cases.
+fn files(scene: &Scene, results: &Results, output: &Path) -> String {
+    let pictures = results.iter().any(|(_, result)| !result.snapshots.is_empty());
+    let frames = results.iter().any(|(case, _)| case.frames > 0);
+    let files = [
+        (true, "summary.csv", "a line for every case, with all that is known of it"),
+        (scene.abscissa.is_some(), "residual-speed.svg, .png", "the cases side by side"),
+        (true, "NAME.csv", "the history of case NAME"),
+        (true, "NAME.svg, .png", "plots of it"),
+        (pictures, "NAME-yarn-1.svg, .png, …", "the yarn at those times of pictures that the run came to"),
+        (frames, "NAME.pvd, NAME-0000.vtu, …", "a series for ParaView"),
+    ];
+    let written = files.into_iter().filter(|(written, ..)| *written);
+    let lines = written.map(|(_, names, meaning)| format!("  {names:<28}{meaning}\n"));
+    format!("Files in {}:\n{}", output.display(), lines.collect::<String>())
+}

@@ -1,0 +1,211 @@
+//! The files of figures: a line for every case, how it ended, with what speed, energies and cost; and a case's history.
+
+use std::path::Path;
+
+use super::run::{End, Outcome};
+use super::scene::{Case, Outputs, Precision, Striker, Zones};
+use super::smith::Smith;
+use crate::Error;
+use crate::unit_names::number;
+
+/// A column that has nothing to say about a case.
+pub(super) const NONE: &str = "-";
+
+/// How a case ended, in words.
+pub fn outcome(result: &Outcome) -> &'static str {
+    match (result.end, result.broken) {
+        (End::Stopped, None) => "not penetrated",
+        (End::Stopped, Some(_)) => "broken, stopped",
+        (End::Left, _) => "penetrated",
+        (End::Time, Some(_)) => "broken, not over",
+        (End::Time, None) => "unbroken, not over",
+    }
+}
+
+fn law(case: &Case) -> String {
+    let mut name = match &case.zones {
+        Zones::One(material) => material.law_name().to_string(),
+        Zones::Two(_, length) => {
+            let layers = case.yarn.layers_to(*length) as f64;
+            format!("hyperelastic to {}", number(layers / case.yarn.layers as f64 * case.yarn.length))
+        }
+    };
+    if case.precision == Precision::F32 {
+        name.push_str(", f32");
+    }
+    if case.outputs == Outputs::Stress {
+        name.push_str(", stress only");
+    }
+    name
+}
+
+/// Titles and entries of a case's line.
+fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
+    let length = case.yarn.length;
+    let mut cells = vec![
+        ("case", case.name.clone()),
+        ("law", law(case)),
+        ("elements", result.mesh.elements.len().to_string()),
+        ("speed", number(case.speed)),
+        ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), number)),
+    ];
+    match case.striker {
+        Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
+        Striker::Driven => smith_cells(length, result, &mut cells),
+    }
+    cells.extend([
+        ("imbalance", format!("{:.0e}", result.imbalance())),
+        ("steps", result.cost.steps.to_string()),
+        ("seconds", decimals(result.cost.total().as_secs_f64(), 2)),
+        ("ns_per_zone_cycle", decimals(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
+        ("law_share", decimals(result.cost.law.as_secs_f64() / result.cost.total().as_secs_f64(), 2)),
+    ]);
+    cells
+}
+
+/// A number of so many decimals, for what has no unit or seconds.
+fn decimals(value: f64, digits: usize) -> String {
+    format!("{value:.digits$}")
+}
+
+pub(super) fn maybe(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    value.map_or(NONE.to_string(), text)
+}
+
+/// What a projectile's case has to say.
+fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
+    let last = result.last();
+    let broken = |of: fn((f64, f64)) -> f64| maybe(result.broken.map(of), number);
+    cells.extend([
+        ("contact_stiffness", format!("{stiffness:e}")),
+        ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), number)),
+        ("outcome", outcome(result).to_string()),
+        ("residual_speed", maybe(result.residual_speed(), number)),
+        ("speed_at_end", number(last.speed)),
+        ("broken_at", broken(|(time, _)| time)),
+        ("speed_then", broken(|(_, speed)| speed)),
+        ("deleted", last.deleted.to_string()),
+        ("collapsed", last.collapsed.to_string()),
+        ("end", number(last.time)),
+        ("hourglass_share", decimals(result.hourglass_share(), 3)),
+        ("index_max", decimals(result.largest_index(), 3)),
+        ("w_el_at_end", number(last.largest[0])),
+        ("w_tc_at_end", number(last.largest[1])),
+        ("w_td_at_end", number(last.largest[2])),
+        ("work_at_end", number(last.largest[4])),
+    ]);
+}
+
+/// What Smith's theory can be held against.
+fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, String)>) {
+    let Smith { strain, fastest, slowest, transverse } = result.smith;
+    cells.extend([
+        ("longitudinal_theory", format!("{}-{}", number(fastest), number(slowest))),
+        ("strain_percent", maybe(result.plateau(length), |strain| number(100.0 * strain))),
+        ("strain_theory", number(100.0 * strain)),
+        ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), number)),
+        ("transverse_theory", number(transverse)),
+        ("outcome", outcome(result).to_string()),
+        ("broken_at", maybe(result.broken.map(|(time, _)| time), number)),
+        ("deleted", result.last().deleted.to_string()),
+        ("collapsed", result.last().collapsed.to_string()),
+        ("end", number(result.last().time)),
+    ]);
+}
+
+/// The titles of all cases' columns, and a line for each case.
+fn lines(results: &[(&Case, Outcome)]) -> (Vec<&'static str>, Vec<Vec<String>>) {
+    let cells: Vec<_> = results.iter().map(|(case, result)| cells(case, result)).collect();
+    let mut titles: Vec<&'static str> = Vec::new();
+    for &(title, _) in cells.iter().flatten() {
+        if !titles.contains(&title) {
+            titles.push(title);
+        }
+    }
+    let entry = |line: &[(&str, String)], title: &str| {
+        line.iter().find(|cell| cell.0 == title).map_or(NONE.to_string(), |cell| cell.1.clone())
+    };
+    let lines = cells.iter().map(|line| titles.iter().map(|title| entry(line, title)).collect()).collect();
+    (titles, lines)
+}
+
+/// Writes the table as CSV.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
+    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let (titles, lines) = lines(results);
+    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    writer.write_record(titles).map_err(fault)?;
+    for line in lines {
+        writer.write_record(line).map_err(fault)?;
+    }
+    writer.flush().map_err(|error| fault(error.into()))
+}
+
+/// Writes the history of a case.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
+    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    writer
+        .write_record([
+            "time",
+            "speed",
+            "travel",
+            "force",
+            "projectile_energy",
+            "kinetic_energy",
+            "internal_energy",
+            "hourglass_energy",
+            "viscosity_energy",
+            "friction_energy",
+            "contact_energy",
+            "external_work",
+            "total_energy",
+            "elongation_energy",
+            "compaction_energy",
+            "distortion_energy",
+            "shear_energy",
+            "linear_work",
+            "w_el_max",
+            "w_tc_max",
+            "w_td_max",
+            "w_ld_max",
+            "work_max",
+            "w_el_min",
+            "w_tc_free",
+            "w_td_free",
+            "failure_index_max",
+            "deleted",
+            "collapsed",
+            "longitudinal_front",
+            "transverse_front",
+            "strain",
+            "width_1",
+            "width_2",
+            "width_3",
+            "width_4",
+        ])
+        .map_err(fault)?;
+    for sample in &result.samples {
+        let e = sample.energies;
+        let line = (
+            [sample.time, sample.speed, sample.travel, sample.force],
+            [e.projectile, e.kinetic, e.internal, e.hourglass, e.viscosity, e.friction, e.contact, e.external],
+            e.total(),
+            sample.parts,
+            sample.largest,
+            [sample.least, sample.free[1], sample.free[2], sample.index],
+            sample.deleted,
+            sample.collapsed,
+            [sample.longitudinal, sample.transverse, sample.strain],
+            sample.widths,
+        );
+        writer.serialize(line).map_err(fault)?;
+    }
+    writer.flush().map_err(|error| fault(error.into()))
+}

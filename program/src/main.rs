@@ -1,0 +1,78 @@
+//! The program `toron`: arguments only.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use toron_program::eval::Entry;
+use toron_program::{Error, bench, command, eval, impact, params};
+
+/// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
+#[derive(Parser)]
+#[command(version = params::version())]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Take one element along a load path; write a table and a plot of it.
+    Run {
+        /// The load path (see docs/load-paths.md); without it, a demonstration: compaction, then tension to failure.
+        path: Option<PathBuf>,
+        /// Where the table and the plot go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
+    /// Print the tables of properties and state variables, the presets, or a preset as a deck.
+    Params {
+        /// Unit system, for instance mm-tonne-s; without it, si.
+        #[arg(long)]
+        units: Option<String>,
+        /// Print this preset, ready for LS-DYNA and Abaqus decks.
+        #[arg(long)]
+        preset: Option<String>,
+    },
+    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
+    /// eps_lim, alpha, beta}}.
+    Eval {
+        /// The C entry to go through, as its host would call it.
+        #[arg(long, value_enum, default_value = "law")]
+        via: Entry,
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it (every entry but the VUMATs).
+        #[arg(long)]
+        tangent: bool,
+    },
+    /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
+    Impact {
+        /// The scene (see docs/impact.md and examples/yarn_impact/).
+        scene: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
+    /// Measure what a point costs on this machine; takes a few seconds.
+    Bench {
+        /// Where to write the figures as bench.json.
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
+}
+
+fn main() -> ExitCode {
+    let answer: Result<(), Error> = match Arguments::parse().command {
+        Command::Run { path, output } => command::run(path.as_deref(), &output),
+        Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
+        Command::Eval { via, tangent } => eval::lines(via, tangent),
+        Command::Impact { scene, output } => impact::command::run(&scene, &output),
+        Command::Bench { output } => bench::run(output.as_deref()),
+    };
+    match answer {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("toron: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}

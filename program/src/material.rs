@@ -1,0 +1,226 @@
+//! Either law behind one face: properties, memory, evaluation from the deformation gradient.
+
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use toron::law::hyperelastic::{Hyperelastic, Request};
+use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
+use toron::law::parameters::{self, FIBRE, LINEAR_FIBRE, Property, STRESS};
+use toron::law::state::{self, ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
+use toron::law::state::{
+    LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
+};
+use toron::law::status;
+
+/// A law, prepared.
+#[derive(Clone, Copy, Debug)]
+pub enum Law {
+    Hyperelastic(Hyperelastic<f64>),
+    LinearElastic { law: LinearElastic, frame: Rotation, criterion: Criterion },
+}
+
+/// What a point is made of.
+#[derive(Clone, Debug)]
+pub struct Material {
+    pub law: Law,
+    /// In the order of [`table`](Self::table).
+    pub values: Vec<f64>,
+    /// Reference density, for wave speeds.
+    pub density: Option<f64>,
+    /// The preset's name, or the law's.
+    pub label: String,
+}
+
+/// What a point remembers from one increment to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Memory {
+    /// Deformation gradient of the last increment.
+    pub f: Matrix3<f64>,
+    /// State variables; the linear elastic law's are the first ones.
+    pub state: [f64; HYPERELASTIC_STATE],
+    /// The linear elastic law's axes, which follow the spin where that is its frame.
+    axes: Matrix3<f64>,
+}
+
+/// dP/dF, both by columns 11 21 31 12 22 32 13 23 33.
+pub type NominalTangent = SMatrix<f64, 9, 9>;
+
+/// What the material answers to a deformation gradient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    /// Cauchy stress 11 22 33 12 23 31.
+    pub cauchy: [f64; 6],
+    pub memory: Memory,
+    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31; 0 for the linear elastic law.
+    pub modes: [[f64; 6]; 4],
+    /// ρ0 c² for a bound c of the wave speed.
+    pub wave_modulus: f64,
+}
+
+impl Law {
+    /// Checks the properties of either law, which the table names, and prepares it.
+    ///
+    /// # Errors
+    /// The first property that is wrong.
+    pub fn new(
+        table: &'static [Property],
+        values: &[f64],
+        frame: Rotation,
+        criterion: Criterion,
+    ) -> Result<Law, status::Error> {
+        if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) {
+            let law = LinearElastic::new(values)?;
+            return Ok(Law::LinearElastic { law, frame, criterion });
+        }
+        Hyperelastic::new(values).map(Law::Hyperelastic)
+    }
+}
+
+impl Material {
+    /// The law's table of properties.
+    pub fn table(&self) -> &'static [Property] {
+        match self.law {
+            Law::Hyperelastic(_) => &parameters::HYPERELASTIC,
+            Law::LinearElastic { .. } => &parameters::LINEAR_ELASTIC,
+        }
+    }
+
+    /// The law's table of state variables.
+    pub fn state_table(&self) -> &'static [StateVariable] {
+        match self.law {
+            Law::Hyperelastic(_) => &state::HYPERELASTIC,
+            Law::LinearElastic { .. } => &state::LINEAR_ELASTIC,
+        }
+    }
+
+    pub fn law_name(&self) -> &'static str {
+        match self.law {
+            Law::Hyperelastic(_) => "hyperelastic",
+            Law::LinearElastic { .. } => "linear elastic",
+        }
+    }
+
+    /// Unit fibre direction in the reference placement.
+    pub fn fibre(&self) -> Vector3<f64> {
+        let first = match self.law {
+            Law::Hyperelastic(_) => FIBRE,
+            Law::LinearElastic { .. } => LINEAR_FIBRE,
+        };
+        Vector3::from_column_slice(&self.values[first..first + 3]).normalize()
+    }
+
+    /// The value of the property of this name.
+    pub fn property(&self, name: &str) -> Option<f64> {
+        let index = self.table().iter().position(|property| property.name == name)?;
+        Some(self.values[index])
+    }
+
+    /// The largest of the properties that are a stress: what counts as a small stress is measured by it.
+    pub fn stress_scale(&self) -> f64 {
+        let stresses = self.table().iter().zip(&self.values).filter(|(property, _)| property.dimension == STRESS);
+        stresses.map(|(_, &value)| value).fold(0.0, f64::max)
+    }
+
+    /// The memory of a point at rest.
+    pub fn at_rest(&self) -> Memory {
+        let axes = match &self.law {
+            Law::Hyperelastic(_) => Matrix3::identity(),
+            Law::LinearElastic { law, .. } => law.reference_axes(),
+        };
+        Memory { f: Matrix3::identity(), state: [0.0; HYPERELASTIC_STATE], axes }
+    }
+
+    /// The stress and the new memory at the deformation gradient `f`.
+    ///
+    /// # Errors
+    /// The law's status code where it cannot be evaluated.
+    pub fn evaluate(&self, f: &Matrix3<f64>, memory: &Memory, request: Request) -> Result<Answer, i32> {
+        let mut new = Memory { f: *f, ..*memory };
+        match &self.law {
+            Law::Hyperelastic(law) => {
+                let point = law.point(f, &memory.state, request);
+                new.state = point.state;
+                let (cauchy, modes, wave_modulus) = (point.stress, point.modes, point.wave_modulus);
+                accept(point.status, Answer { cauchy, memory: new, modes, wave_modulus })
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut old = [0.0; LINEAR_ELASTIC_STATE];
+                old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
+                let point = law.step(&memory.f, f, &old, *frame, *criterion, &mut new.axes);
+                new.state[..LINEAR_ELASTIC_STATE].copy_from_slice(&point.state);
+                let (cauchy, wave_modulus) = (point.stress, law.wave_modulus());
+                accept(point.status, Answer { cauchy, memory: new, modes: [[0.0; 6]; 4], wave_modulus })
+            }
+        }
+    }
+
+    /// The Cauchy stress at the deformation gradient `f`, and dP/dF.
+    ///
+    /// # Errors
+    /// The law's status code where it cannot be evaluated.
+    pub fn tangent(&self, f: &Matrix3<f64>, memory: &Memory) -> Result<([f64; 6], NominalTangent), i32> {
+        let (cauchy, nominal, status) = match &self.law {
+            Law::Hyperelastic(law) => {
+                let request = Request { stress: true, ..Request::default() };
+                let (point, nominal) = law.point_with_nominal(&f.data.0, None, &memory.state, request);
+                (point.stress, nominal, point.status)
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut old = [0.0; LINEAR_ELASTIC_STATE];
+                old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
+                let mut axes = memory.axes;
+                let (point, tangent) = law.step_with_tangent(&memory.f, f, &old, *frame, *criterion, &mut axes);
+                (point.stress, tangent.nominal(f, &point.stress), point.status)
+            }
+        };
+        if status == status::OK { Ok((cauchy, NominalTangent::from_column_slice(&nominal))) } else { Err(status) }
+    }
+
+    /// Whether the point has failed.
+    pub fn failed(&self, memory: &Memory) -> bool {
+        let latch = match self.law {
+            Law::Hyperelastic(_) => FAILED,
+            Law::LinearElastic { .. } => LINEAR_FAILED,
+        };
+        memory.state[latch] != 0.0
+    }
+
+    /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work.
+    pub fn energy(&self, memory: &Memory) -> f64 {
+        match self.law {
+            Law::Hyperelastic(_) => memory.state[..INVARIANTS].iter().sum(),
+            Law::LinearElastic { .. } => memory.state[LINEAR_WORK],
+        }
+    }
+
+    /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim.
+    pub fn failure_index(&self, memory: &Memory) -> f64 {
+        let limit = self.property("sigma_lim").unwrap_or(0.0);
+        match self.law {
+            Law::Hyperelastic(_) => memory.state[FAILURE_INDEX],
+            Law::LinearElastic { .. } if limit == 0.0 => 0.0,
+            Law::LinearElastic { criterion: Criterion::LargestPrincipal, .. } => memory.state[LINEAR_LARGEST] / limit,
+            Law::LinearElastic { criterion: Criterion::FibreStress, .. } => memory.state[LINEAR_STRESS] / limit,
+        }
+    }
+
+    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only.
+    pub fn failure_terms(&self, memory: &Memory) -> [f64; 3] {
+        let property = |name: &str| self.property(name).unwrap_or(0.0);
+        let [i_el, i_tc, i_td] = [0, 1, 2].map(|mode| memory.state[INVARIANTS + mode]);
+        [i_el / property("eps_lim").ln_1p(), property("alpha") * (-i_tc).max(0.0), property("beta") * i_td]
+    }
+
+    /// Whether there is a limit at all.
+    pub fn can_fail(&self) -> bool {
+        ["eps_lim", "sigma_lim"].iter().any(|name| self.property(name).is_some_and(|limit| limit > 0.0))
+    }
+}
+
+/// Which state variable, counted from 0, tells a host to delete the element, for a law of so many properties' table.
+pub fn alive(table: &[Property]) -> usize {
+    if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) { LINEAR_ALIVE } else { ALIVE }
+}
+
+fn accept(status: i32, answer: Answer) -> Result<Answer, i32> {
+    if status == status::OK { Ok(answer) } else { Err(status) }
+}

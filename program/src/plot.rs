@@ -1,0 +1,310 @@
+//! The plot of a point's history: deformation, energies, stress and failure side by side, as SVG and PNG.
+
+use std::path::Path;
+
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::prelude::*;
+
+use super::Error;
+use super::material::Law;
+use super::newton::{COMPONENT_NAMES, COMPONENTS};
+use super::path::LoadPath;
+use super::picture::{
+    self, Area, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text,
+};
+use super::report::MODE_NAMES;
+use super::run::{History, Increment};
+use super::table::{self, SYMMETRIC_NAMES};
+use super::unit_names::{ENERGY, unit};
+use toron::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
+use toron::law::state::{ENERGIES, INVARIANTS};
+
+/// Width and height of the picture.
+const SIZE: [u32; 2] = [1280, 840];
+/// What the labels of an ordinate need.
+const MARGIN: i32 = 70;
+/// A line with more points than this is thinned.
+const MOST_POINTS: usize = 4000;
+
+/// A line in a panel.
+pub(super) struct Series {
+    pub name: String,
+    pub colour: RGBColor,
+    pub values: Vec<f64>,
+}
+
+pub(super) struct Panel {
+    pub title: &'static str,
+    pub unit: String,
+    pub series: Vec<Series>,
+    /// A level of its own, drawn dashed.
+    pub limit: Option<f64>,
+}
+
+/// What the panels have in common.
+pub(super) struct Abscissa {
+    pub label: String,
+    pub values: Vec<f64>,
+    pub failure: Option<f64>,
+}
+
+/// Writes the plot of a history to two files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(svg: &Path, png: &Path, path: &LoadPath, history: &History) -> Result<(), Error> {
+    picture::write(svg, png, SIZE, |root| draw(root, path, history))
+}
+
+fn draw(root: &Area, path: &LoadPath, history: &History) -> Drawn<()> {
+    let material = &history.point.material;
+    let mut subtitle = format!("{} law, {}", material.law_name(), material.label);
+    if path.points.len() > 1 {
+        subtitle = format!("{}: {subtitle}", history.point.name);
+    }
+    root.draw_text(&path.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+    root.draw_text(&subtitle, &text(TEXT, &GREY), (fine(24), fine(50)))?;
+    let (_, body) = root.split_vertically(fine(84));
+    let abscissa = abscissa(path, history);
+    for (panel, area) in panels(path, history).iter().zip(body.split_evenly((2, 2))) {
+        panel.draw(&area, &abscissa)?;
+    }
+    Ok(())
+}
+
+fn abscissa(path: &LoadPath, history: &History) -> Abscissa {
+    let material = &history.point.material;
+    let columns = table::columns(material);
+    let column = columns.iter().position(|column| column.name == path.abscissa).unwrap_or(0);
+    let value = |increment: &Increment| table::values(increment, material, &path.element)[column];
+    let values: Vec<f64> = history.increments.iter().map(value).collect();
+    let label = match unit(&path.units, columns[column].dimension).as_str() {
+        "-" => columns[column].name.clone(),
+        unit => format!("{} ({unit})", columns[column].name),
+    };
+    Abscissa { label, failure: history.failure.map(|i| values[i]), values }
+}
+
+/// A value of every increment as a line.
+fn line(history: &History, name: &str, colour: RGBColor, of: impl Fn(&Increment) -> f64) -> Series {
+    Series { name: name.to_string(), colour, values: history.increments.iter().map(of).collect() }
+}
+
+/// Deformation, energies, stress; failure, or the work where nothing can fail.
+fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
+    let material = &history.point.material;
+    let panel = |title, dimension, series, limit| Panel {
+        title,
+        unit: unit(&path.units, dimension),
+        series: tidy(series),
+        limit,
+    };
+    let (title, deformation, energies) = match material.law {
+        Law::Hyperelastic(_) => {
+            ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
+        }
+        Law::LinearElastic { .. } => {
+            let work = line(history, "work", COLOURS[0], |i| material.energy(&i.answer.memory));
+            ("Deformation gradient", gradient(history), vec![work])
+        }
+    };
+    let stress = |k: usize| line(history, &format!("σ{}", SYMMETRIC_NAMES[k]), COLOURS[k], |i| i.answer.cauchy[k]);
+    let last = if material.can_fail() {
+        panel("Failure index", NUMBER, index(history), Some(1.0))
+    } else {
+        let stored = |i: &Increment| material.energy(&i.answer.memory) * path.element.volume();
+        let external = line(history, "external work", COLOURS[0], |i| i.work);
+        panel("Work", ENERGY, vec![external, line(history, "stored energy", COLOURS[1], stored)], None)
+    };
+    [
+        panel(title, NUMBER, deformation, None),
+        panel("Energy per reference volume", ENERGY_DENSITY, energies, None),
+        panel("Cauchy stress", STRESS, (0..6).map(stress).collect(), None),
+        last,
+    ]
+}
+
+/// Four state variables from `first` on, one for each deformation mode.
+fn modes(history: &History, first: usize) -> Vec<Series> {
+    let mode = |m: usize| line(history, MODE_NAMES[m], COLOURS[m], |i| i.answer.memory.state[first + m]);
+    (0..4).map(mode).collect()
+}
+
+/// The components of F, less 1 on the diagonal.
+fn gradient(history: &History) -> Vec<Series> {
+    let component = |k: usize| {
+        let (row, column) = COMPONENTS[k];
+        let rest = if row == column { 1.0 } else { 0.0 };
+        let name = format!("F{}{}", COMPONENT_NAMES[k], if row == column { " − 1" } else { "" });
+        line(history, &name, COLOURS[k % COLOURS.len()], |i| i.rotated_gradient()[(row, column)] - rest)
+    };
+    (0..9).map(component).collect()
+}
+
+/// The failure index, and for the hyperelastic law the terms that it is the sum of.
+fn index(history: &History) -> Vec<Series> {
+    let material = &history.point.material;
+    let total = |i: &Increment| material.failure_index(&i.answer.memory);
+    // Where the fibre is not in tension the index is 0, whatever its terms.
+    let term = |m: usize| {
+        let value = |i: &Increment| if total(i) > 0.0 { material.failure_terms(&i.answer.memory)[m] } else { 0.0 };
+        line(history, MODE_NAMES[m], COLOURS[m], value)
+    };
+    let mut series: Vec<Series> = match material.law {
+        Law::Hyperelastic(_) => (0..3).map(term).collect(),
+        Law::LinearElastic { .. } => Vec::new(),
+    };
+    series.push(line(history, "index", INK, total));
+    series
+}
+
+/// Drops lines that stay at 0 beside others that do not, and joins lines that the eye cannot tell apart.
+pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
+    let size = |values: &[f64]| values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+    let largest = series.iter().map(|one| size(&one.values)).fold(0.0, f64::max);
+    let mut kept: Vec<Series> = Vec::new();
+    for one in series {
+        let own = size(&one.values);
+        if own <= 1e-6 * largest {
+            continue;
+        }
+        let same = |other: &&mut Series| other.values.iter().zip(&one.values).all(|(a, b)| (a - b).abs() <= 1e-3 * own);
+        match kept.iter_mut().find(same) {
+            Some(other) => other.name = format!("{} = {}", other.name, one.name),
+            None => kept.push(one),
+        }
+    }
+    kept
+}
+
+/// A plot between two axes.
+type Chart<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
+
+/// Writes a value on an axis.
+type Label<'a> = &'a dyn Fn(&f64) -> String;
+
+/// Axes and the rules across, as all plots have them, with the abscissa's name and the two axes' labels.
+pub(super) fn chart<'a, X, Y>(
+    area: &Area<'a>,
+    x: X,
+    y: Y,
+    name: &str,
+    [x_label, y_label]: [Label; 2],
+) -> Drawn<Chart<'a, X::CoordDescType, Y::CoordDescType>>
+where
+    X: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
+    Y: AsRangedCoord<Value = f64, CoordDescType: ValueFormatter<f64>>,
+{
+    let mut chart = ChartBuilder::on(area)
+        .margin_right(fine(30))
+        .margin_bottom(fine(12))
+        .x_label_area_size(fine(50))
+        .y_label_area_size(fine(MARGIN))
+        .build_cartesian_2d(x, y)?;
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(stroke(RULE, 1))
+        .axis_style(stroke(GREY, 1))
+        .set_all_tick_mark_size(fine(5))
+        .x_labels(8)
+        .y_labels(6)
+        .x_label_formatter(&x_label)
+        .y_label_formatter(&y_label)
+        .label_style(text(TEXT, &INK))
+        .axis_desc_style(text(TEXT, &INK))
+        .x_desc(name)
+        .draw()?;
+    Ok(chart)
+}
+
+impl Panel {
+    pub fn draw(&self, area: &Area, abscissa: &Abscissa) -> Drawn<()> {
+        let (head, body) = area.split_vertically(fine(62));
+        let ([low, high], power) = self.range();
+        self.draw_head(&head, power)?;
+        let factor = 10f64.powi(-power);
+        let (left, right) = bounds(&abscissa.values);
+        let (x, y) = (|x: &f64| tick(*x, right - left), |y: &f64| tick(*y, (high - low) * factor));
+        let mut chart = chart(&body, left..right, low * factor..high * factor, &abscissa.label, [&x, &y])?;
+        let level = |y: f64| [(left, y * factor), (right, y * factor)];
+        if low < 0.0 {
+            chart.draw_series(LineSeries::new(level(0.0), stroke(GREY, 1)))?;
+        }
+        if let Some(limit) = self.limit {
+            chart.draw_series(DashedLineSeries::new(level(limit), fine(7), fine(5), stroke(GREY, 2)))?;
+        }
+        if let Some(x) = abscissa.failure {
+            let line = [(x, low * factor), (x, high * factor)];
+            chart.draw_series(DashedLineSeries::new(line, fine(3), fine(4), stroke(INK, 2)))?;
+            let (x, y) = chart.backend_coord(&line[1]);
+            mark_failure(area, x, y)?;
+        }
+        let stride = abscissa.values.len().div_ceil(MOST_POINTS).max(1);
+        for series in &self.series {
+            let points = abscissa.values.iter().zip(&series.values).map(|(&x, &y)| (x, y * factor));
+            let last = points.clone().next_back();
+            chart.draw_series(LineSeries::new(points.step_by(stride).chain(last), stroke(series.colour, 3)))?;
+        }
+        Ok(())
+    }
+
+    /// Title with the unit, and below it the legend in one line, where it covers no data.
+    fn draw_head(&self, head: &Area, power: i32) -> Drawn<()> {
+        let title = match (self.unit.as_str(), power) {
+            ("-", 0) => self.title.to_string(),
+            (unit, 0) => format!("{} ({unit})", self.title),
+            ("-", power) => format!("{} (10{})", self.title, superscript(power)),
+            (unit, power) => format!("{} (10{} {unit})", self.title, superscript(power)),
+        };
+        head.draw_text(&title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
+        let style = text(TEXT, &INK);
+        let mut x = fine(MARGIN);
+        for series in &self.series {
+            head.draw(&PathElement::new([(x, fine(45)), (x + fine(26), fine(45))], stroke(series.colour, 4)))?;
+            head.draw_text(&series.name, &style, (x + fine(33), fine(38)))?;
+            let (width, _) = head.estimate_text_size(&series.name, &style)?;
+            x += width as i32 + fine(33 + 24);
+        }
+        Ok(())
+    }
+
+    /// The range of all lines, 0 and the limit with some air, and the power of a thousand that keeps its labels short.
+    fn range(&self) -> ([f64; 2], i32) {
+        let values = self.series.iter().flat_map(|series| &series.values).copied();
+        let values: Vec<f64> = values.chain([0.0]).chain(self.limit).collect();
+        let (low, high) = bounds(&values);
+        let air = 0.08 * (high - low);
+        let range = [if low < 0.0 { low - air } else { low }, high + air];
+        let largest = range[0].abs().max(range[1].abs());
+        let power = if (1e-2..1e5).contains(&largest) { 0 } else { (largest.log10() / 3.0).floor() as i32 * 3 };
+        (range, power)
+    }
+}
+
+/// The word beside the top of the failure's line, on the side that has room; `x` and `y` are the picture's.
+fn mark_failure(area: &Area, x: i32, y: i32) -> Drawn<()> {
+    let style = text(TEXT, &INK);
+    let (width, _) = area.estimate_text_size("failure", &style)?;
+    let (area_left, area_top) = area.get_base_pixel();
+    let room_left = x - area_left - fine(MARGIN) > width as i32 + fine(16);
+    let offset = if room_left { -(width as i32) - fine(8) } else { fine(8) };
+    area.draw_text("failure", &style, (x - area_left + offset, y - area_top + fine(2)))?;
+    Ok(())
+}
+
+/// Least and largest value, apart from one another even where there is but one.
+fn bounds(values: &[f64]) -> (f64, f64) {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low < high { (low, high) } else { (low, low + 1.0) }
+}
+
+/// A label without the noise of rounding: as many decimals as ticks of this range need.
+fn tick(value: f64, range: f64) -> String {
+    let decimals = (2 - range.log10().floor() as i32).clamp(0, 9) as usize;
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_string() } else { text.replace('-', "−") }
+}

@@ -1,0 +1,109 @@
+//! The summary of a run on the terminal.
+
+use std::fmt::Write;
+
+use super::material::{Law, Material};
+use super::path::LoadPath;
+use super::run::{End, History, Increment};
+use super::unit_names::{ENERGY, number, unit};
+use toron::law::parameters::{ENERGY_DENSITY, STRESS};
+use toron::law::state::{ENERGIES, INVARIANTS};
+
+/// The names of the four deformation modes.
+pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "shear"];
+
+/// An energy below this fraction of the largest one is none.
+const ROUNDING: f64 = 1e-12;
+
+/// What happened to a point: largest fibre stress, energies, failure and its reason, work.
+pub fn summary(path: &LoadPath, history: &History) -> String {
+    let mut text = String::new();
+    let material = &history.point.material;
+    let mut line = |name: &str, value: String| {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "  {name:<22} {value}");
+    };
+    line("law", format!("{} ({})", material.law_name(), material.label));
+    if let Some(largest) = history.increments.iter().max_by(|a, b| a.fibre_stress.total_cmp(&b.fibre_stress)) {
+        let value = format!("{} {}", number(largest.fibre_stress), unit(&path.units, STRESS));
+        line("largest fibre stress", format!("{value}, {}", place(path, largest)));
+    }
+    for (name, value) in energies(path, history) {
+        line(&name, value);
+    }
+    for (name, value) in failure(path, history) {
+        line(name, value);
+    }
+    if let Some(last) = history.increments.last() {
+        let stored = material.energy(&last.answer.memory) * path.element.volume();
+        let kept = if history.failure.is_some() { "frozen at failure" } else { "stored" };
+        let unit = unit(&path.units, ENERGY);
+        line("work on the element", format!("{} {unit}; {kept} {} {unit}", number(last.work), number(stored)));
+    }
+    let iterations = history.increments.iter().map(|increment| increment.iterations);
+    if let Some(most) = iterations.clone().max().filter(|&most| most > 0) {
+        let all: usize = iterations.sum();
+        line("Newton iterations", format!("{all} in all, at most {most} an increment"));
+    }
+    match &history.end {
+        End::Completed => {}
+        End::Stopped(place) => line(
+            "stopped",
+            format!("before {place}: the point has failed and carries no stress, but one is prescribed"),
+        ),
+        End::Failed(reason) => line("not completed", reason.clone()),
+    }
+    text
+}
+
+/// The largest energies and those at the end, mode by mode where the law has modes.
+fn energies(path: &LoadPath, history: &History) -> Vec<(String, String)> {
+    let unit = unit(&path.units, ENERGY_DENSITY);
+    let material = &history.point.material;
+    let parts = |increment: &Increment| -> Vec<f64> {
+        match material.law {
+            Law::Hyperelastic(_) => increment.answer.memory.state[ENERGIES..INVARIANTS].to_vec(),
+            Law::LinearElastic { .. } => vec![material.energy(&increment.answer.memory)],
+        }
+    };
+    let names: &[&str] = if let Law::Hyperelastic(_) = material.law { &MODE_NAMES } else { &["work per volume"] };
+    let Some(last) = history.increments.last().map(parts) else { return Vec::new() };
+    let largest = history.increments.iter().map(parts).fold(vec![0.0; names.len()], |largest, parts| {
+        largest.iter().zip(parts).map(|(a, b): (&f64, f64)| a.max(b)).collect()
+    });
+    let noise = ROUNDING * largest.iter().copied().fold(0.0, f64::max);
+    let list = |values: &[f64]| {
+        let item =
+            |(name, &value): (&&str, &f64)| format!("{name} {}", number(if value > noise { value } else { 0.0 }));
+        let items: Vec<String> = names.iter().zip(values).map(item).collect();
+        format!("{} {unit}", items.join(", "))
+    };
+    vec![("largest energies".to_string(), list(&largest)), ("energies at the end".to_string(), list(&last))]
+}
+
+/// When the point failed and what of its index came from which mode.
+fn failure(path: &LoadPath, history: &History) -> Vec<(&'static str, String)> {
+    let material = &history.point.material;
+    let index = |increment: &Increment| material.failure_index(&increment.answer.memory);
+    let Some(first) = history.failure.map(|i| &history.increments[i]) else {
+        let largest = history.increments.iter().map(index).fold(0.0, f64::max);
+        return vec![("failure", format!("none; largest failure index {}", number(largest)))];
+    };
+    let reason = format!("{}{}", number(index(first)), parts(material, first));
+    vec![("failure", place(path, first)), ("failure index", reason)]
+}
+
+/// What the hyperelastic law's failure index is the sum of.
+fn parts(material: &Material, increment: &Increment) -> String {
+    let Law::Hyperelastic(_) = material.law else { return String::new() };
+    let [elongation, compaction, distortion] = material.failure_terms(&increment.answer.memory).map(number);
+    format!(" = {elongation} elongation + {compaction} compaction + {distortion} distortion")
+}
+
+fn place(path: &LoadPath, increment: &Increment) -> String {
+    if increment.number == 0 {
+        return "at the start".to_string();
+    }
+    let step = &path.steps[increment.step];
+    format!("{step}, increment {}, time {}", increment.number, number(increment.time))
+}

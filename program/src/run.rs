@@ -1,0 +1,272 @@
+//! The loop: a load path's points, step by step and increment by increment.
+
+use nalgebra::{Matrix3, Rotation3, SMatrix};
+use rayon::prelude::*;
+
+use super::element::Hexahedron;
+use super::material::{Answer, Material};
+use super::newton::{self, COMPONENTS, Prescribed};
+use super::path::{LoadPath, Point, Step, Target};
+use toron::law::hyperelastic::Request;
+use toron::law::status;
+use toron::law::stress::first_piola_kirchhoff;
+
+/// How often an increment may be halved where it cannot be solved in one go.
+const HALVINGS: usize = 8;
+/// Stress above this fraction of the stiffness cannot be carried by a failed point.
+const CARRIED: f64 = 1e-9;
+
+/// All there is to know at the end of an increment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Increment {
+    /// Index of the step among [`LoadPath::steps`]; the increment within it, from 1 (0: the start of the path).
+    pub step: usize,
+    pub number: usize,
+    pub time: f64,
+    /// Deformation gradient and first Piola–Kirchhoff stress, before the rotation on top.
+    pub f: Matrix3<f64>,
+    pub p: Matrix3<f64>,
+    /// The rotation on top.
+    pub q: Matrix3<f64>,
+    /// Cauchy stress along the current fibre.
+    pub fibre_stress: f64,
+    pub answer: Answer,
+    /// Work done on the element since the start.
+    pub work: f64,
+    /// Newton iterations that it took.
+    pub iterations: usize,
+}
+
+impl Increment {
+    /// The deformation gradient with the rotation: what the law was given.
+    pub fn rotated_gradient(&self) -> Matrix3<f64> {
+        self.q * self.f
+    }
+
+    /// The first Piola–Kirchhoff stress with the rotation.
+    pub fn rotated_stress(&self) -> Matrix3<f64> {
+        self.q * self.p
+    }
+}
+
+/// How a point's path ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    Completed,
+    /// The point has failed and a stress is prescribed that nothing can carry any more; where it stopped.
+    Stopped(String),
+    /// The evaluation failed; where and why.
+    Failed(String),
+}
+
+/// A point's way along the path.
+#[derive(Clone, Debug)]
+pub struct History<'a> {
+    pub point: &'a Point,
+    /// The first one is the start, at rest.
+    pub increments: Vec<Increment>,
+    /// Index of the first increment with the point failed.
+    pub failure: Option<usize>,
+    pub end: End,
+}
+
+/// Runs all points, in parallel; `progress` is called after every increment. The answer does not depend on the number
+/// of threads.
+pub fn run<'a>(path: &'a LoadPath, progress: &(dyn Fn() + Sync)) -> Vec<History<'a>> {
+    path.points.par_iter().map(|point| run_point(path, point, progress)).collect()
+}
+
+/// Runs one point.
+pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) -> History<'a> {
+    let mut history = History { point, increments: Vec::new(), failure: None, end: End::Completed };
+    let mut walk = match Walk::at_rest(&point.material, path.element) {
+        Ok(walk) => walk,
+        Err(failure) => {
+            history.end = End::Failed(format!("at the start: {failure}"));
+            return history;
+        }
+    };
+    history.increments.push(walk.increment(0, 0, 0.0));
+    let mut control = [Control::Gradient; 9];
+    let mut start_of_step = 0.0;
+    for (index, step) in path.steps.iter().enumerate() {
+        let ramp = Ramp::new(step, &walk, &mut control);
+        for number in 1..=step.increments {
+            let [from, to] = [number - 1, number].map(|i| i as f64 / step.increments as f64);
+            let place = || format!("{step}, increment {number}");
+            if walk.cannot_carry(&ramp, to) {
+                history.end = End::Stopped(place());
+                return history;
+            }
+            if let Err(failure) = walk.advance(&ramp, from, to, HALVINGS) {
+                history.end = End::Failed(format!("{}: {failure}", place()));
+                return history;
+            }
+            if history.failure.is_none() && walk.failed() {
+                history.failure = Some(history.increments.len());
+            }
+            history.increments.push(walk.increment(index, number, start_of_step + to * step.duration));
+            walk.iterations = 0;
+            progress();
+        }
+        start_of_step += step.duration;
+    }
+    history
+}
+
+/// Which of the two conjugates is prescribed.
+#[derive(Clone, Copy, Debug)]
+enum Control {
+    Gradient,
+    Stress,
+}
+
+/// What a step prescribes, from its start to its end.
+struct Ramp<'a> {
+    step: &'a Step,
+    start: [Prescribed; 9],
+    end: [Prescribed; 9],
+    rotation: Matrix3<f64>,
+}
+
+impl<'a> Ramp<'a> {
+    /// The ramp from where the walk stands; what the step does not name is held, in the conjugate that `control` names.
+    fn new(step: &'a Step, walk: &Walk, control: &mut [Control; 9]) -> Self {
+        let mut start = [Prescribed::Gradient(0.0); 9];
+        let mut end = start;
+        for (k, &component) in COMPONENTS.iter().enumerate() {
+            let (f, p) = (walk.f[component], walk.held[k]);
+            let (from, to) = match step.targets[k] {
+                Some(Target::Gradient(value)) => (Prescribed::Gradient(f), Prescribed::Gradient(value)),
+                Some(Target::Stress(value)) => (Prescribed::Stress(walk.p[component]), Prescribed::Stress(value)),
+                Some(Target::Hold) => (Prescribed::Gradient(f), Prescribed::Gradient(f)),
+                None => match control[k] {
+                    Control::Gradient => (Prescribed::Gradient(f), Prescribed::Gradient(f)),
+                    Control::Stress => (Prescribed::Stress(p), Prescribed::Stress(p)),
+                },
+            };
+            control[k] = match to {
+                Prescribed::Gradient(_) => Control::Gradient,
+                Prescribed::Stress(_) => Control::Stress,
+            };
+            (start[k], end[k]) = (from, to);
+        }
+        Ramp { step, start, end, rotation: walk.q }
+    }
+
+    /// What is prescribed at the fraction `s` of the step, and the rotation on top; exact at the end of the step.
+    fn at(&self, s: f64) -> ([Prescribed; 9], Matrix3<f64>) {
+        let between = |from: f64, to: f64| if s == 1.0 { to } else { from + s * (to - from) };
+        let prescribed = std::array::from_fn(|k| match (self.start[k], self.end[k]) {
+            (Prescribed::Stress(from), Prescribed::Stress(to)) => Prescribed::Stress(between(from, to)),
+            (Prescribed::Gradient(from), Prescribed::Gradient(to)) => Prescribed::Gradient(between(from, to)),
+            (_, to) => to, // not reached: both ends prescribe the same conjugate
+        });
+        let rotation = match &self.step.rotation {
+            Some((axis, angle)) => Rotation3::from_axis_angle(axis, s * angle).into_inner() * self.rotation,
+            None => self.rotation,
+        };
+        (prescribed, rotation)
+    }
+}
+
+/// Where a point stands on its path.
+struct Walk<'a> {
+    material: &'a Material,
+    element: Hexahedron,
+    scale: f64,
+    answer: Answer,
+    f: Matrix3<f64>,
+    p: Matrix3<f64>,
+    q: Matrix3<f64>,
+    /// The prescribed stresses, which the stress itself meets within the tolerance of Newton's method only.
+    held: [f64; 9],
+    work: f64,
+    /// Newton iterations since the last increment.
+    iterations: usize,
+}
+
+impl<'a> Walk<'a> {
+    fn at_rest(material: &'a Material, element: Hexahedron) -> Result<Self, newton::Failure> {
+        let f = Matrix3::identity();
+        let answer = material.evaluate(&f, &material.at_rest(), Request::ALL).map_err(newton::Failure::Law)?;
+        let p = first_piola_kirchhoff(&answer.cauchy, &f);
+        let scale = material.stress_scale();
+        Ok(Walk { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0, iterations: 0 })
+    }
+
+    fn failed(&self) -> bool {
+        self.material.failed(&self.answer.memory)
+    }
+
+    /// Whether the point has failed and the ramp asks for a stress at `s`.
+    fn cannot_carry(&self, ramp: &Ramp, s: f64) -> bool {
+        let asks = |known: &Prescribed| matches!(known, Prescribed::Stress(p) if p.abs() > CARRIED * self.scale);
+        self.failed() && ramp.at(s).0.iter().any(asks)
+    }
+
+    /// Goes along the ramp, in halves where the whole cannot be solved.
+    fn advance(&mut self, ramp: &Ramp, from: f64, to: f64, halvings: usize) -> Result<(), newton::Failure> {
+        let (prescribed, q) = ramp.at(to);
+        let failure = match self.solve(&prescribed, &q) {
+            Ok(solution) => {
+                self.iterations += solution.residuals.len() - 1;
+                return self.accept(&solution.f, &q, &prescribed);
+            }
+            Err(failure) => failure,
+        };
+        let hopeless =
+            matches!(failure, newton::Failure::NoStiffness { .. } | newton::Failure::Law(status::NOT_FINITE));
+        if halvings == 0 || hopeless {
+            return Err(failure);
+        }
+        let middle = 0.5 * (from + to);
+        self.advance(ramp, from, middle, halvings - 1)
+            .and_then(|()| self.advance(ramp, middle, to, halvings - 1))
+            .map_err(|_| failure)
+    }
+
+    /// The deformation gradient, before the rotation, that meets what is prescribed.
+    fn solve(&self, prescribed: &[Prescribed; 9], q: &Matrix3<f64>) -> Result<newton::Solution, newton::Failure> {
+        // The rotation turns the first legs of P and F.
+        let turn = SMatrix::<f64, 3, 3>::identity().kronecker(q);
+        let stress = |f: &Matrix3<f64>| {
+            let rotated = q * f;
+            let (cauchy, tangent) = self.material.tangent(&rotated, &self.answer.memory)?;
+            let p = q.transpose() * first_piola_kirchhoff(&cauchy, &rotated);
+            Ok((p, turn.transpose() * tangent * turn))
+        };
+        newton::solve(&stress, &self.f, prescribed, self.scale)
+    }
+
+    /// Takes the deformation gradient as the new end of the path.
+    fn accept(
+        &mut self,
+        f: &Matrix3<f64>,
+        q: &Matrix3<f64>,
+        prescribed: &[Prescribed; 9],
+    ) -> Result<(), newton::Failure> {
+        let rotated = q * f;
+        let answer =
+            self.material.evaluate(&rotated, &self.answer.memory, Request::ALL).map_err(newton::Failure::Law)?;
+        let p = q.transpose() * first_piola_kirchhoff(&answer.cauchy, &rotated);
+        // A point that has failed before takes no work; the rotation never does.
+        if !self.failed() {
+            self.work += self.element.work(&self.f, &self.p, f, &p);
+        }
+        for (held, known) in self.held.iter_mut().zip(prescribed) {
+            if let Prescribed::Stress(value) = known {
+                *held = *value;
+            }
+        }
+        (self.f, self.p, self.q, self.answer) = (*f, p, *q, answer);
+        Ok(())
+    }
+
+    fn increment(&self, step: usize, number: usize, time: f64) -> Increment {
+        let e = (self.q * self.f * self.material.fibre()).normalize();
+        let fibre_stress = e.dot(&(toron::law::stress::matrix(&self.answer.cauchy) * e));
+        let Walk { f, p, q, answer, work, iterations, .. } = *self;
+        Increment { step, number, time, f, p, q, fibre_stress, answer, work, iterations }
+    }
+}

@@ -1,0 +1,143 @@
+//! The program as a user meets it: exit codes, files, tables, decks.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A directory of this test's own, empty.
+fn scratch(name: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    if directory.exists() {
+        std::fs::remove_dir_all(&directory).expect("an old directory can be removed");
+    }
+    std::fs::create_dir_all(&directory).expect("a directory can be made");
+    directory
+}
+
+fn toron(directory: &Path, arguments: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_toron");
+    Command::new(program).args(arguments).current_dir(directory).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("output is UTF-8")
+}
+
+/// Header and rows of a table.
+fn read(table: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_path(table).expect("there is a table");
+    let header = reader.headers().expect("the table has a header").iter().map(String::from).collect();
+    let number = |cell: &str| cell.parse().expect("cells are numbers");
+    let rows = reader.records().map(|row| row.expect("rows are complete").iter().map(number).collect()).collect();
+    (header, rows)
+}
+
+#[test]
+fn without_a_file_the_demonstration_runs() {
+    let directory = scratch("demonstration");
+    let output = toron(&directory, &["run"]);
+    let (stdout, stderr) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{stderr}");
+    assert!(stdout.contains("step 2 (tension), increment 81"), "{stdout}");
+    assert!(stdout.contains("0.6851 elongation + 0.3210 compaction + 0 distortion"), "{stdout}");
+
+    let (header, rows) = read(&directory.join("toron-out/increments.csv"));
+    assert_eq!(rows.len(), 1 + 70 + 130);
+    let column = |name: &str| header.iter().position(|column| column == name).expect("the column exists");
+    let last = rows.last().expect("there are rows");
+    assert_eq!((last[column("step")], last[column("increment")], last[column("failed")]), (2.0, 130.0, 1.0));
+    let failing = &rows[70 + 81];
+    let [s11, force] = ["cauchy_11", "force_x_x"].map(|name| failing[column(name)]);
+    // k_el ln λ/(λ J_t) with λ = 1 + 0.05·81/130 and J_t = 0.7; on a unit face P11 = J_t σ11.
+    let stretch: f64 = 1.0 + 0.05 * 81.0 / 130.0;
+    assert!((s11 - 82341.0 * stretch.ln() / (stretch * 0.7)).abs() < 1e-7);
+    assert!((force - 0.7 * s11).abs() < 1e-7);
+    // √(k_el/ρ) at rest, in mm/s.
+    assert!((rows[0][column("wave_speed")] - (82341.0f64 / 1.3514e-9).sqrt()).abs() < 1e-3);
+
+    let svg = std::fs::read_to_string(directory.join("toron-out/plot.svg")).expect("there is an SVG");
+    assert!(svg.starts_with("<svg") && !svg.contains("<text") && svg.contains("<path"));
+    let png = std::fs::read(directory.join("toron-out/plot.png")).expect("there is a PNG");
+    assert!(png.starts_with(b"\x89PNG\r\n"));
+    // Width and height of the header chunk.
+    assert_eq!(png[16..24], [0, 0, 7, 128, 0, 0, 4, 236]);
+}
+
+#[test]
+fn every_point_gets_its_files_and_its_columns() {
+    let directory = scratch("points");
+    let example = Path::new(crate::library::ROOT).join("examples/laws.toml");
+    let output = toron(&directory, &["run", example.to_str().expect("a path in UTF-8"), "-o", "out"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    for name in ["multiaxial", "uniaxial", "linear"] {
+        let (header, rows) = read(&directory.join(format!("out/increments-{name}.csv")));
+        assert_eq!(rows.len(), 171);
+        assert_eq!(header.contains(&"S_el_11".to_string()), name != "linear");
+        assert!(directory.join(format!("out/plot-{name}.png")).exists());
+    }
+}
+
+#[test]
+fn exit_codes_tell_input_from_evaluation() {
+    let directory = scratch("codes");
+    let run = |text: &str| {
+        std::fs::write(directory.join("path.toml"), text).expect("a file can be written");
+        toron(&directory, &["run", "path.toml"])
+    };
+    let head = "units = \"si\"\n[material]\npreset = \"kevlar-km2-600\"\n";
+
+    let slip = run(&format!("{head}[[step]]\nF = {{ 11 = 1.01 }}\n[[step]]\nP = {{ 12 = 1e6 }}\n"));
+    assert_eq!(slip.status.code(), Some(1));
+    assert!(text(&slip.stderr).contains("step 2, increment 1: P12"), "{}", text(&slip.stderr));
+    // What came before is written all the same.
+    assert_eq!(read(&directory.join("toron-out/increments.csv")).1.len(), 2);
+
+    let negative = run(&format!("{head}properties = {{ k_el = -3 }}\n[[step]]\nF = {{ 11 = 1.01 }}\n"));
+    assert_eq!(negative.status.code(), Some(2));
+    assert!(text(&negative.stderr).starts_with("toron: path.toml:4: property 1 (k_el"), "{}", text(&negative.stderr));
+
+    assert_eq!(toron(&directory, &["run", "nowhere.toml"]).status.code(), Some(2));
+    assert_eq!(toron(&directory, &["run", "-o", "path.toml/below-a-file"]).status.code(), Some(2));
+    assert_eq!(toron(&directory, &["walk"]).status.code(), Some(2));
+    assert_eq!(toron(&directory, &["params", "--preset", "nylon"]).status.code(), Some(2));
+    assert_eq!(toron(&directory, &["params", "--units", "furlong"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_version_names_the_interface() {
+    let output = toron(Path::new("."), &["--version"]);
+    assert_eq!(text(&output.stdout).trim(), concat!("toron ", env!("CARGO_PKG_VERSION"), " (ABI 1)"));
+}
+
+#[test]
+fn tables_fit_a_terminal() {
+    let systems = ["si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "in-slinch-s", "ft-slug-s"];
+    for arguments in systems.map(|units| ["params", "--units", units]) {
+        let output = toron(Path::new("."), &arguments);
+        assert_eq!(output.status.code(), Some(0));
+        let tables = text(&output.stdout);
+        for name in ["k_el", "sigma_lim", "failure_index", "kevlar-km2-600-linear"] {
+            assert!(tables.contains(name), "{name}: {tables}");
+        }
+        for line in tables.lines() {
+            assert!(line.chars().count() <= 100, "{line}");
+        }
+    }
+}
+
+#[test]
+fn a_preset_prints_as_a_deck() {
+    let output = toron(Path::new("."), &["params", "--preset", "kevlar-km2-600", "--units", "mm-tonne-s"]);
+    let deck = text(&output.stdout);
+    // Ten columns a field: mid, ro, mt, lmc, nhv, iortho, ibulk, ig; then the constants.
+    for line in [
+        "         1 1.3514e-9        41        13        11         0        12        13",
+        "   82341.0    1055.0       2.2    649.74       0.0    0.0458       1.8       0.0",
+        "       1.0       0.0       0.0   41170.5 30877.875",
+        "*USER MATERIAL, CONSTANTS=11",
+        "82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.0",
+        "*DEPVAR, DELETE=11",
+        "1.3514e-9,",
+    ] {
+        assert!(deck.lines().any(|found| found == line), "{line}\nin\n{deck}");
+    }
+}

@@ -1,0 +1,337 @@
+//! The documents say what the library says. What stands in `docs/` between `<!-- generated: NAME -->` and `<!-- end -->` is
+//! the library's own words; `TORON_WRITE_DOCS=1 cargo test -p toron-program documents` writes it anew. The programs shown there
+//! compile and print what is shown behind them, and the code names of the symbols exist.
+
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use nalgebra::{Matrix3, Vector3};
+use toron::host::units::UnitSystem;
+use toron::law::hyperelastic::{Hyperelastic, Point, Request};
+use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
+use toron::law::parameters::{self, DENSITY, Dimension, FIBRE, PRESETS, Preset, Property};
+use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
+use toron::law::status;
+
+const DOCUMENTS: [&str; 4] = ["theory.md", "hosts.md", "validation.md", "load-paths.md"];
+
+fn document(name: &str) -> PathBuf {
+    Path::new(ROOT).join("docs").join(name)
+}
+
+fn read(name: &str) -> String {
+    std::fs::read_to_string(document(name)).unwrap_or_else(|error| panic!("docs/{name}: {error}"))
+}
+
+/// A Markdown table.
+fn table<const N: usize>(head: [&str; N], rows: impl IntoIterator<Item = [String; N]>) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let rows: String = rows.into_iter().map(|row| line(&row.map(|cell| cell.replace('|', "\\|")))).collect();
+    format!("{}|{}\n{rows}", line(&head.map(String::from)), "---|".repeat(N))
+}
+
+fn properties(properties: &[Property]) -> String {
+    let head = ["no", "name", "symbol", "dimension", "default", "allowed", "meaning"];
+    let rows = properties.iter().enumerate().map(|(i, row)| {
+        let default = row.default.map_or("must be given".into(), |value| value.to_string());
+        let text = [row.symbol, row.dimension.name].map(String::from);
+        let [symbol, dimension] = text;
+        let no = (i + 1).to_string();
+        [no, format!("`{}`", row.name), symbol, dimension, default, row.allowed.into(), row.meaning.into()]
+    });
+    table(head, rows)
+}
+
+fn state_variables(variables: &[StateVariable]) -> String {
+    let rows = variables.iter().enumerate().map(|(i, row)| {
+        let no = (i + 1).to_string();
+        [no, format!("`{}`", row.name), row.symbol.into(), row.dimension.name.into(), row.meaning.into()]
+    });
+    table(["no", "name", "symbol", "dimension", "meaning"], rows)
+}
+
+fn presets() -> String {
+    const SYSTEMS: [&str; 3] = ["si", "mm-tonne-s", "mm-kg-ms"];
+    let text = |preset: &Preset| {
+        let rows = preset.table.iter().zip(preset.values).map(|(row, &value)| (row.name, value, row.dimension));
+        let rows = rows.chain([("density", preset.density, DENSITY)]).map(|(name, value, dimension)| {
+            let [a, b, c] = SYSTEMS.map(|system| quantity(system, value, dimension));
+            [format!("`{name}`"), a, b, c]
+        });
+        let [si, tonne, kilogram] = SYSTEMS;
+        format!("`{}`: {}\n\n{}", preset.name, preset.source, table(["property", si, tonne, kilogram], rows))
+    };
+    PRESETS.each_ref().map(text).join("\n")
+}
+
+/// To twelve digits, which is what the conversion of units keeps.
+fn quantity(system: &str, si: f64, dimension: Dimension) -> String {
+    let value = UnitSystem::parse(system).expect("a unit system").from_si(si, dimension);
+    let value: f64 = format!("{value:.11e}").parse().expect("a number");
+    if value == 0.0 || (1e-3..1e6).contains(&value) { value.to_string() } else { format!("{value:e}") }
+}
+
+fn status_codes() -> String {
+    let rows = status::TABLE
+        .iter()
+        .map(|&(code, name, meaning)| [code.to_string(), format!("`TORON_{}`", name.to_uppercase()), meaning.into()]);
+    table(["code", "name in C", "message"], rows)
+}
+
+/// Decks with mistakes in them, and what the library says of each.
+fn mistakes() -> String {
+    let km2 = km2("mm-tonne-s");
+    let with = |index: usize, value: f64| {
+        let mut values = km2.clone();
+        values[index] = value;
+        values
+    };
+    let mut no_fibre = km2.clone();
+    no_fibre[FIBRE..].fill(0.0);
+    let mut linear_elastic = preset("kevlar-km2-600-linear", "mm-tonne-s");
+    linear_elastic.resize(km2.len(), 0.0);
+    let refused = [
+        ("`CONSTANTS=8`: a data line of the properties is missing", km2[..8].to_vec()),
+        ("a stiffness with the wrong sign", with(0, -82341.0)),
+        ("p left at 0: a column of the card is shifted", with(2, 0.0)),
+        ("the fibre direction left at 0", no_fibre),
+        ("LS-DYNA: the linear elastic preset on this card", linear_elastic),
+    ];
+    let refused = refused.map(|(mistake, values)| {
+        let error = Hyperelastic::new(&values).expect_err("a mistake");
+        [mistake.to_string(), error.code().to_string(), error.to_string()]
+    });
+    let plain = [
+        ("`*DEPVAR` with fewer than 11 variables", status::STATE_COUNT),
+        ("shells, membranes or plane elements", status::BAD_COUNT),
+        ("UMAT without NLGEOM=YES", status::NO_DEFORMATION_GRADIENT),
+        ("LS-DYNA: IHYPER left at 0", status::NO_DEFORMATION_GRADIENT),
+    ];
+    let plain = plain.map(|(mistake, code)| {
+        [mistake.into(), code.to_string(), status::meaning(code).expect("a status code").to_string()]
+    });
+    table(["mistake", "status", "message"], refused.into_iter().chain(plain))
+}
+
+/// What a VUMAT with a wrong property says, with the prefix that the shim writes.
+fn message() -> String {
+    let mut values = km2("mm-tonne-s");
+    values[2] = 0.0;
+    let error = Hyperelastic::new(&values).expect_err("a mistake");
+    fenced(&format!("toron, material KEVLAR-KM2-600: {error}\n"))
+}
+
+/// Kevlar KM2, multiaxial failure.
+fn km2(system: &str) -> Vec<f64> {
+    preset("kevlar-km2-600", system)
+}
+
+fn preset(name: &str, system: &str) -> Vec<f64> {
+    let preset = parameters::preset(name).expect("a preset");
+    let units = UnitSystem::parse(system).expect("a unit system");
+    preset.table.iter().zip(preset.values).map(|(row, &value)| units.from_si(value, row.dimension)).collect()
+}
+
+/// What `toron params` prints of the yarn: the cards of LS-DYNA and the lines of Abaqus.
+fn deck() -> [String; 2] {
+    let arguments = ["params", "--preset", "kevlar-km2-600", "--units", "mm-tonne-s"];
+    let output = run(Command::new(env!("CARGO_BIN_EXE_toron")).args(arguments), "");
+    let text = String::from_utf8(output.stdout).expect("UTF-8");
+    let (dyna, abaqus) = text.split_once("\n\n").expect("two decks");
+    [dyna, abaqus].map(|deck| format!("{}\n", deck.trim_end()))
+}
+
+/// The same cards with the fibre from AOPT: IORTHO = 1, IHYPER = −1 and the two cards of the axes.
+fn deck_with_axes() -> String {
+    const AXES: &str = "\
+$#    aopt      macf        xp        yp        zp        a1        a2        a3
+       2.0         1       0.0       0.0       0.0       0.6       0.8       0.0
+$#      v1        v2        v3        d1        d2        d3      beta     ievts
+       0.0       0.0       0.0       0.0       0.0       1.0       0.0         0
+";
+    let [deck, _] = deck();
+    let mut lines: Vec<String> = deck.lines().map(String::from).collect();
+    let card = |name: &str| 1 + lines.iter().position(|line| line.contains(name)).expect("a heading");
+    let (first, second) = (card(" iortho "), card(" ihyper "));
+    lines[first].replace_range(50..60, "         1");
+    lines[second].replace_range(30..40, "        -1");
+    lines[second] += "\n";
+    lines[second] += AXES.trim_end();
+    lines.join("\n") + "\n"
+}
+
+fn fenced(text: &str) -> String {
+    format!("```text\n{text}```\n")
+}
+
+/// The hyperelastic yarn stretched along its fibre.
+fn stretched(law: &Hyperelastic<f64>, stretch: f64) -> Point<f64> {
+    let f = Matrix3::from_diagonal(&Vector3::new(stretch, 1.0, 1.0));
+    law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL)
+}
+
+/// The least strain, in per cent, at which a stretch along the fibre fails.
+fn failure_strain(fails: impl Fn(f64) -> bool) -> f64 {
+    let (mut intact, mut failed) = (0.0, 0.1);
+    assert!(!fails(1.0 + intact) && fails(1.0 + failed));
+    for _ in 0..50 {
+        let middle = 0.5 * (intact + failed);
+        *(if fails(1.0 + middle) { &mut failed } else { &mut intact }) = middle;
+    }
+    100.0 * failed
+}
+
+/// The thesis's numbers that one point shows, each to half of its last digit; the library's density of 1351.4 kg/m³ is
+/// rounded from 1440 · 0.93848, which moves the linear law's wave by 0.02 m/s.
+fn figures() -> String {
+    let mut values = km2("mm-tonne-s");
+    values[6..FIBRE].fill(0.0);
+    let law = Hyperelastic::<f64>::new(&values).expect("uniaxial failure");
+    let at_limit = stretched(&law, 1.0458);
+    let flat = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.7));
+    let flat = law.point(&flat, &[0.0; HYPERELASTIC_STATE], Request::ALL);
+    let si = Hyperelastic::<f64>::new(&km2("si")).expect("the preset");
+    let linear = LinearElastic::new(&preset("kevlar-km2-600-linear", "si")).expect("the preset");
+    let linear_fails = |stretch: f64| {
+        let (one, f) = (Matrix3::identity(), Matrix3::from_diagonal(&Vector3::new(stretch, 1.0, 1.0)));
+        let mut axes = linear.reference_axes();
+        let old = [0.0; state::LINEAR_ELASTIC_STATE];
+        let point = linear.step(&one, &f, &old, Rotation::Fibre, Criterion::LargestPrincipal, &mut axes);
+        point.state[state::LINEAR_FAILED] == 1.0
+    };
+    let wave = |modulus: f64| (modulus / 1351.4).sqrt();
+    let fibre_wave = wave(stretched(&si, 1.0).wave_modulus);
+    let rows: [(&str, &str, usize, f64, f64, f64); 9] = [
+        ("limit elongation invariant ln(1 + ε_lim)", "", 6, 0.044782, 5e-7, at_limit.state[INVARIANTS]),
+        ("energy density at uniaxial failure", "mJ/mm³", 2, 82.56, 5e-3, at_limit.state[ENERGIES]),
+        ("strain at uniaxial failure", "%", 2, 4.58, 5e-3, failure_strain(|l| stretched(&law, l).state[FAILED] == 1.0)),
+        ("longitudinal wave, hyperelastic", "m/s", 2, 7806.0, 0.5, fibre_wave),
+        ("longitudinal wave, linear elastic", "m/s", 2, 7665.76, 0.03, wave(linear.wave_modulus())),
+        ("that wave over half a yarn of 25.4 mm, hyperelastic", "µs", 2, 1.65, 0.05, 12.7e3 / fibre_wave),
+        (
+            "strain at failure, linear elastic: σ_lim/E1 is a true strain",
+            "%",
+            2,
+            4.69,
+            5e-3,
+            failure_strain(linear_fails),
+        ),
+        ("I_tc of diag(1, 1, 0.7): ½ ln 0.7 (Eq. 4.28)", "", 5, -0.17834, 5e-6, flat.state[INVARIANTS + 1]),
+        ("I_td of the same: −½ ln 0.7", "", 5, 0.17834, 5e-6, flat.state[INVARIANTS + 2]),
+    ];
+    let rows = rows.map(|(name, unit, digits, thesis, tolerance, found)| {
+        assert!((found - thesis).abs() <= tolerance, "{name}: {found}, not {thesis}");
+        [name.into(), format!("{thesis}"), format!("{found:.digits$}"), unit.into()]
+    });
+    table(["one point", "thesis", "library", "unit"], rows)
+}
+
+fn generate(name: &str) -> String {
+    match name {
+        "hyperelastic properties" => properties(&parameters::HYPERELASTIC),
+        "hyperelastic state" => state_variables(&state::HYPERELASTIC),
+        "linear elastic properties" => properties(&parameters::LINEAR_ELASTIC),
+        "linear elastic state" => state_variables(&state::LINEAR_ELASTIC),
+        "presets" => presets(),
+        "status codes" => status_codes(),
+        "message" => message(),
+        "mistakes" => mistakes(),
+        "LS-DYNA deck" => fenced(&deck()[0]),
+        "LS-DYNA deck with axes" => fenced(&deck_with_axes()),
+        "Abaqus deck" => fenced(&deck()[1]),
+        "figures" => figures(),
+        name => panic!("nothing is generated under the name {name}"),
+    }
+}
+
+/// The document with every generated part written anew, and how many there are.
+fn regenerated(text: &str) -> (String, usize) {
+    let (mut new, mut rest, mut count) = (String::new(), text, 0);
+    while let Some((before, after)) = rest.split_once("<!-- generated: ") {
+        let (name, after) = after.split_once(" -->").expect("the comment is closed");
+        let (_, after) = after.split_once("<!-- end -->").expect("the part has an end");
+        new += &format!("{before}<!-- generated: {name} -->\n{}<!-- end -->", generate(name));
+        rest = after;
+        count += 1;
+    }
+    (new + rest, count)
+}
+
+#[test]
+fn generated_parts_are_current() {
+    let mut count = 0;
+    for name in DOCUMENTS {
+        let (text, parts) = regenerated(&read(name));
+        if std::env::var_os("TORON_WRITE_DOCS").is_some() {
+            std::fs::write(document(name), &text).expect("docs are writable");
+        }
+        assert!(read(name) == text, "docs/{name} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program documents");
+        count += parts;
+    }
+    assert_eq!(count, 12, "a part has got lost");
+}
+
+/// The fenced blocks of a document in their order: language and text.
+fn blocks(text: &str) -> Vec<(String, String)> {
+    let mut parts = text.split("\n```").skip(1);
+    let mut blocks = Vec::new();
+    while let Some(block) = parts.next() {
+        let (language, code) = block.split_once('\n').expect("a line of code");
+        blocks.push((language.into(), format!("{code}\n")));
+        parts.next().expect("the block is closed");
+    }
+    blocks
+}
+
+#[test]
+fn programs_print_what_is_shown() {
+    let compilers: [(&str, &str, &[&str]); 2] = [
+        ("c", "gcc", &["-std=c11", "-Wall", "-Wextra", "-Werror"]),
+        ("fortran", "gfortran", &["-std=f2018", "-Wall", "-Werror"]),
+    ];
+    let blocks = blocks(&read("hosts.md"));
+    let mut programs = 0;
+    for (i, (language, code)) in blocks.iter().enumerate() {
+        let Some((_, compiler, options)) = compilers.iter().find(|row| row.0 == language) else { continue };
+        let (output_language, shown) = &blocks[i + 1];
+        assert_eq!(output_language, "text", "a program's output follows it");
+        programs += 1;
+        let folder = folder(&format!("documents-{programs}"));
+        let source = folder.join(if *compiler == "gcc" { "point.c" } else { "point.f90" });
+        std::fs::write(&source, code).expect("a source");
+        let mut command = Command::new(compiler);
+        command.current_dir(&folder).args(*options).arg(format!("-I{ROOT}/include"));
+        if *compiler == "gfortran" {
+            command.arg(Path::new(ROOT).join("include/toron.f90"));
+        }
+        let program = folder.join("point");
+        command.arg(&source).arg(LIBRARY.join("libtoron.a")).args(SYSTEM);
+        run(command.arg("-o").arg(&program), compiler);
+        let output = run(&mut Command::new(program), "");
+        assert_eq!(String::from_utf8_lossy(&output.stdout), *shown, "{code}");
+    }
+    assert_eq!(programs, 3, "a program has got lost");
+}
+
+/// Rows of the table of symbols: `| no | symbol | meaning | `name` | `file` |`.
+#[test]
+fn symbols_have_the_names_that_they_are_said_to_have() {
+    let theory = read("theory.md");
+    let (_, symbols) = theory.split_once("## Symbols").expect("a table of symbols");
+    let rows: Vec<_> = symbols.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    assert!(rows.len() > 20);
+    for (i, row) in rows.iter().enumerate() {
+        let cells: Vec<_> = row.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [no, _, _, names, file] = cells[..] else { panic!("{row}") };
+        assert_eq!(no, (i + 1).to_string(), "{row}");
+        let file = file.trim_matches('`');
+        let source = std::fs::read_to_string(Path::new(ROOT).join("src/law").join(file)).expect(file);
+        for name in names.split(", ") {
+            let name = name.trim_matches('`');
+            let word = |c: char| !c.is_alphanumeric() && c != '_';
+            assert!(source.split(word).any(|token| token == name), "{name} is not in {file}");
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Blocks of points of the hyperelastic law.
+
+use libc::size_t;
+
+use crate::law::block::{Level, Pointers, Precision, components, components_mut, raw_block_of};
+use crate::law::parameters;
+use crate::law::status::{self, Error};
+use crate::law::tangent::Measure;
+
+use super::{TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST};
+use super::{entry, properties};
+
+/// A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
+///
+/// Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
+/// one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Block<T> {
+    /// Number of points, and the distance from one component to the next, at least as many.
+    pub n: size_t,
+    pub leading_dimension: size_t,
+    /// In, 9 components: F by columns. Must not be null.
+    pub deformation_gradient: *const T,
+    /// In, 3: the fibre direction of each point, any length; null: the property.
+    pub fibre: *const T,
+    /// In, 4, 4 and 3: the old state; null: all 0.
+    pub energies_old: *const T,
+    pub invariants_old: *const T,
+    pub failure_old: *const T,
+    /// In: reference density; read for the wave speed only.
+    pub density: T,
+    /// Out, 6: Cauchy stress 11 22 33 12 23 31.
+    pub stress: *mut T,
+    /// Out, 4: W_el W_tc W_td W_ld.
+    pub energies: *mut T,
+    /// Out, 4: I_el I_tc I_td I_ld.
+    pub invariants: *mut T,
+    /// Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+    pub failure: *mut T,
+    /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+    pub modes: *mut T,
+    /// Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
+    /// step and bulk viscosity may take it as it is.
+    pub wave_speed: *mut T,
+    /// Out: a status code for each point.
+    pub status: *mut i32,
+    /// In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
+    /// same bits, the baseline others.
+    pub level: i32,
+}
+
+pub(super) fn level(level: i32) -> Result<Option<Level>, Error> {
+    match level {
+        TORON_LEVEL_BEST => Ok(None),
+        TORON_LEVEL_BASELINE => Ok(Some(Level::Baseline)),
+        TORON_LEVEL_AVX2 => Ok(Some(Level::Avx2)),
+        TORON_LEVEL_AVX512 => Ok(Some(Level::Avx512)),
+        _ => Err(Error::Argument {
+            name: "level",
+            value: f64::from(level),
+            wanted: "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)",
+        }),
+    }
+}
+
+impl<T> Block<T> {
+    pub(super) fn pointers(&self) -> Result<Pointers<T>, Error>
+    where
+        T: Copy,
+    {
+        let stride = self.leading_dimension;
+        Ok(Pointers {
+            n: self.n,
+            leading_dimension: stride,
+            deformation_gradient: components(self.deformation_gradient, stride),
+            fibre: components(self.fibre, stride),
+            energies_old: self.energies_old,
+            invariants_old: self.invariants_old,
+            failure_old: self.failure_old,
+            density: self.density,
+            stress: components_mut(self.stress, stride),
+            energies: self.energies,
+            invariants: self.invariants,
+            failure: self.failure,
+            modes: self.modes,
+            wave_speed: self.wave_speed,
+            tangent: core::ptr::null_mut(),
+            measure: Measure::Material,
+            status: self.status,
+            level: level(self.level)?,
+        })
+    }
+}
+
+/// # Safety
+/// As for `toron_hyperelastic_block_f64`.
+unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Block<T>) -> Result<i32, Error> {
+    if block.is_null() {
+        return Err(Error::Plain(status::NULL_ARGUMENT));
+    }
+    // SAFETY: the caller's promise.
+    unsafe {
+        let properties = properties(values, count, &parameters::HYPERELASTIC)?;
+        raw_block_of(properties, &(*block).pointers()?)
+    }
+}
+
+/// `toron_hyperelastic_block_f64` of the C interface, which says what its arguments are.
+///
+/// # Safety
+/// As said there.
+pub unsafe extern "C" fn hyperelastic_block_f64(values: *const f64, count: size_t, block: *const Block<f64>) -> i32 {
+    // SAFETY: the caller's promise.
+    entry(move || unsafe { self::block(values, count, block) })
+}
+
+/// `toron_hyperelastic_block_f32` of the C interface, which says what its arguments are.
+///
+/// # Safety
+/// As said there.
+pub unsafe extern "C" fn hyperelastic_block_f32(values: *const f32, count: size_t, block: *const Block<f32>) -> i32 {
+    // SAFETY: the caller's promise.
+    entry(move || unsafe { self::block(values, count, block) })
+}

@@ -1,0 +1,14 @@
+//! The laws against exact arithmetic, derivatives, invariances and each other, as Rust calls them.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod block;
+mod energy;
+mod linear_block;
+mod linear_elastic;
+mod parameters;
+mod properties;
+mod tangent;
+mod truth;
+mod wave_speed;
