@@ -140,7 +140,8 @@ impl<R: Real> Bases<R> {
     #[inline(always)]
     fn new(d: &Stretch<R>, section: &Section<R>, [c, a, b]: &[[R; 3]; 3]) -> Self {
         let shape = Shape::new(section);
-        let inverse_lambda = d.inverse_square.sqrt();
+        // So e is exactly a coordinate axis where c is along one, but for a rounding of λ².
+        let inverse_lambda = R::splat(1.0) / d.square.sqrt();
         let fibre = scale(inverse_lambda, *c);
         let e = square(R::splat(1.0), fibre);
         // As in the stress, D = a⊗v + v⊗a − d1 P with v = (½(a·a − b·b) a + (a·b) b)/(a·a J_t).
