@@ -16,11 +16,11 @@ use criterion::Criterion;
 use nalgebra::{Matrix3, Scalar};
 use report::{Accuracy, Family, Machine, Quartiles, Report, Row};
 use serde::Deserialize;
-use toron_program::bench::{Answer, Entry, SIZES, each_point, processor, properties};
-use toron_program::scene::Scene;
 use toron::law::block::{Level, Precision};
 use toron::law::hyperelastic::Hyperelastic;
 use toron::law::state::HYPERELASTIC_STATE;
+use toron_program::bench::{Answer, Entry, SIZES, each_point, processor, properties};
+use toron_program::scene::Scene;
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;

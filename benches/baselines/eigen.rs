@@ -2,9 +2,9 @@
 //! eigenvectors, and each principal direction carries its own Kirchhoff stress.
 
 use nalgebra::{Matrix3, Matrix3x2, SymmetricEigen, Vector3};
-use toron_program::bench::Answer;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
+use toron_program::bench::Answer;
 
 use super::{Properties, components};
 

@@ -5,9 +5,9 @@
 //! here, the least that lets it run.
 
 use nalgebra::Matrix3;
-use toron_program::bench::Answer;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
+use toron_program::bench::Answer;
 
 use super::{Properties, components};
 

@@ -174,7 +174,9 @@ impl Sink<f64, 0> for Umat<'_> {
 impl Sink<f64, 21> for Umat<'_> {
     #[inline(always)]
     fn take(self, point: Point<f64>, moduli: [f64; 21]) {
-        let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix().map(abaqus_order);
+        let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix();
+        let [r1, r2, r3, r4] = [abaqus_order(r1), abaqus_order(r2), abaqus_order(r3), abaqus_order(r4)];
+        let [r5, r6] = [abaqus_order(r5), abaqus_order(r6)];
         // SAFETY: ntens² entries, for ntens = 6 or 4.
         unsafe {
             if self.shear == 3 {

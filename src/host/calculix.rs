@@ -23,7 +23,7 @@ use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status::{self, Error};
-use crate::law::tangent::{Measure, Moduli, Six};
+use crate::law::tangent::{Measure, Six};
 use nalgebra::{Matrix3, Vector3};
 
 use super::c::properties;
@@ -38,27 +38,6 @@ const EXIT_CODE: i32 = 201;
 /// What stiff keeps where a point has none, relative to the fibre's bulk modulus. With 0 CalculiX's equation solver ends the
 /// job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
-
-/// CalculiX's components 11 22 33 12 13 23 in the law's order 11 22 33 12 23 31.
-const COMPONENTS: [usize; 6] = [0, 1, 2, 3, 5, 4];
-
-/// Where the law keeps each entry of stiff, and whether it stands on the diagonal: the upper triangle by columns.
-const PLACES: [usize; 21] = UPPER_TRIANGLE.0;
-const DIAGONAL: [bool; 21] = UPPER_TRIANGLE.1;
-const UPPER_TRIANGLE: ([usize; 21], [bool; 21]) = {
-    let (mut places, mut diagonal) = ([0; 21], [false; 21]);
-    let (mut entry, mut column) = (0, 0);
-    while column < 6 {
-        let mut row = 0;
-        while row <= column {
-            places[entry] = Moduli::<f64>::place(COMPONENTS[row], COMPONENTS[column]);
-            diagonal[entry] = row == column;
-            (entry, row) = (entry + 1, row + 1);
-        }
-        column += 1;
-    }
-    (places, diagonal)
-};
 
 /// What the law has a use for among CalculiX's arguments.
 struct Arguments<'a> {
@@ -89,13 +68,24 @@ struct Answer {
 impl Sink<f64, 21> for &mut Answer {
     #[inline(always)]
     fn take(self, point: Point<f64>, moduli: [f64; 21]) {
-        let stress: [f64; 6] = core::array::from_fn(|c| point.modes.iter().map(|mode| mode[c]).sum());
-        self.stress = COMPONENTS.map(|c| stress[c]);
-        self.stiffness = PLACES.map(|place| moduli[place]);
+        let [el, tc, td, ld] = point.modes;
+        let [s11, s22, s33, s12, s23, s31] = core::array::from_fn(|c| el[c] + tc[c] + td[c] + ld[c]);
+        self.stress = [s11, s22, s33, s12, s31, s23];
+        self.stiffness = by_columns(moduli);
         self.state = point.state;
         self.status = point.status;
     }
 }
+
+/// stiff: the upper triangle by columns, 11 22 33 12 13 23, of the law's by rows, 11 22 33 12 23 31.
+const fn by_columns([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u]: [f64; 21]) -> [f64; 21] {
+    [a, b, g, c, h, l, d, i, m, p, f, k, o, r, u, e, j, n, q, t, s]
+}
+
+/// 1 on the diagonal of stiff.
+const DIAGONAL: [f64; 21] = by_columns([
+    1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0,
+]);
 
 impl Arguments<'_> {
     /// The law's answer.
@@ -133,7 +123,7 @@ impl Arguments<'_> {
         }
         if let (true, &[k_el, ..]) = (answer.stiffness.iter().all(|&c| c == 0.0), properties) {
             let residual = RESIDUAL_STIFFNESS * 0.5 * k_el;
-            answer.stiffness = DIAGONAL.map(|diagonal| if diagonal { residual } else { 0.0 });
+            answer.stiffness = DIAGONAL.map(|diagonal| residual * diagonal);
         }
         Ok(answer)
     }

@@ -177,7 +177,7 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
             &[.., m_1, m_2, m_3] if properties.len() == HYPERELASTIC_PROPERTIES => [m_1, m_2, m_3],
             _ => [T::splat(0.0); 3], // no law will be made of them
         };
-        let [m_1, m_2, m_3] = direction.map(T::into);
+        let [m_1, m_2, m_3]: [f64; 3] = [direction[0].into(), direction[1].into(), direction[2].into()];
         if m_2 == 0.0 && m_3 == 0.0 && m_1 >= T::MIN_POSITIVE {
             return PropertyFrame { frame: FibreFrame::first_axis(), aligned: true, usable: true };
         }

@@ -100,6 +100,7 @@ pub struct FibreFrame<R> {
 
 impl<R: Real> FibreFrame<R> {
     /// The coordinate axes.
+    #[inline(always)]
     pub fn first_axis() -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         FibreFrame { m: [one, zero, zero], t1: [zero, one, zero], t2: [zero, zero, one] }

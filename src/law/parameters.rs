@@ -185,13 +185,15 @@ pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
 pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
     // Two sums of the same kind each, which the compiler takes several at a time.
     let (mut enough, mut too_much) = (true, false);
-    for (&value, &least) in values.iter().zip(least) {
-        let value: f64 = value.into();
-        enough &= least <= value;
+    let mut k = 0;
+    while k < N {
+        enough &= least[k] <= values[k].into();
+        k += 1;
     }
-    for (&value, &greatest) in values.iter().zip(greatest) {
-        let value: f64 = value.into();
-        too_much |= greatest < value;
+    k = 0;
+    while k < N {
+        too_much |= greatest[k] < values[k].into();
+        k += 1;
     }
     enough & !too_much
 }

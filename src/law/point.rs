@@ -194,7 +194,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
-        let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &state.map(Cell::new), tangent, sink);
+        let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // the law is there
         (point, entries)
     }
@@ -247,7 +247,8 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
             return (law.compaction(strain).reduce(&law.exponent).finish(), failure);
         }
         // One pass for both logarithms.
-        let [eps_lim, alpha, beta] = Hyperelastic::failure_properties(self).map(|x| R::of(x));
+        let [eps_lim, alpha, beta] = Hyperelastic::failure_properties(self);
+        let [eps_lim, alpha, beta] = [R::of(eps_lim), R::of(alpha), R::of(beta)];
         let (power, limit) = Power::reduce_beside(-strain.i_tc, &law.exponent, eps_lim);
         (power.finish(), Failure::with_limit(eps_lim, limit, alpha, beta))
     }
@@ -351,12 +352,31 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     }
 }
 
+/// A state as the law reads it: its place may be that of the new one.
+#[inline(always)]
+pub fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE]) -> [Cell<T>; HYPERELASTIC_STATE] {
+    [
+        Cell::new(a),
+        Cell::new(b),
+        Cell::new(c),
+        Cell::new(d),
+        Cell::new(e),
+        Cell::new(f),
+        Cell::new(g),
+        Cell::new(h),
+        Cell::new(i),
+        Cell::new(j),
+        Cell::new(k),
+    ]
+}
+
 /// So many numbers of one point.
 #[inline(always)]
 fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
-    let mut values = [T::splat(0.0); N];
-    for (value, &number) in values.iter_mut().zip(numbers) {
-        *value = number.value();
+    let (mut values, mut k) = ([T::splat(0.0); N], 0);
+    while k < N {
+        values[k] = numbers[k].value();
+        k += 1;
     }
     values
 }

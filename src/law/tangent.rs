@@ -150,14 +150,13 @@ impl<R: Real> Bases<R> {
         let share = inverse_a_square * shape.inverse_area_ratio;
         let v = along(scale(share * section.delta, *a), share * section.x23, *b);
         let d1 = deviator * shape.inverse_area_ratio;
-        let component = |i: usize, j: usize, rest: R| a[i].mul_add(v[j], a[j].mul_add(v[i], rest));
         let d = [
-            component(0, 0, d1.mul_add(e[0], -d1)),
-            component(1, 1, d1.mul_add(e[1], -d1)),
-            component(2, 2, d1.mul_add(e[2], -d1)),
-            component(0, 1, d1 * e[3]),
-            component(1, 2, d1 * e[4]),
-            component(2, 0, d1 * e[5]),
+            a[0].mul_add(v[0], a[0].mul_add(v[0], d1.mul_add(e[0], -d1))),
+            a[1].mul_add(v[1], a[1].mul_add(v[1], d1.mul_add(e[1], -d1))),
+            a[2].mul_add(v[2], a[2].mul_add(v[2], d1.mul_add(e[2], -d1))),
+            a[0].mul_add(v[1], a[1].mul_add(v[0], d1 * e[3])),
+            a[1].mul_add(v[2], a[2].mul_add(v[1], d1 * e[4])),
+            a[2].mul_add(v[0], a[0].mul_add(v[2], d1 * e[5])),
         ];
         Bases { shape, inverse_lambda, fibre, e, d }
     }
@@ -205,11 +204,14 @@ fn multiple<R: Real>(a: R, x: &[R; 6]) -> [R; 6] {
 /// a A + b B.
 #[inline(always)]
 fn combination<R: Real>(a: R, x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
-    let mut sum = [a; 6];
-    for ((s, &x), &y) in sum.iter_mut().zip(x).zip(y) {
-        *s = a.mul_add(x, b * y);
-    }
-    sum
+    [
+        a.mul_add(x[0], b * y[0]),
+        a.mul_add(x[1], b * y[1]),
+        a.mul_add(x[2], b * y[2]),
+        a.mul_add(x[3], b * y[3]),
+        a.mul_add(x[4], b * y[4]),
+        a.mul_add(x[5], b * y[5]),
+    ]
 }
 
 impl<R: Real> Hyperelastic<R> {
@@ -540,18 +542,29 @@ impl<R: Real> FibreComponents<R> {
         let (a, b, mixed) = (square(one, alpha), square(one, beta), symmetric_product(R::splat(2.0), alpha, beta));
         let [c_2222, c_2233, c_2223, c_3333, c_3323, c_2323] = self.across;
         let [c_1212, c_3131, c_1231] = self.along;
-        let sum = |x: R, y: R, z: R| added(&combination(x, &a, y, &b), z, &mixed);
-        let mut with_fibre = added(&sum(c_1212, c_3131, c_1231), R::splat(0.25) * self.c_1111, &square(one, m));
+        let dyads = [a, b, mixed];
+        let mut with_fibre =
+            added(&sum([c_1212, c_3131, c_1231], &dyads), R::splat(0.25) * self.c_1111, &square(one, m));
         if shear {
             // c_1112 is twice the component of what m⊗m is multiplied with.
             let half = R::splat(0.5);
             let across = along(scale(half * self.slip[0], alpha), half * self.slip[1], beta);
             with_fibre = added(&with_fibre, one, &symmetric_product(R::splat(2.0), m, across));
         }
-        let with = [sum(c_2222, c_2233, c_2223), sum(c_2233, c_3333, c_3323), sum(c_2223, c_3323, c_2323)];
-        let (dyads, with_fibre) = ([a, b, mixed], along_fibre(m, &with_fibre));
+        let with = [
+            sum([c_2222, c_2233, c_2223], &dyads),
+            sum([c_2233, c_3333, c_3323], &dyads),
+            sum([c_2223, c_3323, c_2323], &dyads),
+        ];
+        let with_fibre = along_fibre(m, &with_fibre);
         Moduli(upper_triangle!(material_entry(&dyads, &with, m, &with_fibre)))
     }
+}
+
+/// x A + y B + z C.
+#[inline(always)]
+fn sum<R: Real>([x, y, z]: [R; 3], [a, b, c]: &[[R; 6]; 3]) -> [R; 6] {
+    added(&combination(x, a, y, b), z, c)
 }
 
 /// t − s x.
@@ -599,19 +612,14 @@ fn paired_along<R: Real, const ROW: usize, const COLUMN: usize>(m: [R; 3], along
 
 /// m_k G_jl + m_l G_jk for each j and the pairs kl.
 #[inline(always)]
-fn along_fibre<R: Real>([x, y, z]: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
-    let row = |j: usize| {
-        let g = [g[VOIGT[j][0]], g[VOIGT[j][1]], g[VOIGT[j][2]]];
-        [
-            (x + x) * g[0],
-            (y + y) * g[1],
-            (z + z) * g[2],
-            x.mul_add(g[1], y * g[0]),
-            y.mul_add(g[2], z * g[1]),
-            z.mul_add(g[0], x * g[2]),
-        ]
-    };
-    [row(0), row(1), row(2)]
+fn along_fibre<R: Real>(m: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
+    [along_row(m, [g[0], g[3], g[5]]), along_row(m, [g[3], g[1], g[4]]), along_row(m, [g[5], g[4], g[2]])]
+}
+
+/// Likewise for one row of G.
+#[inline(always)]
+fn along_row<R: Real>([x, y, z]: [R; 3], [a, b, c]: [R; 3]) -> [R; 6] {
+    [(x + x) * a, (y + y) * b, (z + z) * c, x.mul_add(b, y * a), y.mul_add(c, z * b), z.mul_add(a, x * c)]
 }
 
 /// `factor` λ (w⊗e + e⊗w) with w = P b e, b = F Fᵀ.
@@ -625,19 +633,19 @@ fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] 
 /// A + b B.
 #[inline(always)]
 fn added<R: Real>(x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
-    let mut sum = *x;
-    for (s, &y) in sum.iter_mut().zip(y) {
-        *s = b.mul_add(y, *s);
-    }
-    sum
+    [
+        b.mul_add(y[0], x[0]),
+        b.mul_add(y[1], x[1]),
+        b.mul_add(y[2], x[2]),
+        b.mul_add(y[3], x[3]),
+        b.mul_add(y[4], x[4]),
+        b.mul_add(y[5], x[5]),
+    ]
 }
 
 #[inline(always)]
-fn add<R: Real, const N: usize>(mut a: [R; N], b: [R; N]) -> [R; N] {
-    for (x, &y) in a.iter_mut().zip(&b) {
-        *x = *x + y;
-    }
-    a
+fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// Whether an entry of a tangent may leave the range of R at a point whose strains are within it.

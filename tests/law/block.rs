@@ -3,7 +3,6 @@
 //! The baseline gives the scalar law's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few
 //! roundings of the input; at one level, no result depends on where its point stands.
 
-
 use std::cell::Cell;
 use std::ops::Range;
 

@@ -4,7 +4,6 @@
 //! of acosh x and of I5/I4² − 1 do no harm, and is differentiated by central differences of step 2^-80. Their own error
 //! is far below a double's.
 
-
 use crate::common::deformations::{Ranges, Sample, deformation, direction, samples};
 use crate::common::{Exact, exact, rounded};
 use nalgebra::{Matrix3, Vector3};

@@ -4,7 +4,6 @@
 //! The baseline gives the point's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few roundings;
 //! at one level, no result depends on where its point stands nor on its neighbours.
 
-
 use crate::common::block::{Number, levels};
 use crate::common::deformations::samples;
 use nalgebra::Matrix3;

@@ -1,10 +1,9 @@
 //! The linear elastic baseline against closed forms: stretch, failure, drift of the frames, simple shear, work.
 
-
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use approx::assert_relative_eq;
 use crate::common::deformations::{rotation, samples};
+use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use toron::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, LinearTangent, Rotation};

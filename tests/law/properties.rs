@@ -1,6 +1,5 @@
 //! What holds for every state: objectivity, symmetry about the fibre, no work in a loop, the latch, and no NaN out.
 
-
 use std::f64::consts::TAU;
 
 use crate::common::deformations::{Ranges, Sample, deformation, rotation};

@@ -1,7 +1,6 @@
 //! The tangents of the hyperelastic law: against the truth table, against dual numbers through the law's own generic code,
 //! against central differences as each host would perturb, and what is said of kinks, failure and bad points.
 
-
 use std::collections::BTreeMap;
 
 use crate::common::block::Number;

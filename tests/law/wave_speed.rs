@@ -4,9 +4,8 @@
 //! direction n and polarisation u has ρ0 v² = c : (n⊗u)(n⊗u) + n·τn. The modulus is written as full fourth-order
 //! tensors from F alone, checked against differences of the library's stress, and then searched for its fastest wave.
 
-
-use approx::assert_relative_eq;
 use crate::common::deformations::{Ranges, Sample, deformation, direction, samples};
+use approx::assert_relative_eq;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use toron::law::acoustic::Acoustic;

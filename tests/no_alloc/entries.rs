@@ -350,21 +350,7 @@ fn linear_elastic() {
                 let mut tangent = [0.0; 81];
                 let (c, r, f) = (tangent.as_mut_ptr(), REST.as_ptr(), f.as_ptr());
                 for measure in -1..4 {
-                    quiet!(
-                        c::linear_elastic_step_tangent_f64,
-                        yarn,
-                        L,
-                        r,
-                        f,
-                        null(),
-                        h,
-                        s,
-                        rotation,
-                        0,
-                        a,
-                        measure,
-                        c
-                    );
+                    quiet!(c::linear_elastic_step_tangent_f64, yarn, L, r, f, null(), h, s, rotation, 0, a, measure, c);
                 }
             }
             let narrow = (yarn_f32.as_ptr(), f.map(|x| x as f32), REST.map(|x| x as f32));

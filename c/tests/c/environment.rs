@@ -3,7 +3,6 @@
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 #[allow(dead_code)]
-
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,7 +1,6 @@
 //! The yarn law inside felupe, a finite-element package in Python that calls the shared library through ctypes: a clamped
 //! yarn segment under a rigid plate, `ffi-tests/felupe/yarn.py`.
 
-
 use std::path::Path;
 use std::process::Command;
 

@@ -1,7 +1,6 @@
 //! The library as its hosts call it: the C and Fortran programs of `ffi-tests`, linked with the library as it is shipped,
 //! against the truth's numbers.
 
-
 use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -1,36 +1,75 @@
-//! The law needs no standard library and no allocator, and no C entry can panic: `ffi-tests/freestanding` links, and
-//! stops linking as soon as one can.
+//! The package `toron` as another crate gets it: without a standard library, without an allocator, in an empty project; and no
+//! function of libtoron can panic: `ffi-tests/freestanding` links, and stops linking as soon as one can.
 
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::library::{BUILD, ROOT, folder, run};
+
 /// Builds the package with these options, with the versions of the crates that the library itself has.
 fn build(options: &[&str]) -> Output {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(ROOT);
     let package = root.join("ffi-tests/freestanding");
     std::fs::copy(root.join("Cargo.lock"), package.join("Cargo.lock")).expect("Cargo.lock can be copied");
     Command::new(env!("CARGO"))
-        .args(["rustc", "--release", "--offline", "--manifest-path"])
+        .args(["rustc", "--release", "--offline", "--crate-type=cdylib", "--manifest-path"])
         .arg(package.join("Cargo.toml"))
-        .args(["--target-dir", concat!(env!("CARGO_TARGET_TMPDIR"), "/freestanding")])
+        .arg("--target-dir")
+        .arg(Path::new(BUILD).join("library"))
         .args(options)
-        .args(["--", "-C", "link-arg=-Wl,--no-undefined"])
-        // Flags for the tests, such as coverage, need a standard library.
-        .env_remove("RUSTFLAGS")
+        // The standard library's part of unwinding, which is never called.
+        .args(["--", "-C", "link-arg=-Wl,--no-undefined", "-C", "link-arg=-Wl,--defsym=rust_eh_personality=0"])
+        .env("RUSTFLAGS", "-Csymbol-mangling-version=v0")
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .output()
         .expect("cargo runs")
 }
 
 #[test]
-fn the_law_needs_no_standard_library_and_no_entry_can_panic() {
-    for options in [&["--no-default-features"][..], &[]] {
-        let output = build(options);
-        assert!(output.status.success(), "{options:?}\n{}", String::from_utf8_lossy(&output.stderr));
-    }
-    // The check can fail: an entry that does panic is refused, and for that reason.
+fn the_package_needs_no_standard_library_and_no_function_can_panic() {
+    let output = build(&[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // The check can fail: a function that does panic is refused, and for that reason.
     let output = build(&["--features", "control"]);
     let message = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success(), "an entry that panics has been linked");
+    assert!(!output.status.success(), "a function that panics has been linked");
     assert!(message.contains("toron_an_entry_can_panic"), "{message}");
+}
+
+/// `cargo add toron` in an empty project.
+#[test]
+fn an_empty_project_can_use_the_package() {
+    let project = folder("empty-project");
+    let cargo = |arguments: &[&str]| {
+        let mut cargo = Command::new(env!("CARGO"));
+        run(cargo.args(arguments).current_dir(&project).env_remove("CARGO_TARGET_DIR"), "cargo");
+    };
+    std::fs::remove_dir_all(&project).expect("the folder can be emptied");
+    std::fs::create_dir_all(&project).expect("a folder");
+    cargo(&["init", "--lib", "--vcs=none", "--name=empty-project"]);
+    // The folder is below this workspace's, whose member it is not.
+    let manifest = std::fs::read_to_string(project.join("Cargo.toml")).expect("a manifest");
+    std::fs::write(project.join("Cargo.toml"), manifest + "\n[workspace]\n").expect("the manifest is writable");
+    cargo(&["add", "--offline", "toron", "--path", ROOT]);
+    std::fs::write(project.join("src/lib.rs"), USE).expect("the source is writable");
+    cargo(&["check", "--offline"]);
+}
+
+const USE: &str = "#![no_std]
+pub fn stress(properties: &[f64], f: &[[f64; 3]; 3]) -> Result<[f64; 6], toron::law::status::Error> {
+    use toron::law::hyperelastic::{Hyperelastic, Request};
+    let law = Hyperelastic::new(properties)?;
+    Ok(law.point_along(f, None, &[0.0; 11], Request::STRESS_AND_STATE).stress)
+}
+";
+
+/// What a Rust user gets beside the package itself.
+#[test]
+fn the_package_brings_little_along() {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["tree", "--offline", "-p", "toron", "-e", "normal", "--prefix", "none", "--no-dedupe"]);
+    let output = run(cargo.current_dir(ROOT), "cargo");
+    let tree = String::from_utf8(output.stdout).expect("UTF-8");
+    let packages: std::collections::BTreeSet<_> = tree.lines().collect();
+    assert!((2..=13).contains(&packages.len()), "{packages:?}");
 }

@@ -5,8 +5,9 @@
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
+
+use crate::library::{LIBRARY, run};
 
 /// One instruction: its address, its name and what it is applied to.
 struct Instruction {
@@ -163,8 +164,8 @@ fn kernel<'a>(functions: &'a BTreeMap<String, Function>, precision: &str, level:
     functions.get(&format!("<{name}>")).or_else(|| functions.get(&name)).unwrap_or_else(|| panic!("no function {name}"))
 }
 
-/// Stress; with energies; with energies and history. With shear 4 more; with fibre directions 8, along the first axis 16.
-const USUAL: [u8; 3] = [0, 1, 3];
+/// Stress; with the whole state. With shear 4 more; with fibre directions 8, along the first axis 16.
+const USUAL: [u8; 2] = [0, 1];
 const AS_ASKED: u8 = 128;
 
 #[test]
@@ -179,6 +180,9 @@ fn usual_kernels_decide_nothing() {
                 println!("{precision} {level} {want:>2}: {size} instructions, {found:?}");
                 // A loop that is too short is not the law.
                 assert!(size > 400, "{precision} {level} {want}: {size} instructions");
+                // AMD's processors before Zen 4 execute such a store in microcode.
+                let masked = function.code.iter().any(|i| level == "avx2" && i.name.starts_with("vmaskmov"));
+                assert!(!masked, "{precision} {level} {want}: a masked store");
                 if !found.is_empty() {
                     faults += &format!("{precision} {level} {want}: {found:?}\n");
                 }

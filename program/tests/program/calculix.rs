@@ -5,15 +5,14 @@
 //! CalculiX prints seven digits, hence the tolerances: 1e-6 of the largest value where one printed number stands against
 //! a closed form, 5e-6 where printed displacements go through differences over an element and the fibre's stiffness.
 
-
 use crate::calculix_decks::{Job, Results, Tangent, both_tangents as run, control, properties, vectors};
 use crate::hexahedra::Mesh;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use toron_program::material::NominalTangent;
-use toron_program::newton::{self, Prescribed};
 use toron::law::hyperelastic::{Hyperelastic, Point, Request};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::{first_piola_kirchhoff, matrix};
+use toron_program::material::NominalTangent;
+use toron_program::newton::{self, Prescribed};
 
 const PRINTED: f64 = 1e-6;
 const DIFFERENCED: f64 = 5e-6;

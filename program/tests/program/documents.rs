@@ -2,7 +2,6 @@
 //! the library's own words; `TORON_WRITE_DOCS=1 cargo test -p toron-program documents` writes it anew. The programs shown there
 //! compile and print what is shown behind them, and the code names of the symbols exist.
 
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -267,7 +266,10 @@ fn generated_parts_are_current() {
         if std::env::var_os("TORON_WRITE_DOCS").is_some() {
             std::fs::write(document(name), &text).expect("docs are writable");
         }
-        assert!(read(name) == text, "docs/{name} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program documents");
+        assert!(
+            read(name) == text,
+            "docs/{name} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program documents"
+        );
         count += parts;
     }
     assert_eq!(count, 12, "a part has got lost");

@@ -1,7 +1,6 @@
 //! `toron eval`: the truth through every C entry, as its host would call it; decimal numbers read and written exactly;
 //! lines that are no points.
 
-
 use std::io::Write;
 use std::process::{Command, Stdio};
 

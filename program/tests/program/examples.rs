@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use toron::law::state::{ENERGIES, INVARIANTS};
 use toron_program::material::Law;
 use toron_program::path::LoadPath;
 use toron_program::run::{self, End, History, Increment};
-use toron::law::state::{ENERGIES, INVARIANTS};
 
 /// Kevlar KM2 600 in MPa: Tab. 4.3 and 4.5.
 const K_EL: f64 = 82341.0;

@@ -15,11 +15,11 @@
 
 use std::path::{Path, PathBuf};
 
+use toron::law::linear_elastic::Rotation;
 use toron_program::impact::report::hourglass_warning;
 use toron_program::impact::run::{self, End, Outcome, Sample};
 use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
 use toron_program::material::Law;
-use toron::law::linear_elastic::Rotation;
 
 fn folder() -> PathBuf {
     Path::new(crate::library::ROOT).join("examples/yarn_impact")
@@ -543,8 +543,7 @@ fn the_program_writes_what_came_of_a_scene() {
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
-    let page =
-        std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/impact-files.md")).expect("a page");
+    let page = std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/impact-files.md")).expect("a page");
     for file in ["b.csv", "summary.csv"] {
         for column in read(file).lines().next().expect("a heading").split(',') {
             let known = page.contains(&format!("`{column}`")) || ["width_2", "width_3"].contains(&column);

@@ -6,11 +6,13 @@ mod common;
 mod library;
 
 mod calculix;
+#[allow(dead_code)] // each test uses its own part
 mod calculix_decks;
 mod command_line;
 mod documents;
 mod eval;
 mod examples;
+#[allow(dead_code)]
 mod hexahedra;
 mod impact;
 mod load_paths;

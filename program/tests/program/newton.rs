@@ -1,11 +1,11 @@
 //! Newton's method with the laws' tangents: the residual falls quadratically.
 
 use nalgebra::Matrix3;
-use toron_program::material::{Law, Material};
-use toron_program::newton::{self, Prescribed, Solution};
 use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters;
 use toron::law::stress::first_piola_kirchhoff;
+use toron_program::material::{Law, Material};
+use toron_program::newton::{self, Prescribed, Solution};
 
 fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material {
     let preset = parameters::preset(preset).expect("a preset");

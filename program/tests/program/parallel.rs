@@ -3,12 +3,12 @@
 use std::fmt::Debug;
 
 use proptest::prelude::*;
-use toron_program::bench::properties;
-use toron_program::parallel::parallel_block;
-use toron_program::scene::Scene;
 use toron::law::block::{Arrays, Block, Level, Precision};
 use toron::law::hyperelastic::Hyperelastic;
 use toron::law::status::{BAD_LEADING_DIMENSION, Error, INVERTED, OK};
+use toron_program::bench::properties;
+use toron_program::parallel::parallel_block;
+use toron_program::scene::Scene;
 
 /// Enough for every thread to get a part, and no multiple of any lanes.
 const POINTS: usize = 40_003;

@@ -1,7 +1,6 @@
 //! A yarn of elliptical section pressed between rigid plates, in CalculiX with contact: `ffi-tests/calculix/contact.inp`.
 //! `TORON_WRITE_PICTURES=1` writes the picture of `docs/images` anew.
 
-
 use std::fmt::Write;
 use std::path::Path;
 
@@ -9,10 +8,10 @@ use crate::calculix_decks::{both_tangents, control, properties, vectors};
 use crate::hexahedra::Mesh;
 use nalgebra::{Matrix3, Vector3};
 use plotters::prelude::*;
-use toron_program::picture::{self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::first_piola_kirchhoff;
+use toron_program::picture::{self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 
 /// Half axes of the section and thickness of the slice, in µm.
 const AXES: [f64; 2] = [266.85, 57.5];

@@ -119,6 +119,7 @@ pub(super) fn entry(body: impl FnOnce() -> Result<i32, Error>) -> i32 {
 ///
 /// # Safety
 /// `to` is null or has room for as many values.
+#[inline(always)]
 pub(super) unsafe fn store<T: Copy>(values: &[T], to: *mut T) {
     if !to.is_null() {
         for (i, &value) in values.iter().enumerate() {

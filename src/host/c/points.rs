@@ -8,7 +8,7 @@ use crate::host::environment::in_default_environment;
 use crate::law::block::Precision;
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
-use crate::law::point::{Alone, Call, Point, Sink, StressAndState};
+use crate::law::point::{Alone, Call, Point, Sink, StressAndState, cells};
 use crate::law::real::Real;
 use crate::law::state;
 use crate::law::status::{self, Error};
@@ -119,7 +119,9 @@ impl<T: Real> PointAnswer<'_, T> {
         unsafe {
             store(&point.state, self.state);
             store(&point.stress, self.stress);
-            store(point.modes.as_flattened(), self.modes);
+            if !self.modes.is_null() {
+                *self.modes.cast() = point.modes;
+            }
             if !self.wave_speed.is_null() {
                 *self.wave_speed = wave_speed::wave_speed(point.wave_modulus, self.density);
             }
@@ -170,7 +172,7 @@ unsafe fn point<T: Precision>(
     density: T,
     wave_speed: *mut T,
 ) -> Result<i32, Error> {
-    let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE].map(Cell::new);
+    let fresh = cells([T::splat(0.0); state::HYPERELASTIC_STATE]);
     // SAFETY: the caller's promise.
     let (properties, PointArguments { f, fibre, state }) = unsafe {
         (

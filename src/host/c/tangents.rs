@@ -1,13 +1,11 @@
 //! The tangents of the hyperelastic law, at a point and in blocks, and its least stable wave.
 
-use core::cell::Cell;
-
 use libc::size_t;
 
-use crate::law::block::{Pointers, Precision, raw_block_of};
+use crate::law::block::{Pointers, Precision};
 use crate::law::hyperelastic::{Hyperelastic, Request};
 use crate::law::parameters;
-use crate::law::point::Call;
+use crate::law::point::{Call, cells};
 use crate::law::state;
 use crate::law::status::{self, Error};
 use crate::law::tangent::{Measure, Nine, Six};
@@ -45,7 +43,7 @@ unsafe fn point_tangent<T: Precision>(
     measure: i32,
     tangent: *mut T,
 ) -> Result<i32, Error> {
-    let fresh = [T::splat(0.0); state::HYPERELASTIC_STATE].map(Cell::new);
+    let fresh = cells([T::splat(0.0); state::HYPERELASTIC_STATE]);
     // SAFETY: the caller's promise.
     let (properties, PointArguments { f, fibre, state }) = unsafe {
         (
@@ -167,7 +165,7 @@ unsafe fn block_tangent<T: Precision>(
     unsafe {
         let properties = properties(values, count, &parameters::HYPERELASTIC)?;
         let measure = self::measure(measure)?;
-        raw_block_of(properties, &Pointers { tangent, measure, ..(*block).pointers()? })
+        Hyperelastic::new(properties)?.raw_block(&Pointers { tangent, measure, ..(*block).pointers()? })
     }
 }
 

@@ -23,7 +23,6 @@ mod x86;
 #[cfg(target_arch = "x86_64")]
 pub(super) use x86::root;
 
-use core::cell::Cell;
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::ops::Range;
@@ -31,7 +30,7 @@ use core::ops::Range;
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, StressAndState};
+use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, cells};
 use super::real::{Real, Single};
 use super::state::{self, HYPERELASTIC_STATE};
 use super::status::{self, Error};
@@ -284,15 +283,15 @@ impl<T: Precision> Hyperelastic<T> {
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
-#[inline(always)]
 pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
     // Up to so many points it takes less time to prepare the law with each of them than once and to set up the block.
-    const FEW: usize = 2;
+    const FEW: usize = 3;
     // SAFETY: the caller answers for the arrays.
     unsafe {
+        let few = (1..=FEW).contains(&block.n) && block.tangent.is_null() && block.level() > Level::Baseline;
         match block.check() {
-            Ok(request) if (1..=FEW).contains(&block.n) => T::few(block.level(), properties, block, request),
-            _ => Hyperelastic::new(properties)?.raw_block(block),
+            Ok(request) if few => T::few(properties, block, request),
+            _ => Hyperelastic::new(properties)?.raw_block(block), // with what is wrong about the properties first
         }
     }
 }
@@ -465,14 +464,15 @@ pub trait Precision: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed 
     /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
 
-    /// The law of these properties at the points of a block one by one, in the operations of the level's lanes.
+    /// The law of these properties at the points of a block one by one, in the operations of the lanes with fused multiply-add; no
+    /// tangent.
     ///
     /// # Errors
     /// The first property that is wrong; nothing is written.
     ///
     /// # Safety
-    /// As for `dispatch`.
-    unsafe fn few(level: Level, properties: &[Self], block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
+    /// As for `dispatch`, on a processor with AVX2 and FMA.
+    unsafe fn few(properties: &[Self], block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
 
     /// The law at one point for a host that hands over the properties with it, by the best instructions: within four roundings
     /// of the input's sensitivity of what [`Hyperelastic::point_along`] gives, with the same status.
@@ -542,27 +542,14 @@ macro_rules! precision {
                 unsafe { evaluate(call) }
             }
 
-            #[inline(always)]
-            unsafe fn few(
-                level: Level,
-                properties: &[$t],
-                block: &Pointers<$t>,
-                request: Request,
-            ) -> Result<i32, Error> {
-                #[cfg(target_arch = "x86_64")]
-                if level > Level::Baseline {
-                    #[target_feature(enable = "avx2,fma")]
-                    unsafe fn fused(properties: &[$t], block: &Pointers<$t>, request: Request) -> Result<i32, Error> {
-                        // SAFETY: the caller's promise.
-                        unsafe { singly::<$t, $one, _>(properties, block, request, 0..block.n) }
-                    }
+            unsafe fn few(properties: &[$t], block: &Pointers<$t>, request: Request) -> Result<i32, Error> {
+                #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
+                unsafe fn fused(properties: &[$t], block: &Pointers<$t>, request: Request) -> Result<i32, Error> {
                     // SAFETY: the caller's promise.
-                    return unsafe { fused(properties, block, request) };
+                    unsafe { without_tangent::<$t, $one, _>(properties, block, request, 0..block.n) }
                 }
-                let _ = level;
-                let law = Hyperelastic::new(properties)?;
                 // SAFETY: the caller's promise.
-                unsafe { singly::<$t, $t, _>(&law, block, request, 0..block.n) }
+                unsafe { fused(properties, block, request) }
             }
 
             unsafe fn dispatch(level: Level, law: &Hyperelastic<$t>, block: &Pointers<$t>, request: Request) -> i32 {
@@ -589,7 +576,17 @@ macro_rules! precision {
                         points: Range<usize>,
                     ) -> i32 {
                         // SAFETY: the caller's promise.
-                        unsafe { singly::<$t, $one, _>(law, block, request, points) }.unwrap_or(status::OK)
+                        unsafe { singly::<$t, $one>(law, block, request, points) }
+                    }
+                    #[inline(never)]
+                    unsafe fn plain_singly(
+                        law: &Hyperelastic<$t>,
+                        block: &Pointers<$t>,
+                        request: Request,
+                        points: Range<usize>,
+                    ) -> i32 {
+                        // SAFETY: the caller's promise.
+                        unsafe { singly::<$t, $t>(law, block, request, points) }
                     }
                     // What fills no register goes to narrower ones, at last point by point: the same operations, the same bits.
                     let (n, mut worst) = (block.n, status::OK);
@@ -602,11 +599,7 @@ macro_rules! precision {
                                 worst = as_asked!(baseline, law, block, part);
                             }
                             let rest = part.end..n;
-                            if !rest.is_empty() {
-                                let code = singly::<$t, $t, _>(law, block, request, rest);
-                                worst = worst.min(code.unwrap_or(status::OK)); // the law is there
-                            }
-                            return worst;
+                            return worst.min(plain_singly(law, block, request, rest));
                         }
                         let mut part = 0..0;
                         if level == Level::Avx512 {
@@ -639,8 +632,8 @@ macro_rules! precision {
 }
 
 // What a kernel is built for, so that a loop holds no decision about it.
-const ENERGIES: u8 = 1;
-const HISTORY: u8 = 2; // invariants, failure and the latch
+const STRESS: u8 = 0;
+const STATE: u8 = 1; // with energies, invariants, failure and the latch
 const SHEAR: u8 = 4;
 const FIBRES: u8 = 8; // a fibre direction for each point
 const ALIGNED: u8 = 16; // the property's fibre lies along the first axis
@@ -655,9 +648,8 @@ macro_rules! specialised {
         let usual = stress && !modes && !wave_modulus && $block.tangent.is_null();
         let latch = !$block.failure_old.is_null();
         match (usual, energies, invariants && failure, invariants || latch) {
-            (true, false, false, false) => wanting!(0, $kernel, $law, $block, $points),
-            (true, true, false, false) => wanting!(ENERGIES, $kernel, $law, $block, $points),
-            (true, true, true, true) => wanting!(ENERGIES + HISTORY, $kernel, $law, $block, $points),
+            (true, false, false, false) => wanting!(STRESS, $kernel, $law, $block, $points),
+            (true, true, true, true) => wanting!(STATE, $kernel, $law, $block, $points),
             _ => as_asked!($kernel, $law, $block, $points),
         }
     }};
@@ -722,15 +714,15 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(
     least_code(worst)
 }
 
-/// The law at points one by one, in R.
+/// The law at points one by one, in R. Returns the worst status.
 ///
 /// # Errors
-/// The first property that is wrong, if the law is not prepared.
+/// The first property that is wrong, if the law has not been prepared.
 ///
 /// # Safety
-/// As for [`Hyperelastic::raw_block`], on a processor that has the instructions of R, for points of the block.
+/// As for [`Hyperelastic::raw_block`], on a processor that has the instructions of R, for points of a block without a tangent.
 #[inline(always)]
-unsafe fn singly<T: Precision, R: Single<T>, L: Source<T>>(
+unsafe fn without_tangent<T: Precision, R: Single<T>, L: Source<T>>(
     source: L,
     block: &Pointers<T>,
     request: Request,
@@ -739,25 +731,66 @@ unsafe fn singly<T: Precision, R: Single<T>, L: Source<T>>(
     let mut worst = status::OK;
     for i in points {
         // SAFETY: the caller's promise.
-        let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), block.old_state(i).map(Cell::new)) };
+        let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), cells(block.old_state(i))) };
         let mut code = status::OK;
         let sink = OnePoint { block, i, code: &mut code };
-        match (block.tangent.is_null(), block.measure) {
-            (true, _) if request == Request::STRESS_AND_STATE => {
-                point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, StressAndState, sink)
-            }
-            (true, _) => point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, Alone(request), sink),
-            (false, Measure::Nominal) => {
-                point::evaluate::<T, R, _, _, _, 81>(InGeneralAxes(source), &f, fibre, &state, Nine(request), sink)
-            }
-            (false, measure) => {
-                let tangent = Six(request, measure);
-                point::evaluate::<T, R, _, _, _, 21>(InGeneralAxes(source), &f, fibre, &state, tangent, sink)
-            }
-        }?;
+        point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, Alone(request), sink)?;
         worst = worst.min(code);
     }
     Ok(worst)
+}
+
+/// Likewise with a tangent.
+///
+/// # Errors
+/// As for [`without_tangent`].
+///
+/// # Safety
+/// As for [`without_tangent`], for points of a block with a tangent.
+#[inline(always)]
+unsafe fn with_tangent<T: Precision, R: Single<T>, L: Source<T>>(
+    source: L,
+    block: &Pointers<T>,
+    request: Request,
+    points: Range<usize>,
+) -> Result<i32, Error> {
+    let source = InGeneralAxes(source);
+    let mut worst = status::OK;
+    for i in points {
+        // SAFETY: the caller's promise.
+        let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), cells(block.old_state(i))) };
+        let mut code = status::OK;
+        let sink = OnePoint { block, i, code: &mut code };
+        if block.measure == Measure::Nominal {
+            point::evaluate::<T, R, _, _, _, 81>(source, &f, fibre, &state, Nine(request), sink)?;
+        } else {
+            let tangent = Six(request, block.measure);
+            point::evaluate::<T, R, _, _, _, 21>(source, &f, fibre, &state, tangent, sink)?;
+        }
+        worst = worst.min(code);
+    }
+    Ok(worst)
+}
+
+/// The points of a block that fill no register, one by one, in R. Returns the worst status.
+///
+/// # Safety
+/// As for [`Hyperelastic::raw_block`], on a processor that has the instructions of R, for points of the block.
+#[inline(always)]
+unsafe fn singly<T: Precision, R: Single<T>>(
+    law: &Hyperelastic<T>,
+    block: &Pointers<T>,
+    request: Request,
+    points: Range<usize>,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    let worst = unsafe {
+        match block.tangent.is_null() {
+            true => without_tangent::<T, R, _>(law, block, request, points),
+            false => with_tangent::<T, R, _>(law, block, request, points),
+        }
+    };
+    worst.unwrap_or(status::OK) // the law has been prepared
 }
 
 impl<T: Precision> Pointers<T> {
@@ -1006,15 +1039,15 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         }
         for k in 0..count {
             steps.put(k, Step { power: law.compaction(strains.get(k)) });
-            announce::<T, R, 4>(WANT & (ENERGIES | AS_ASKED) != 0, block.energies, block.leading_dimension, at(k));
+            announce::<T, R, 4>(WANT & (STATE | AS_ASKED) != 0, block.energies, block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
-            announce::<T, R, 4>(WANT & (HISTORY | AS_ASKED) != 0, block.invariants, block.leading_dimension, at(k));
+            announce::<T, R, 4>(WANT & (STATE | AS_ASKED) != 0, block.invariants, block.leading_dimension, at(k));
         }
         for k in 0..count {
             steps.put(k, Step { powered: steps.get(k).reduced.finish() });
-            announce::<T, R, 3>(WANT & (HISTORY | AS_ASKED) != 0, block.failure, block.leading_dimension, at(k));
+            announce::<T, R, 3>(WANT & (STATE | AS_ASKED) != 0, block.failure, block.leading_dimension, at(k));
         }
         for k in 0..count {
             let doubt = match axes(k).1 {
@@ -1044,7 +1077,7 @@ unsafe fn staged<T: Precision, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
                 *worst = R::select(code.lt(*worst), code, *worst);
             }
         }
-        if WANT & (ENERGIES | HISTORY | AS_ASKED) != 0 {
+        if WANT & (STATE | AS_ASKED) != 0 {
             for k in 0..count {
                 let (d, strain) = (stretches.get(k), strains.get(k));
                 remember::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
@@ -1101,9 +1134,9 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
     let asked = WANT & AS_ASKED != 0;
     Request {
         stress: !asked || !block.stress[0].is_null(),
-        energies: if asked { !block.energies.is_null() } else { WANT & ENERGIES != 0 },
-        invariants: if asked { !block.invariants.is_null() } else { WANT & HISTORY != 0 },
-        failure: if asked { !block.failure.is_null() } else { WANT & HISTORY != 0 },
+        energies: if asked { !block.energies.is_null() } else { WANT & STATE != 0 },
+        invariants: if asked { !block.invariants.is_null() } else { WANT & STATE != 0 },
+        failure: if asked { !block.failure.is_null() } else { WANT & STATE != 0 },
         modes: asked && !block.modes.is_null(),
         wave_modulus: asked && !block.wave_speed.is_null(),
     }
@@ -1172,7 +1205,7 @@ unsafe fn finish<T: Precision, R: Lanes<T>, const WANT: u8>(
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
 unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> R {
-    let absent = if WANT & AS_ASKED != 0 { block.failure_old.is_null() } else { WANT & HISTORY == 0 };
+    let absent = if WANT & AS_ASKED != 0 { block.failure_old.is_null() } else { WANT & STATE == 0 };
     if absent {
         return R::splat(0.0);
     }
