@@ -50,6 +50,7 @@ pub struct Block<T> {
     pub level: i32,
 }
 
+#[inline(always)]
 pub(super) fn level(level: i32) -> Result<Option<Level>, Error> {
     match level {
         TORON_LEVEL_BEST => Ok(None),
@@ -65,6 +66,7 @@ pub(super) fn level(level: i32) -> Result<Option<Level>, Error> {
 }
 
 impl<T> Block<T> {
+    #[inline(always)]
     pub(super) fn pointers(&self) -> Result<Pointers<T>, Error>
     where
         T: Copy,

@@ -30,7 +30,7 @@ use core::ops::Range;
 use super::elementary::{Power, Reduced};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, cells};
+use super::point::{self, Alone, Call, Derivative, InGeneralAxes, Point, Sink, Source, StressAndState, cells};
 use super::real::{Real, Single};
 use super::state::{self, HYPERELASTIC_STATE};
 use super::status::{self, Error};
@@ -66,19 +66,25 @@ pub struct Pointers<T> {
 }
 
 /// The pointers to the components of a component-major array; all null where the array is.
+#[inline(always)]
 pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
-    let mut pointers = [core::ptr::null(); N];
-    if !array.is_null() {
-        for (c, pointer) in pointers.iter_mut().enumerate() {
-            *pointer = array.wrapping_add(c.wrapping_mul(leading_dimension));
-        }
+    let (mut pointers, mut c) = ([array; N], 1);
+    while c < N && !array.is_null() {
+        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
+        c += 1;
     }
     pointers
 }
 
 /// Likewise, for writing.
+#[inline(always)]
 pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize) -> [*mut T; N] {
-    components(array.cast_const(), leading_dimension).map(<*const T>::cast_mut)
+    let (mut pointers, mut c) = ([array; N], 1);
+    while c < N && !array.is_null() {
+        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
+        c += 1;
+    }
+    pointers
 }
 
 /// A block as Rust passes it: the state in place, old on entry and new on return.
@@ -546,7 +552,14 @@ macro_rules! precision {
                 #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
                 unsafe fn fused(properties: &[$t], block: &Pointers<$t>, request: Request) -> Result<i32, Error> {
                     // SAFETY: the caller's promise.
-                    unsafe { without_tangent::<$t, $one, _>(properties, block, request, 0..block.n) }
+                    unsafe {
+                        match request {
+                            Request::STRESS_AND_STATE => {
+                                without_tangent::<$t, $one, _, _>(properties, block, StressAndState, 0..block.n)
+                            }
+                            _ => without_tangent::<$t, $one, _, _>(properties, block, Alone(request), 0..block.n),
+                        }
+                    }
                 }
                 // SAFETY: the caller's promise.
                 unsafe { fused(properties, block, request) }
@@ -722,10 +735,10 @@ unsafe fn sweep<T: Precision, R: Lanes<T>, const WANT: u8>(
 /// # Safety
 /// As for [`Hyperelastic::raw_block`], on a processor that has the instructions of R, for points of a block without a tangent.
 #[inline(always)]
-unsafe fn without_tangent<T: Precision, R: Single<T>, L: Source<T>>(
+unsafe fn without_tangent<T: Precision, R: Single<T>, L: Source<T>, D: Derivative<0>>(
     source: L,
     block: &Pointers<T>,
-    request: Request,
+    request: D,
     points: Range<usize>,
 ) -> Result<i32, Error> {
     let mut worst = status::OK;
@@ -734,7 +747,7 @@ unsafe fn without_tangent<T: Precision, R: Single<T>, L: Source<T>>(
         let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), cells(block.old_state(i))) };
         let mut code = status::OK;
         let sink = OnePoint { block, i, code: &mut code };
-        point::evaluate::<T, R, L, _, _, 0>(source, &f, fibre, &state, Alone(request), sink)?;
+        point::evaluate::<T, R, L, D, _, 0>(source, &f, fibre, &state, request, sink)?;
         worst = worst.min(code);
     }
     Ok(worst)
@@ -786,7 +799,7 @@ unsafe fn singly<T: Precision, R: Single<T>>(
     // SAFETY: the caller's promise.
     let worst = unsafe {
         match block.tangent.is_null() {
-            true => without_tangent::<T, R, _>(law, block, request, points),
+            true => without_tangent::<T, R, _, _>(law, block, Alone(request), points),
             false => with_tangent::<T, R, _>(law, block, request, points),
         }
     };
