@@ -31,10 +31,10 @@ const OVERHANG: i32 = 8;
 const LONGEST: i32 = 860;
 const HIGHEST: i32 = 400;
 const NAME_AIR: i32 = 12;
-const NAME_BELOW: i32 = 12;
-/// The section's part of the width. The section at rest takes some of it: it widens.
+const NAME_BELOW: i32 = 9;
+/// The section's part of the width, and what the section at rest may take: it widens.
 const SECTION: i32 = 270;
-const AT_REST: f64 = 0.82;
+const AT_REST: [f64; 2] = [220.0, 90.0];
 /// The scale of colours: its place, width and height in the heading, and its steps.
 const SCALE_LEFT: i32 = 150;
 const SCALE_WIDTH: i32 = 200;
@@ -265,7 +265,7 @@ impl<'a> Drawing<'a> {
     }
 
     fn section_scale(&self) -> f64 {
-        AT_REST * f64::from(SECTION) / self.case.yarn.width
+        (AT_REST[0] / self.case.yarn.width).min(AT_REST[1] / self.case.yarn.height)
     }
 
     /// The elements beside mid-span, seen along the yarn.
@@ -273,22 +273,20 @@ impl<'a> Drawing<'a> {
         let intact = (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]);
         let faces = intact.map(|element| (element, [0, 2, 6, 4].map(|corner| self.node(element, corner))));
         let faces: Vec<(usize, [[f64; 3]; 4])> = faces.collect();
-        let heights = faces.iter().flat_map(|(_, face)| face.map(|node| node[1]));
-        let centre = heights.sum::<f64>() / (4 * faces.len()) as f64;
+        let heights = || faces.iter().flat_map(|(_, face)| face.map(|node| node[1]));
+        let [low, high] = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
+        let [centre, half] = [0.5 * (low + high), 0.5 * (high - low).max(0.0)];
         let origin = [WIDTH - LEFT - SECTION / 2, HEAD + self.side_height() / 2].map(f64::from);
         let view = View { scale: self.section_scale(), origin };
-        for (element, face) in faces {
+        for &(element, face) in &faces {
             let mut points = face.map(|[_, y, z]| view.place([z, y - centre])).to_vec();
             area.draw(&Polygon::new(points.clone(), shade(element).filled()))?;
             points.push(points[0]);
             area.draw(&PathElement::new(points, stroke(WHITE, 1)))?;
         }
-        let below = view.place([0.0, -0.5 * self.case.yarn.height]).1 + fine(NAME_BELOW);
-        area.draw_text(
-            "at mid-span",
-            &beside().pos(Pos::new(HPos::Center, VPos::Top)),
-            (view.place([0.0; 2]).0, below),
-        )?;
+        let (x, y) = view.place([0.0, -half]);
+        let name = if faces.is_empty() { "torn at mid-span" } else { "at mid-span" };
+        area.draw_text(name, &beside().pos(Pos::new(HPos::Center, VPos::Top)), (x, y + fine(NAME_BELOW)))?;
         Ok(())
     }
 
