@@ -7,25 +7,9 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
+use plot::CACHED;
+pub use plot::Family;
 use serde::{Serialize, Serializer};
-
-/// What kind of implementation a row is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Family {
-    /// Eq. 4.14 as printed.
-    Literal,
-    /// The form without the singularity, in Fortran.
-    Spatial,
-    /// Principal stretches.
-    Eigen,
-    /// The library in double precision.
-    Double,
-    /// The library in single precision.
-    Single,
-    /// No law.
-    Copy,
-}
 
 /// Where a set of measurements lies.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -160,8 +144,7 @@ pub struct Report {
     ratios: Vec<Ratio>,
 }
 
-/// The sizes of the ratios: a batch in the cache, and one in memory.
-const CACHED: usize = 4096;
+/// The ratios are measured for a batch in the cache, and for one in memory.
 const STREAMED: usize = 1_000_000;
 
 impl Report {
@@ -218,9 +201,9 @@ impl Report {
     pub fn write(&self, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
         std::fs::create_dir_all(folder)?;
         std::fs::write(folder.join("speed.md"), self.text())?;
-        std::fs::write(folder.join("speed.json"), serde_json::to_string_pretty(self)? + "\n")?;
-        plot::write(self, folder)?;
-        Ok(())
+        let json = serde_json::to_string_pretty(self)? + "\n";
+        std::fs::write(folder.join("speed.json"), &json)?;
+        plot::write(&json, folder)
     }
 
     fn time(&self, row: &Row, n: usize) -> f64 {

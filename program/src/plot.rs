@@ -10,7 +10,7 @@ use super::material::Law;
 use super::newton::{COMPONENT_NAMES, COMPONENTS};
 use super::path::LoadPath;
 use super::picture::{
-    self, Area, COLOURS, Drawn, GREY, HEADING, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text,
+    self, Area, COLOURS, Drawn, GREY, HEADING, INK, RULE, Sheet, TEXT, TITLE, fine, stroke, superscript, text,
 };
 use super::report::MODE_NAMES;
 use super::run::{History, Increment};
@@ -178,7 +178,7 @@ pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
 }
 
 /// A plot between two axes.
-type Chart<'a, X, Y> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
+type Chart<'a, X, Y> = ChartContext<'a, &'a mut Sheet, Cartesian2d<X, Y>>;
 
 /// Writes a value on an axis.
 type Label<'a> = &'a dyn Fn(&f64) -> String;

@@ -1,8 +1,9 @@
-//! The deformed yarn coloured by each mode's energy: from the side and above, and its section at mid-span.
+//! The deformed yarn coloured by each mode's energy: from the side, from above, and its section at mid-span.
 
 use std::path::Path;
 
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::run::{Outcome, Snapshot};
 use super::scene::{Case, Scene, Zones};
@@ -13,37 +14,51 @@ use crate::picture::{self, Area, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, s
 use crate::unit_names::{number, time, unit};
 use toron::law::parameters::ENERGY_DENSITY;
 
-const WIDTH: u32 = 1280;
-/// The part of the width that the view of the whole yarn gets; the rest is the section's.
-const SIDE: i32 = 960;
-const ROW: i32 = 272;
-/// Air below the last row.
-const BOTTOM: i32 = 4;
-/// Where the first row starts, the height of a row's heading, and where the yarn's axis lies below that.
-const TOP: i32 = 80;
-const HEAD: i32 = 38;
-const AXIS: f64 = 78.0;
-/// Air beside the pictures, and beside all text on the left.
-const AIR: i32 = 30;
+const WIDTH: i32 = 1280;
+/// Air beside all that is drawn.
 const LEFT: i32 = 24;
-/// Where the text of the headings lies below their tops.
+/// Where the text of the title lies, and where the first row starts.
 const TITLE_TOP: i32 = 16;
 const TIME_TOP: i32 = 50;
-const NAME_TOP: i32 = 8;
-const LABEL_TOP: i32 = 10;
-/// Air between the scale of colours and its label.
-const LABEL_AIR: i32 = 12;
-/// Corners of the projectile's circle.
-const CORNERS: usize = 72;
+const TOP: i32 = 84;
+/// A row: its heading, the view from the side, the one from above, and air between and below them.
+const HEAD: i32 = 42;
+const BETWEEN: i32 = 18;
+const BELOW: i32 = 26;
+/// What the projectile is longer than the yarn is wide, in the view from above.
+const OVERHANG: i32 = 8;
+/// What the two views of the whole yarn may take; their names stand beside them.
+const LONGEST: i32 = 860;
+const HIGHEST: i32 = 400;
+const NAME_AIR: i32 = 12;
+const NAME_BELOW: i32 = 9;
+/// The section's part of the width, and what the section at rest may take: it widens.
+const SECTION: i32 = 270;
+const AT_REST: [f64; 2] = [220.0, 90.0];
 /// The scale of colours: its place, width and height in the heading, and its steps.
-const SCALE_LEFT: i32 = 180;
+const SCALE_LEFT: i32 = 150;
 const SCALE_WIDTH: i32 = 200;
-const SCALE_TOP: i32 = 12;
+const SCALE_TOP: i32 = 3;
 const SCALE_HEIGHT: i32 = 14;
 const SCALE_STEPS: i32 = 40;
-/// Looking down by so much, the top is seen: a length across is drawn upwards in this proportion.
-const TILT: f64 = 1.0;
+/// The last line, with the scales of lengths.
+const FOOT: i32 = 34;
+const BAR_TOP: i32 = 8;
+/// The length of a scale is some round part of this.
+const LONGEST_BAR: f64 = 120.0;
+const PROJECTILE: RGBColor = RGBColor(232, 232, 232);
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
+
+/// A side of an element along the yarn: its corners towards mid-span, and where the element stands that would hide it,
+/// by columns and rows.
+struct Side {
+    corners: [usize; 2],
+    neighbour: [isize; 2],
+}
+
+const UPPER: Side = Side { corners: [2, 6], neighbour: [0, 1] };
+const LOWER: Side = Side { corners: [0, 4], neighbour: [0, -1] };
+const NEARER: Side = Side { corners: [4, 6], neighbour: [1, 0] };
 
 /// What the rows show: the modes or, where there is none, the work of the linear law. Of two laws the first row has both.
 fn rows(case: &Case) -> Vec<&'static str> {
@@ -66,28 +81,21 @@ pub fn write(
     result: &Outcome,
     snapshot: &Snapshot,
 ) -> Result<(), Error> {
-    let rows = rows(case);
-    let size = [WIDTH, (TOP + ROW * rows.len() as i32 + BOTTOM) as u32];
-    picture::write(svg, png, size, |root| {
+    let names = rows(case);
+    let drawing = Drawing::new(&result.mesh, case, snapshot);
+    let height = TOP + names.len() as i32 * drawing.row_height() + FOOT;
+    picture::write(svg, png, [WIDTH as u32, height as u32], |root| {
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let laws = if matches!(case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
         let time = format!("at {}{laws}", time(&scene.units, snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
-        let drawing = Drawing { mesh: &result.mesh, case, snapshot };
-        for (mode, name) in rows.into_iter().enumerate() {
-            let top = TOP + ROW * mode as i32;
-            let row = root.margin(fine(top), 0, 0, 0);
-            drawing.draw_row(&row, mode, name, &unit(&scene.units, ENERGY_DENSITY))?;
+        for (mode, name) in names.into_iter().enumerate() {
+            let top = TOP + mode as i32 * drawing.row_height();
+            drawing.draw_row(&root.margin(fine(top), 0, 0, 0), mode, name, &unit(&scene.units, ENERGY_DENSITY))?;
         }
-        Ok(())
+        drawing.draw_foot(&root.margin(fine(height - FOOT), 0, 0, 0), scene.units.names()[0])
     })
-}
-
-struct Drawing<'a> {
-    mesh: &'a Mesh,
-    case: &'a Case,
-    snapshot: &'a Snapshot,
 }
 
 /// From lengths to the picture: a scale and the place of the origin.
@@ -103,12 +111,54 @@ impl View {
     }
 }
 
-/// A colour of viridis between nothing and the largest value.
+/// A colour of viridis between nothing and the largest value, one of those that the scale shows.
 fn colour(share: f64) -> RGBColor {
-    ViridisRGB.get_color(share.clamp(0.0, 1.0))
+    let last = f64::from(SCALE_STEPS - 1);
+    ViridisRGB.get_color((share.clamp(0.0, 1.0) * last).round() / last)
 }
 
-impl Drawing<'_> {
+struct Drawing<'a> {
+    mesh: &'a Mesh,
+    case: &'a Case,
+    snapshot: &'a Snapshot,
+    /// Size in the picture of a unit of length, in the views of the whole yarn.
+    scale: f64,
+    /// What there is to see from the side, from below to above, and the half of it from above.
+    heights: [f64; 2],
+    half_width: f64,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(mesh: &'a Mesh, case: &'a Case, snapshot: &'a Snapshot) -> Self {
+        let mut reach = [case.yarn.length, 0.0, 0.5 * case.yarn.width];
+        let mut heights = [-0.5 * case.yarn.height, 0.5 * case.yarn.height];
+        let mut include = |y: f64| heights = [heights[0].min(y), heights[1].max(y)];
+        for element in (0..mesh.elements.len()).filter(|&element| snapshot.intact[element]) {
+            for x in mesh.elements[element].map(|node| snapshot.positions[node as usize]) {
+                reach = [0, 1, 2].map(|axis| x[axis].abs().max(reach[axis]));
+                include(x[1]);
+            }
+        }
+        if let Some((height, radius)) = snapshot.projectile {
+            include(height - radius);
+            include(height + radius);
+        }
+        let scale = (f64::from(LONGEST) / (2.0 * reach[0])).min(f64::from(HIGHEST) / (heights[1] - heights[0]));
+        Drawing { mesh, case, snapshot, scale, heights, half_width: reach[2] }
+    }
+
+    fn side_height(&self) -> i32 {
+        (self.scale * (self.heights[1] - self.heights[0])).ceil() as i32
+    }
+
+    fn above_height(&self) -> i32 {
+        (2.0 * self.scale * self.half_width).ceil() as i32 + 2 * OVERHANG
+    }
+
+    fn row_height(&self) -> i32 {
+        HEAD + self.side_height() + BETWEEN + self.above_height() + BELOW
+    }
+
     fn draw_row(&self, area: &Area, mode: usize, name: &str, unit: &str) -> Drawn<()> {
         // The linear law has no modes.
         let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
@@ -118,77 +168,185 @@ impl Drawing<'_> {
         let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
         let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
         self.draw_side(area, &shade)?;
+        self.draw_above(area, &shade)?;
         self.draw_section(area, &shade)
     }
 
-    /// The whole yarn: the half that was computed, and its mirror image.
+    /// From the side: the yarn before the projectile, the far side first, which the near one covers.
     fn draw_side(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
-        let span = 2.0 * self.case.yarn.length;
-        let scale = f64::from(SIDE - 2 * AIR) / span;
-        let view = View { scale, origin: [f64::from(SIDE) / 2.0, f64::from(HEAD) + AXIS] };
-        // The far side first.
-        for column in (0..self.case.yarn.columns).rev() {
-            let rows = self.case.yarn.rows;
-            for (layer, row) in (0..self.case.yarn.layers).flat_map(|layer| (0..rows).map(move |row| (layer, row))) {
-                // What stands above covers it.
-                let element = self.element(layer, column, row);
-                if !self.snapshot.intact[element] {
-                    continue;
-                }
-                // The corners of the upper face, around it.
-                let face = [2, 3, 7, 6].map(|corner| self.mesh.elements[element][corner] as usize);
-                for side in [1.0, -1.0] {
-                    let points = face.map(|node| {
-                        let [x, y, z] = self.snapshot.positions[node];
-                        view.place([side * x, y + TILT * z])
-                    });
-                    area.draw(&Polygon::new(points.to_vec(), shade(element).filled()))?;
-                }
+        let top = f64::from(HEAD) + self.scale * self.heights[1];
+        let view = View { scale: self.scale, origin: [f64::from(LEFT + LONGEST / 2), top] };
+        if let Some((height, radius)) = self.snapshot.projectile {
+            let (centre, radius) = (view.place([0.0, height]), (self.scale * radius * f64::from(fine(1))) as i32);
+            area.draw(&Circle::new(centre, radius, PROJECTILE.filled()))?;
+            area.draw(&Circle::new(centre, radius, stroke(GREY, 1)))?;
+        }
+        let place = |[x, y, _]: [f64; 3]| view.place([x, y]);
+        let yarn = &self.case.yarn;
+        for (column, row) in (0..yarn.columns).flat_map(|column| (0..yarn.rows).map(move |row| (column, row))) {
+            for side in [LOWER, UPPER, NEARER] {
+                self.draw_line(area, [column, row], &side, &place, shade)?;
             }
         }
-        if let Some((height, radius)) = self.snapshot.projectile {
-            let turn = |i: usize| 2.0 * std::f64::consts::PI * i as f64 / CORNERS as f64;
-            let circle = (0..=CORNERS)
-                .map(|i| view.place([radius * turn(i).cos(), height + radius * turn(i).sin()]))
-                .collect::<Vec<_>>();
-            area.draw(&PathElement::new(circle, stroke(GREY, 2)))?;
+        name_view(area, "from the side", view.place([yarn.length, 0.0]))
+    }
+
+    /// From above, as if the projectile could be looked through.
+    fn draw_above(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
+        let top = HEAD + self.side_height() + BETWEEN;
+        let middle = f64::from(top) + 0.5 * f64::from(self.above_height());
+        let view = View { scale: self.scale, origin: [f64::from(LEFT + LONGEST / 2), middle] };
+        if let Some((_, radius)) = self.snapshot.projectile {
+            let [left, right] = [-radius, radius].map(|x| view.place([x, 0.0]).0);
+            let [top, bottom] = [top, top + self.above_height()].map(fine);
+            area.draw(&Rectangle::new([(left, top), (right, bottom)], PROJECTILE.filled()))?;
+            for x in [left, right] {
+                area.draw(&PathElement::new([(x, top), (x, bottom)], stroke(GREY, 1)))?;
+            }
         }
-        Ok(())
+        let place = |[x, _, z]: [f64; 3]| view.place([x, z]);
+        let yarn = &self.case.yarn;
+        for (row, column) in (0..yarn.rows).flat_map(|row| (0..yarn.columns).map(move |column| (row, column))) {
+            self.draw_line(area, [column, row], &UPPER, &place, shade)?;
+        }
+        name_view(area, "from above", view.place([yarn.length, 0.0]))
+    }
+
+    /// One side of the elements of a column and a row, as far as it is seen: the half that was computed and its mirror
+    /// image, in strips of one colour.
+    fn draw_line(
+        &self,
+        area: &Area,
+        [column, row]: [usize; 2],
+        side: &Side,
+        place: &dyn Fn([f64; 3]) -> (i32, i32),
+        shade: &dyn Fn(usize) -> RGBColor,
+    ) -> Drawn<()> {
+        let layers = self.case.yarn.layers;
+        let mut strip = Strip::default();
+        for step in 0..2 * layers {
+            let (layer, sign) = if step < layers { (layers - 1 - step, -1.0) } else { (step - layers, 1.0) };
+            let Some(element) = self.seen(layer, column, row, side) else {
+                std::mem::take(&mut strip).draw(area)?;
+                continue;
+            };
+            let edge = |along: usize| {
+                side.corners.map(|corner| {
+                    let [x, y, z] = self.node(element, corner | along);
+                    place([sign * x, y, z])
+                })
+            };
+            let (start, end) = if sign < 0.0 { (edge(1), edge(0)) } else { (edge(0), edge(1)) };
+            let colour = shade(element);
+            if strip.colour != colour || strip.edges.is_empty() {
+                std::mem::replace(&mut strip, Strip { colour, edges: vec![start] }).draw(area)?;
+            }
+            strip.edges.push(end);
+        }
+        strip.draw(area)
+    }
+
+    /// The element of that place if it is there and no other hides its side.
+    fn seen(&self, layer: usize, column: usize, row: usize, side: &Side) -> Option<usize> {
+        let [across, up] = side.neighbour;
+        let next = column.checked_add_signed(across).zip(row.checked_add_signed(up));
+        let hidden = next.is_some_and(|(column, row)| self.intact(layer, column, row).is_some());
+        self.intact(layer, column, row).filter(|_| !hidden)
+    }
+
+    fn intact(&self, layer: usize, column: usize, row: usize) -> Option<usize> {
+        let yarn = &self.case.yarn;
+        let element = layer * self.mesh.elements_per_layer + column * yarn.rows + row;
+        (column < yarn.columns && row < yarn.rows && self.snapshot.intact[element]).then_some(element)
+    }
+
+    fn node(&self, element: usize, corner: usize) -> [f64; 3] {
+        self.snapshot.positions[self.mesh.elements[element][corner] as usize]
+    }
+
+    fn section_scale(&self) -> f64 {
+        (AT_REST[0] / self.case.yarn.width).min(AT_REST[1] / self.case.yarn.height)
     }
 
     /// The elements beside mid-span, seen along the yarn.
     fn draw_section(&self, area: &Area, shade: &dyn Fn(usize) -> RGBColor) -> Drawn<()> {
-        let yarn = &self.case.yarn;
-        let nodes = 0..self.mesh.nodes_per_section;
-        let centre = nodes.clone().map(|node| self.snapshot.positions[node][1]).sum::<f64>() / nodes.len() as f64;
-        // Twice the section's width has room.
-        let scale = f64::from(WIDTH as i32 - SIDE - 2 * AIR) / (2.0 * yarn.width);
-        let origin = [f64::from(SIDE) + f64::from(WIDTH as i32 - SIDE) / 2.0, f64::from(HEAD + ROW) / 2.0];
-        let view = View { scale, origin };
-        for element in (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]) {
-            let face = [0, 2, 6, 4].map(|corner| self.mesh.elements[element][corner] as usize);
-            let mut points: Vec<(i32, i32)> = face
-                .iter()
-                .map(|&node| {
-                    let [_, y, z] = self.snapshot.positions[node];
-                    view.place([z, y - centre])
-                })
-                .collect();
+        let intact = (0..self.mesh.elements_per_layer).filter(|&element| self.snapshot.intact[element]);
+        let faces = intact.map(|element| (element, [0, 2, 6, 4].map(|corner| self.node(element, corner))));
+        let faces: Vec<(usize, [[f64; 3]; 4])> = faces.collect();
+        let heights = || faces.iter().flat_map(|(_, face)| face.map(|node| node[1]));
+        let [low, high] = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
+        let [centre, half] = [0.5 * (low + high), 0.5 * (high - low).max(0.0)];
+        let origin = [WIDTH - LEFT - SECTION / 2, HEAD + self.side_height() / 2].map(f64::from);
+        let view = View { scale: self.section_scale(), origin };
+        for &(element, face) in &faces {
+            let mut points = face.map(|[_, y, z]| view.place([z, y - centre])).to_vec();
             area.draw(&Polygon::new(points.clone(), shade(element).filled()))?;
             points.push(points[0]);
             area.draw(&PathElement::new(points, stroke(WHITE, 1)))?;
         }
+        let (x, y) = view.place([0.0, -half]);
+        let name = if faces.is_empty() { "torn at mid-span" } else { "at mid-span" };
+        area.draw_text(name, &beside().pos(Pos::new(HPos::Center, VPos::Top)), (x, y + fine(NAME_BELOW)))?;
         Ok(())
     }
 
-    fn element(&self, layer: usize, column: usize, row: usize) -> usize {
-        layer * self.mesh.elements_per_layer + column * self.case.yarn.rows + row
+    /// The lengths that the views and the sections are measured by.
+    fn draw_foot(&self, area: &Area, unit: &str) -> Drawn<()> {
+        for (left, scale) in [(LEFT, self.scale), (WIDTH - LEFT - SECTION, self.section_scale())] {
+            let length = round_length(LONGEST_BAR / scale);
+            let [left, right] = [0.0, length].map(|x| fine(left) + (scale * x * f64::from(fine(1))) as i32);
+            let tick = |x: i32| [(x, fine(BAR_TOP - 4)), (x, fine(BAR_TOP + 4))];
+            for line in [[(left, fine(BAR_TOP)), (right, fine(BAR_TOP))], tick(left), tick(right)] {
+                area.draw(&PathElement::new(line, stroke(INK, 1)))?;
+            }
+            area.draw_text(&format!("{length} {unit}"), &beside(), (right + fine(NAME_AIR), fine(BAR_TOP)))?;
+        }
+        Ok(())
     }
+}
+
+/// Sides of elements in a row, of one colour: the edges between them.
+#[derive(Default)]
+struct Strip {
+    colour: RGBColor,
+    edges: Vec<[(i32, i32); 2]>,
+}
+
+impl Strip {
+    fn draw(self, area: &Area) -> Drawn<()> {
+        let forth = self.edges.iter().map(|edge| edge[0]);
+        let back = self.edges.iter().rev().map(|edge| edge[1]);
+        let mut outline: Vec<(i32, i32)> = forth.chain(back).collect();
+        let Some(&start) = outline.first() else { return Ok(()) };
+        area.draw(&Polygon::new(outline.clone(), self.colour.filled()))?;
+        // Between neighbours the ground would shine through, but for a line of one dot of the PNG.
+        outline.push(start);
+        area.draw(&PathElement::new(outline, self.colour.stroke_width(7 * fine(1) as u32 / 10)))?;
+        Ok(())
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `most`.
+fn round_length(most: f64) -> f64 {
+    let power = 10_f64.powi(most.log10().floor() as i32);
+    [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&length| length <= most).unwrap_or(power)
+}
+
+/// The name of a view beside the end of the yarn.
+fn name_view(area: &Area, name: &str, (x, y): (i32, i32)) -> Drawn<()> {
+    area.draw_text(name, &beside(), (x + fine(NAME_AIR), y))?;
+    Ok(())
+}
+
+/// Text beside what it names.
+fn beside() -> TextStyle<'static> {
+    text(TEXT, &GREY).pos(Pos::new(HPos::Left, VPos::Center))
 }
 
 /// The mode's name, and what its colours mean.
 fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
-    area.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(NAME_TOP)))?;
+    let middle = fine(SCALE_TOP + SCALE_HEIGHT / 2);
+    area.draw_text(name, &text(HEADING, &INK).pos(Pos::new(HPos::Left, VPos::Center)), (fine(LEFT), middle))?;
     for step in 0..SCALE_STEPS {
         let x = |i: i32| fine(SCALE_LEFT) + fine(SCALE_WIDTH) * i / SCALE_STEPS;
         // To the end, each over the last: between neighbours the ground would shine through.
@@ -197,6 +355,17 @@ fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
         area.draw(&Rectangle::new(corners, colour(share).filled()))?;
     }
     let label = format!("0 to {} {unit}", number(largest));
-    area.draw_text(&label, &text(TEXT, &INK), (fine(SCALE_LEFT + SCALE_WIDTH + LABEL_AIR), fine(LABEL_TOP)))?;
+    area.draw_text(&label, &beside(), (fine(SCALE_LEFT + SCALE_WIDTH + NAME_AIR), middle))?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_a_round_length() {
+        let lengths = [9.9, 5.0, 4.9, 1.99, 0.3, 0.07].map(round_length);
+        assert_eq!(lengths.map(|length| length.to_string()), ["5", "5", "2", "1", "0.2", "0.05"]);
+    }
 }
