@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs every test on a fresh machine: installs the compilers, tools and solvers that the tests call, where they are missing,
-# then `cargo test`. Arguments go to `cargo test`.
+# then `cargo test --workspace`. Arguments go to `cargo test`.
 set -eu
 cd "$(dirname "$0")"
 
@@ -48,4 +48,4 @@ fi
 # CalculiX and felupe, into the cache folder; the first time takes some minutes.
 ffi-tests/calculix/build.sh >/dev/null
 ffi-tests/felupe/environment.sh >/dev/null
-cargo test --locked "$@"
+cargo test --locked --workspace "$@"

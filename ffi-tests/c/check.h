@@ -1,4 +1,4 @@
-/* Counts what is wrong; arrays that notice a write beyond their ends; the truth's cases as `tests/ffi.rs` writes them. */
+/* Counts what is wrong; arrays that notice a write beyond their ends; the truth's cases as `c/tests/c/ffi.rs` writes them. */
 #ifndef CHECK_H
 #define CHECK_H
 
@@ -17,7 +17,7 @@ typedef toron_block_f32 toron_block;
 typedef toron_linear_block_f32 toron_linear_block;
 typedef toron_vumat_f32 toron_vumat;
 #define ENTRY(name) name##_f32
-/* What the truth allows, in parts of one rounding of the input: see tests/truth.rs. */
+/* What the truth allows, in parts of one rounding of the input: see tests/law/truth.rs. */
 #define ALLOWED (8 * 6e-8)
 #else
 typedef double real;

@@ -1,4 +1,4 @@
-! The truth's cases as `tests/ffi.rs` writes them, what an answer may be off by, and a count of what is wrong.
+! The truth's cases as `c/tests/c/ffi.rs` writes them, what an answer may be off by, and a count of what is wrong.
 module cases
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_invalid, ieee_support_halting, ieee_usual
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t

@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | found as | `HYPERELASTIC` in `libTORON.so`, a link to `libtoron.so` |
+//! | found as | `HYPERELASTIC` in `libTORON.so`, a link to `libtoron_calculix.so` |
 //! | properties | elconloc(1) … elconloc(11), kode = −100 − 11 |
 //! | deformation | xkl(3,3), F by columns, global |
 //! | state | xstateini, xstate: (nstate_, mi(1), elements), nstate_ ≥ 11 |

@@ -79,7 +79,7 @@ fn case(t: &Value) -> String {
         square += tangent(i, j).powi(2);
         write!(line, " {:e}", tangent(i, j)).expect("a string");
     }
-    // What rounding F does to the stiffness at the kinks of `distortion` is measured in `tests/tangent.rs`.
+    // What rounding F does to the stiffness at the kinks of `distortion` is measured in `tests/law/tangent.rs`.
     let allowed = match t["category"].as_str() {
         Some("compaction" | "exponent") => 1e-8,
         Some("distortion" | "rest") => f64::INFINITY,
