@@ -1,32 +1,38 @@
 //! toron: the transversely isotropic hyperelastic law of a yarn, for dry fabrics under ballistic impact (P. del Sorbo,
 //! ENSAM, 2019), and the linear elastic law that it is compared with.
 //!
-//! [`law`] is the laws themselves: from a deformation gradient to a stress, without a standard library, an allocation or a
-//! panic. [`host`] is how solvers call them: the C ABI, Abaqus, LS-DYNA. `driver` (feature `driver`, on by default) is what
-//! the program `toron` does: load paths on one element, tables, plots and decks.
+//! [`law`] is the laws themselves: from a deformation gradient to a stress. [`host`] is what solvers call: the C interface, Abaqus,
+//! LS-DYNA, CalculiX. Neither needs a standard library, allocates or panics. What is made of them are packages of their own:
+//! `toron-c` exports the C interface as libtoron, `toron-calculix` is the library that CalculiX loads, `toron-program` the program
+//! `toron`: load paths on one element, a yarn under impact, tables, plots and decks.
 //!
 //! One point of a Kevlar KM2 yarn, in N, mm and MPa, pulled by 2 % and pressed to 80 % across:
 //!
 //! ```
-//! use nalgebra::Matrix3;
-//! use toron::host::units::UnitSystem;
-//! use toron::law::hyperelastic::{Hyperelastic, Request};
-//! use toron::law::parameters;
-//! use toron::law::state::{FAILURE_INDEX, HYPERELASTIC_STATE};
+//! use toron::{Hyperelastic, Properties, Request, state};
 //!
-//! let units = UnitSystem::parse("mm-tonne-s").expect("three known units");
-//! let km2 = parameters::preset("kevlar-km2-600").expect("a known yarn");
-//! let pairs = km2.table.iter().zip(km2.values);
-//! let properties: Vec<f64> = pairs.map(|(property, &si)| units.from_si(si, property.dimension)).collect();
-//! let law = Hyperelastic::<f64>::new(&properties)?;
+//! let law = Hyperelastic::with(Properties {
+//!     k_el: 82341.0,
+//!     k_tc: 1055.0,
+//!     p: 2.2,
+//!     k_td: 649.74,
+//!     k_ld: 0.0,
+//!     eps_lim: 0.0458,
+//!     alpha: 1.8,
+//!     beta: 0.0,
+//!     fibre: [1.0, 0.0, 0.0],
+//! })?;
 //!
-//! let f = Matrix3::from_diagonal(&[1.02, 1.0, 0.8].into());
-//! let point = law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL);
+//! // The deformation gradient by columns, and the state of a point that nothing has happened to.
+//! let f = [[1.02, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.8]];
+//! let fresh = [0.0; state::HYPERELASTIC_STATE];
+//! let point = law.point_along(&f, None, &fresh, Request::ALL);
+//!
 //! assert_eq!(point.status, 0);
 //! // Along the fibre: k_el ln λ/J.
-//! assert!((point.stress[0] - 82341.0 * 1.02f64.ln() / (1.02 * 0.8)).abs() < 1e-9);
-//! assert!(point.state[FAILURE_INDEX] < 1.0);
-//! # Ok::<(), toron::law::status::Error>(())
+//! assert!((point.stress[0] - 82341.0 * 1.02_f64.ln() / (1.02 * 0.8)).abs() < 1e-9);
+//! assert!(point.state[state::FAILURE_INDEX] < 1.0);
+//! # Ok::<(), toron::Error>(())
 //! ```
 //!
 //! The documents beside the README say the rest: `docs/theory.md` the law as it is computed, `docs/hosts.md` how it goes
@@ -36,3 +42,12 @@
 
 pub mod host;
 pub mod law;
+
+pub use law::block::{Arrays, Block};
+pub use law::hyperelastic::{Hyperelastic, Properties, Request};
+pub use law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
+pub use law::parameters::{self, preset};
+pub use law::point::Point;
+pub use law::state;
+pub use law::status::{self, Error};
+pub use law::tangent::{Measure, Moduli};

@@ -21,6 +21,35 @@ use super::wave_speed::COMPACTION_FLOOR;
 
 pub use super::point::Point;
 
+/// The properties by name, in one system of units. Hosts pass the same numbers as an array, in the order of
+/// [`parameters::HYPERELASTIC`], which has their bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Properties<T> {
+    /// Elongation stiffness, a stress.
+    pub k_el: T,
+    /// Compaction stiffness, a stress, and exponent.
+    pub k_tc: T,
+    pub p: T,
+    /// Distortion stiffness, a stress.
+    pub k_td: T,
+    /// Longitudinal shear stiffness, a stress; 0: none.
+    pub k_ld: T,
+    /// Failure strain of the fibre; 0: the yarn does not fail.
+    pub eps_lim: T,
+    /// Weights of compaction and distortion in the failure index; both 0: uniaxial failure.
+    pub alpha: T,
+    pub beta: T,
+    /// Fibre direction in the reference placement, of any length.
+    pub fibre: [T; 3],
+}
+
+impl<T> From<Properties<T>> for [T; HYPERELASTIC_PROPERTIES] {
+    fn from(properties: Properties<T>) -> Self {
+        let Properties { k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, fibre: [m_1, m_2, m_3] } = properties;
+        [k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3]
+    }
+}
+
 /// The law's properties, checked and prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct Hyperelastic<R> {
@@ -88,6 +117,14 @@ pub struct History<R> {
 }
 
 impl<T: Real + Into<f64>> Hyperelastic<T> {
+    /// Checks the properties and prepares the law.
+    ///
+    /// # Errors
+    /// The first property that is wrong, with its value and what is allowed.
+    pub fn with(properties: Properties<T>) -> Result<Self, Error> {
+        Self::new(&<[T; HYPERELASTIC_PROPERTIES]>::from(properties))
+    }
+
     /// Checks the properties, in the order of [`parameters::HYPERELASTIC`], and prepares the law.
     ///
     /// # Errors

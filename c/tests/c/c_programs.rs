@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::library::{BUILD, ROOT, SYSTEM, folder, run};
+use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// Options for double and for single precision.
 pub const PRECISIONS: [&[&str]; 2] = [&[], &["-DSINGLE"]];
@@ -96,6 +96,12 @@ pub fn compile<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S]) -
     gcc.args(["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O1"]).args(options);
     gcc.arg(concat!("-DEXPECTED_VERSION=\"", env!("CARGO_PKG_VERSION"), "\""));
     gcc.arg(format!("-I{ROOT}/include")).arg(format!("{ROOT}/ffi-tests/c/{name}.c"));
-    run(gcc.args(libraries).args(SYSTEM).arg("-o").arg(&program), "gcc");
+    gcc.args(libraries);
+    if name == "environment" {
+        // It calls CalculiX's entry too.
+        let folder = LIBRARY.display();
+        gcc.args([format!("-L{folder}"), format!("-Wl,--enable-new-dtags,-rpath,{folder}"), "-ltoron_calculix".into()]);
+    }
+    run(gcc.args(SYSTEM).arg("-o").arg(&program), "gcc");
     program
 }

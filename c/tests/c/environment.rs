@@ -2,7 +2,6 @@
 //! shipped, and with copies of it that lack the instructions which change environments, where the program must fail.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
-#[allow(dead_code)]
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -28,10 +27,13 @@ fn lines(output: &Output) -> Vec<String> {
     String::from_utf8_lossy(&output.stdout).lines().map(Into::into).collect()
 }
 
-/// The symbols that the shared library gives to the outside.
+/// The shared libraries.
+const SHARED: [&str; 2] = ["libtoron.so", "libtoron_calculix.so"];
+
+/// The symbols that they give to the outside.
 fn exported() -> BTreeSet<String> {
     let mut nm = Command::new("nm");
-    let output = run(nm.args(["-D", "--defined-only"]).arg(LIBRARY.join("libtoron.so")), "binutils");
+    let output = run(nm.args(["-D", "--defined-only"]).args(SHARED.map(|name| LIBRARY.join(name))), "binutils");
     lines(&output).iter().filter_map(|line| Some(line.split_whitespace().nth(2)?.to_string())).collect()
 }
 
@@ -59,20 +61,25 @@ fn shared_library() {
 #[test]
 fn static_library() {
     let library = [LIBRARY.join("libtoron.a")];
-    check_all(|precision| Command::new(compile("environment", PRECISIONS[precision], &library)));
+    check_all(|precision| run_with(&compile("environment", PRECISIONS[precision], &library), &LIBRARY));
 }
 
-/// A copy of the shared library with nothing done in place of each of these instructions; returns its folder.
+/// Copies of the shared libraries with nothing done in place of each of these instructions; returns their folder.
 fn without(name: &str, instruction: &[u8]) -> PathBuf {
     const NO_OPERATION: u8 = 0x90;
-    let mut library = std::fs::read(LIBRARY.join("libtoron.so")).expect("libtoron.so");
-    let at: Vec<_> = (0..library.len()).filter(|&i| library[i..].starts_with(instruction)).collect();
-    assert!(at.len() >= 10, "{name}: {} instructions", at.len());
-    for start in at {
-        library[start..start + instruction.len()].fill(NO_OPERATION);
-    }
     let folder = folder(&format!("library-{name}"));
-    std::fs::write(folder.join("libtoron.so"), library).expect("a library");
+    let mut count = 0;
+    for shared in SHARED {
+        let mut library = std::fs::read(LIBRARY.join(shared)).expect(shared);
+        let at: Vec<_> = (0..library.len()).filter(|&i| library[i..].starts_with(instruction)).collect();
+        assert!(!at.is_empty(), "{name}: {shared}");
+        for &start in &at {
+            library[start..start + instruction.len()].fill(NO_OPERATION);
+        }
+        count += at.len();
+        std::fs::write(folder.join(shared), library).expect("a library");
+    }
+    assert!(count >= 10, "{name}: {count} instructions");
     folder
 }
 

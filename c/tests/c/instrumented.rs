@@ -2,7 +2,6 @@
 //! that nobody has written, leaks, undefined behaviour, races.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
-#[allow(dead_code)]
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
