@@ -555,7 +555,10 @@ fn the_program_writes_what_came_of_a_scene() {
     let history = read("b.csv");
     assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
     for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {
-        assert!(read(picture).starts_with("<svg"), "{picture}");
+        let svg = read(picture);
+        assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{picture}");
+        // Text is drawn as outlines.
+        assert!(!svg.contains("<text") && svg.contains("<path"), "{picture}");
     }
     for picture in ["b.png", "b-yarn-1.png", "residual-speed.png"] {
         let bytes = std::fs::read(directory.join("out").join(picture)).expect(picture);
