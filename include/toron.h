@@ -575,9 +575,6 @@ int32_t toron_abi_version(void);
 
  Writes at most `capacity` bytes to `buffer`, always terminated; returns the length needed without the terminator.
  `buffer` may be null and `capacity` 0.
-
- # Safety
- `buffer` is null or has room for `capacity` bytes.
  */
 size_t toron_status_message(int32_t status, char *buffer, size_t capacity);
 
@@ -588,17 +585,11 @@ int32_t toron_property_count(int32_t law);
 
 /*
  Writes the property of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
-
- # Safety
- `row` is null or writable.
  */
 int32_t toron_property(int32_t law, int32_t index, toron_table_row *row);
 
 /*
  The index, from 0, of the property of this name, or `TORON_UNKNOWN_NAME`.
-
- # Safety
- `property` is null or terminated.
  */
 int32_t toron_property_index(int32_t law, const char *property);
 
@@ -609,17 +600,11 @@ int32_t toron_state_count(int32_t law);
 
 /*
  Writes the state variable of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
-
- # Safety
- `row` is null or writable.
  */
 int32_t toron_state_variable(int32_t law, int32_t index, toron_table_row *row);
 
 /*
  The index, from 0, of the state variable of this name, or `TORON_UNKNOWN_NAME`.
-
- # Safety
- `variable` is null or terminated.
  */
 int32_t toron_state_index(int32_t law, const char *variable);
 
@@ -631,17 +616,11 @@ int32_t toron_state_index(int32_t law, const char *variable);
  - `values`: room for `count` values, the law's number of properties; `density`: one value, or null.
 
  Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
-
- # Safety
- Strings are terminated; `values` has room for `count` values.
  */
 int32_t toron_preset_f64(const char *preset, const char *units, double *values, size_t count, double *density);
 
 /*
  As `toron_preset_f64`, rounded to single precision.
-
- # Safety
- As for `toron_preset_f64`.
  */
 int32_t toron_preset_f32(const char *preset, const char *units, float *values, size_t count, float *density);
 
@@ -654,9 +633,6 @@ int32_t toron_preset_f32(const char *preset, const char *units, float *values, s
  - `status`: 0, `TORON_NULL_ARGUMENT` or a −2xx code; may be null.
 
  Returns the length of the whole message without the terminator, 0 where all is well.
-
- # Safety
- `values` is null or points to `count` values; `message` is null or has room for `capacity` bytes.
  */
 size_t toron_hyperelastic_validate_f64(const double *values,
                                        size_t count,
@@ -666,9 +642,6 @@ size_t toron_hyperelastic_validate_f64(const double *values,
 
 /*
  As `toron_hyperelastic_validate_f64`, in single precision.
-
- # Safety
- As for `toron_hyperelastic_validate_f64`.
  */
 size_t toron_hyperelastic_validate_f32(const float *values,
                                        size_t count,
@@ -689,9 +662,6 @@ size_t toron_hyperelastic_validate_f32(const float *values,
    solver's time step and bulk viscosity may take it as it is; each may be null.
 
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
-
- # Safety
- Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
  */
 int32_t toron_hyperelastic_point_f64(const double *values,
                                      size_t count,
@@ -706,9 +676,6 @@ int32_t toron_hyperelastic_point_f64(const double *values,
 
 /*
  As `toron_hyperelastic_point_f64`, in single precision.
-
- # Safety
- As for `toron_hyperelastic_point_f64`.
  */
 int32_t toron_hyperelastic_point_f32(const float *values,
                                      size_t count,
@@ -734,9 +701,6 @@ int32_t toron_hyperelastic_point_f32(const float *values,
  loading.
 
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
-
- # Safety
- Every pointer is null or has as many values as said; outputs overlap nothing but, exactly, the old state.
  */
 int32_t toron_hyperelastic_point_tangent_f64(const double *values,
                                              size_t count,
@@ -750,9 +714,6 @@ int32_t toron_hyperelastic_point_tangent_f64(const double *values,
 
 /*
  As `toron_hyperelastic_point_tangent_f64`, in single precision.
-
- # Safety
- As for `toron_hyperelastic_point_tangent_f64`.
  */
 int32_t toron_hyperelastic_point_tangent_f32(const float *values,
                                              size_t count,
@@ -773,9 +734,6 @@ int32_t toron_hyperelastic_point_tangent_f32(const float *values,
  - `least`: one value, out, a stress; `direction`: 3 values, out, the wave's normal in space, or null.
 
  Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
-
- # Safety
- Every pointer is null or has as many values as said.
  */
 int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const double *values,
                                                          size_t count,
@@ -783,31 +741,6 @@ int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const double *values,
                                                          const double *fibre,
                                                          double *least,
                                                          double *direction);
-
-/*
- The hyperelastic law at a block of points.
-
- - `values`, `count`: the properties in the table's order, the same for all points.
- - `block`: the arrays, see the structure; all theirs stay the caller's.
-
- Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state; the others are not affected); or a −1xx or −2xx code, and nothing is written.
-
- # Safety
- Every array has as many values as the structure says; outputs overlap nothing but, exactly, the old state they
- replace.
- */
-int32_t toron_hyperelastic_block_f64(const double *values,
-                                     size_t count,
-                                     const toron_block_f64 *block);
-
-/*
- As `toron_hyperelastic_block_f64`, in single precision.
-
- # Safety
- As for `toron_hyperelastic_block_f64`.
- */
-int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const toron_block_f32 *block);
 
 /*
  The hyperelastic law at a block of points, with a tangent.
@@ -818,9 +751,6 @@ int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const to
    (row, column), counted from 0, is component 6 row + column (9 row + column). The whole symmetric matrix. Null: none.
 
  Returns as `toron_hyperelastic_block_f64` does; a point at fault, or failed before, has a tangent of zeros.
-
- # Safety
- As for `toron_hyperelastic_block_f64`.
  */
 int32_t toron_hyperelastic_block_tangent_f64(const double *values,
                                              size_t count,
@@ -830,9 +760,6 @@ int32_t toron_hyperelastic_block_tangent_f64(const double *values,
 
 /*
  As `toron_hyperelastic_block_tangent_f64`, in single precision.
-
- # Safety
- As for `toron_hyperelastic_block_f64`.
  */
 int32_t toron_hyperelastic_block_tangent_f32(const float *values,
                                              size_t count,
@@ -841,10 +768,25 @@ int32_t toron_hyperelastic_block_tangent_f32(const float *values,
                                              float *tangent);
 
 /*
- Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
+ The hyperelastic law at a block of points.
 
- # Safety
- As for `toron_hyperelastic_validate_f64`.
+ - `values`, `count`: the properties in the table's order, the same for all points.
+ - `block`: the arrays, see the structure; all theirs stay the caller's.
+
+ Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+ its state; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+ */
+int32_t toron_hyperelastic_block_f64(const double *values,
+                                     size_t count,
+                                     const toron_block_f64 *block);
+
+/*
+ As `toron_hyperelastic_block_f64`, in single precision.
+ */
+int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const toron_block_f32 *block);
+
+/*
+ Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
  */
 size_t toron_linear_elastic_validate_f64(const double *values,
                                          size_t count,
@@ -857,9 +799,6 @@ size_t toron_linear_elastic_validate_f64(const double *values,
  `TORON_ROTATION_SPIN` start.
 
  `axes`: room for 9 values, the three axes one after the other. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
-
- # Safety
- `values` points to `count` values; `axes` has room for 9.
  */
 int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double *axes);
 
@@ -876,9 +815,6 @@ int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double
    start with `toron_linear_elastic_axes_f64`. May be null for the other frames.
 
  Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
-
- # Safety
- Every pointer is null or has as many values as said.
  */
 int32_t toron_linear_elastic_step_f64(const double *values,
                                       size_t count,
@@ -897,9 +833,6 @@ int32_t toron_linear_elastic_step_f64(const double *values,
  - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
    is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` has DDSDDE's
    entries, in the order of the stress here.
-
- # Safety
- Every pointer is null or has as many values as said.
  */
 int32_t toron_linear_elastic_step_tangent_f64(const double *values,
                                               size_t count,
@@ -924,9 +857,6 @@ int32_t toron_linear_elastic_step_tangent_f64(const double *values,
 
  The law is as good as the frame: axes that follow the host's polar rotation or spin let the stiff direction drift off
  a sheared fibre. Returns as `toron_linear_elastic_step_f64` does.
-
- # Safety
- Every pointer is null or has as many values as said.
  */
 int32_t toron_linear_elastic_increment_f64(const double *values,
                                            size_t count,
@@ -946,10 +876,6 @@ int32_t toron_linear_elastic_increment_f64(const double *values,
 
  Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
  its state and axes; the others are not affected); or a −1xx or −2xx code, and nothing is written.
-
- # Safety
- Every array has as many values as the structure says; outputs overlap nothing but, exactly, the old state they
- replace.
  */
 int32_t toron_linear_elastic_block_f64(const double *values,
                                        size_t count,
@@ -959,9 +885,6 @@ int32_t toron_linear_elastic_block_f64(const double *values,
 
 /*
  As `toron_linear_elastic_block_f64`, in single precision.
-
- # Safety
- As for `toron_linear_elastic_block_f64`.
  */
 int32_t toron_linear_elastic_block_f32(const float *values,
                                        size_t count,
@@ -984,9 +907,6 @@ int32_t toron_linear_elastic_block_f32(const float *values,
  Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
  (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
  quarter.
-
- # Safety
- Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_abaqus_umat_tangent_f64(double *stress,
                                       double *statev,
@@ -1003,9 +923,6 @@ int32_t toron_abaqus_umat_tangent_f64(double *stress,
 
 /*
  As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
-
- # Safety
- As for `toron_abaqus_umat_tangent_f64`.
  */
 int32_t toron_abaqus_umat_f64(double *stress,
                               double *statev,
@@ -1029,17 +946,11 @@ int32_t toron_abaqus_umat_f64(double *stress,
  Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
  nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
  and is failed and deleted.
-
- # Safety
- Every pointer has as many values as said; old and new arrays do not overlap.
  */
 int32_t toron_abaqus_vumat_f64(const toron_vumat_f64 *block);
 
 /*
  As `toron_abaqus_vumat_f64`, for jobs in single precision.
-
- # Safety
- As for `toron_abaqus_vumat_f64`.
  */
 int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
 
@@ -1051,9 +962,6 @@ int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
 
  Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
  or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
-
- # Safety
- Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_umat_f64(const double *cm,
                               double *sig,
@@ -1063,9 +971,6 @@ int32_t toron_lsdyna_umat_f64(const double *cm,
 
 /*
  As `toron_lsdyna_umat_f64`, in single precision.
-
- # Safety
- As for `toron_lsdyna_umat_f64`.
  */
 int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t nhv, int *failel);
 
@@ -1080,9 +985,6 @@ int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t n
  `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
  and nothing is written; or the most negative −3xx code of an element: that one
  carries no stress, keeps its energies and invariants, and is failed.
-
- # Safety
- Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_umat_vector_f64(const double *cm,
                                      double *sig1,
@@ -1100,9 +1002,6 @@ int32_t toron_lsdyna_umat_vector_f64(const double *cm,
 
 /*
  As `toron_lsdyna_umat_vector_f64`, in single precision.
-
- # Safety
- As for `toron_lsdyna_umat_vector_f64`.
  */
 int32_t toron_lsdyna_umat_vector_f32(const float *cm,
                                      float *sig1,
@@ -1128,9 +1027,6 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
  Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
  written; or a −3xx code, and `es` is 0,
  as it is for an element that has failed.
-
- # Safety
- Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_utan_f64(const double *cm,
                               const double *hsv,
@@ -1139,9 +1035,6 @@ int32_t toron_lsdyna_utan_f64(const double *cm,
 
 /*
  As `toron_lsdyna_utan_f64`, in single precision.
-
- # Safety
- As for `toron_lsdyna_utan_f64`.
  */
 int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, float *es);
 
@@ -1152,9 +1045,6 @@ int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, fl
  as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
 
  Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
-
- # Safety
- Every pointer has as many values as said; outputs overlap nothing.
  */
 int32_t toron_lsdyna_utan_vector_f64(const double *cm,
                                      const double *hsvs,
@@ -1166,9 +1056,6 @@ int32_t toron_lsdyna_utan_vector_f64(const double *cm,
 
 /*
  As `toron_lsdyna_utan_vector_f64`, in single precision.
-
- # Safety
- As for `toron_lsdyna_utan_vector_f64`.
  */
 int32_t toron_lsdyna_utan_vector_f32(const float *cm,
                                      const float *hsvs,
@@ -1183,9 +1070,6 @@ int32_t toron_lsdyna_utan_vector_f32(const float *cm,
 
  LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
  `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
-
- # Safety
- `values` points to `count` values; `bulk` and `shear` are writable.
  */
 int32_t toron_lsdyna_bulk_and_shear_f64(const double *values, size_t count, double *bulk, double *shear);
 

@@ -9,7 +9,7 @@ use toron_program::{Error, bench, command, eval, impact, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
-#[command(version = params::version())]
+#[command(name = "toron", version = params::version())]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

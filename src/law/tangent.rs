@@ -20,7 +20,7 @@ use nalgebra::Matrix3;
 use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
 use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
 use super::point::{Derivative, Point};
-use super::real::{Real, along, dot, image, scale};
+use super::real::{Real, along, cross, dot, image, scale};
 use super::state::HYPERELASTIC_STATE;
 use super::stress::{PAIRS, VOIGT, paired_with_one, square, symmetric_product, upper_triangle};
 
@@ -266,8 +266,8 @@ impl<R: Real> Hyperelastic<R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, kinematics.strain, k, over);
-        // H = h_p P − h_d D, G − H = g_p P + g_d D. Each term is 0 where its factors are: a slack fibre along an axis has no stiffness
-        // at all.
+        // H = h_p P − h_d D, G − H = g_p P + g_d D. No term is a difference of larger ones: a slack fibre has no stiffness but
+        // for roundings of the others.
         let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
         let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
         let g_d = f.shear + h_d - f.distortion;
@@ -366,9 +366,10 @@ impl<R: Real> Hyperelastic<R> {
         // F⁻¹ takes c to m, a to α and b to β: its rows, from the vectors dual to these.
         let basis = Orthogonal::new(kinematics);
         let [m, alpha, beta] = basis.pulled_back(n);
-        let [c1, a, b] = images;
-        let b = along(b, -basis.shift, a);
-        let duals = [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(basis.over_b, b)];
+        let [c1, a, _] = images;
+        // The third one is b' over its square, which c × a gives without a cancellation.
+        let duals =
+            [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(stretch.inverse_jacobian, cross(c1, a))];
         let inverse = [
             image(&duals, [m[0], alpha[0], beta[0]]),
             image(&duals, [m[1], alpha[1], beta[1]]),

@@ -44,12 +44,11 @@ fn an_empty_project_can_use_the_package() {
         let mut cargo = Command::new(env!("CARGO"));
         run(cargo.args(arguments).current_dir(&project).env_remove("CARGO_TARGET_DIR"), "cargo");
     };
-    std::fs::remove_dir_all(&project).expect("the folder can be emptied");
-    std::fs::create_dir_all(&project).expect("a folder");
-    cargo(&["init", "--lib", "--vcs=none", "--name=empty-project"]);
-    // The folder is below this workspace's, whose member it is not.
-    let manifest = std::fs::read_to_string(project.join("Cargo.toml")).expect("a manifest");
-    std::fs::write(project.join("Cargo.toml"), manifest + "\n[workspace]\n").expect("the manifest is writable");
+    // Below this workspace's folder, but not a member of it.
+    let manifest = "[package]\nname = \"empty-project\"\nedition = \"2024\"\n\n[workspace]\n";
+    std::fs::write(project.join("Cargo.toml"), manifest).expect("the manifest is writable");
+    std::fs::create_dir_all(project.join("src")).expect("a folder");
+    std::fs::write(project.join("src/lib.rs"), "").expect("the source is writable");
     cargo(&["add", "--offline", "toron", "--path", ROOT]);
     std::fs::write(project.join("src/lib.rs"), USE).expect("the source is writable");
     cargo(&["check", "--offline"]);

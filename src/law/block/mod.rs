@@ -1387,7 +1387,7 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
             let value = R::load(place);
             let wrong = !outcome.new & !(value * zero).le(zero);
             dropped = dropped | wrong;
-            R::select(wrong, zero, value).store(place);
+            zero.store_where(wrong, place);
         }
     };
     if request.energies {
@@ -1407,7 +1407,7 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     unsafe {
         if request.stress {
             for place in block.stress {
-                R::select(outcome.new, R::load(place.add(i)), zero).store(place.add(i));
+                zero.store_where(!outcome.new, place.add(i));
             }
         }
         let code = law.verdict(&gradient(block, i), d, usable, latch);
