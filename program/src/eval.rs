@@ -1,10 +1,14 @@
 //! `toron eval`: one point a line, JSON in and JSON out, through any of the C entries as its host would call it.
 
+use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
+use clap::ValueEnum;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::Error;
+use super::file_error::shortened;
 use super::polar::polar_decomposition;
 use crate::entries::{self, Answer};
 use toron::host::{abaqus, c};
@@ -12,7 +16,7 @@ use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 use toron::law::status;
 
 /// The C entry that evaluates a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Entry {
     /// `toron_hyperelastic_point_f64`.
     Law,
@@ -33,6 +37,32 @@ pub enum Entry {
     /// `toron_lsdyna_umat_vector_f64`, the element amid others.
     LsDynaVector,
 }
+
+impl Entry {
+    /// Whether the entry can answer with DDSDDE.
+    fn has_tangent(self) -> bool {
+        !matches!(self, Entry::Vumat | Entry::VumatSp)
+    }
+
+    /// The name on the command line.
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_string())
+    }
+}
+
+/// The keys of "params", each with its other spelling where it has one.
+const PARAMS: [(&str, Option<&str>); 8] = [
+    ("kel", Some("k_el")),
+    ("ktc", Some("k_tc")),
+    ("p", None),
+    ("ktd", Some("k_td")),
+    ("kld", Some("k_ld")),
+    ("eps_lim", None),
+    ("alpha", None),
+    ("beta", None),
+];
+/// Those that may be left out: one that stands beside "params" would be missing in it without a word.
+const OPTIONAL_PARAMS: [&str; 5] = ["kld", "k_ld", "eps_lim", "alpha", "beta"];
 
 /// A line of input.
 #[derive(Debug, Deserialize)]
@@ -92,11 +122,38 @@ struct Output {
     s_ld: Option<[f64; 6]>,
 }
 
+/// A key that a line has in the wrong place or that nothing reads, in words.
+///
+/// A record may have keys of its own beside F, m and params, but no parameter there; "params" has only what the law knows.
+fn wrong_key(line: &[u8]) -> Option<String> {
+    let object: BTreeMap<String, IgnoredAny> = serde_json::from_slice(line).ok()?;
+    if let Some(key) = OPTIONAL_PARAMS.into_iter().find(|&key| object.contains_key(key)) {
+        return Some(format!("the key \"{key}\" stands beside \"params\"; allowed: within it"));
+    }
+    #[derive(Deserialize)]
+    struct Keys {
+        params: BTreeMap<String, IgnoredAny>,
+    }
+    let Keys { params } = serde_json::from_slice(line).ok()?;
+    let known = |key: &str| PARAMS.iter().any(|&(name, other)| name == key || other == Some(key));
+    let unknown = params.into_keys().find(|key| !known(key))?;
+    let names = PARAMS.map(|(name, other)| other.map_or(name.to_string(), |other| format!("{name} ({other})")));
+    Some(format!("\"params\" has the key \"{}\"; allowed: {}", shortened(&unknown), names.join(", ")))
+}
+
 /// `toron eval`: from the standard input to the standard output.
 ///
 /// # Errors
-/// Reading or writing fails.
+/// Reading or writing fails; a tangent of an entry that has none.
 pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
+    if tangent && !entry.has_tangent() {
+        let others = Entry::value_variants().iter().filter(|entry| entry.has_tangent()).map(|entry| entry.name());
+        return Err(Error::Input(format!(
+            "--tangent with --via {}, which has no DDSDDE; allowed with {}",
+            entry.name(),
+            others.collect::<Vec<_>>().join(", ")
+        )));
+    }
     match evaluate(entry, tangent, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
         // A reader that has gone is no error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Evaluation(error.to_string())),
@@ -116,21 +173,22 @@ pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: im
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
         }
-        let answer = match serde_json::from_slice::<Input>(&line) {
-            Ok(point) => evaluate_point(entry, tangent, &point, number),
-            Err(error) => Output {
-                status: status::BAD_ARGUMENT,
-                message: Some(format!(
-                    "line {number}: {error}; expected {{\"F\": 3×3 rows, \"m\": [3], \"params\": {{kel, ktc, p, ktd, \
-                     kld, eps_lim, alpha, beta}}}}"
-                )),
-                ..Output::default()
-            },
+        let expected =
+            "expected {\"F\": 3×3 rows, \"m\": [3], \"params\": {kel, ktc, p, ktd, kld, eps_lim, alpha, beta}}";
+        let answer = match (wrong_key(&line), serde_json::from_slice::<Input>(&line)) {
+            (Some(reason), _) => refused(format!("line {number}: {reason}")),
+            (None, Err(error)) => refused(format!("line {number}: {error}; {expected}")),
+            (None, Ok(point)) => evaluate_point(entry, tangent, &point, number),
         };
         serde_json::to_writer(&mut output, &answer)?;
         output.write_all(b"\n")?;
     }
     output.flush()
+}
+
+/// The answer to a line that is no point.
+fn refused(message: String) -> Output {
+    Output { status: status::BAD_ARGUMENT, message: Some(message), ..Output::default() }
 }
 
 fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Output {

@@ -63,8 +63,8 @@ fn allowed(message: &str, key: &str) -> Option<String> {
     Some(words.to_string())
 }
 
-/// A value on one line.
-fn shortened(value: &str) -> String {
+/// A value on one line, cut where it is long.
+pub(super) fn shortened(value: &str) -> String {
     let line = value.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LONGEST { line } else { line.chars().take(LONGEST).chain(['…']).collect() }
 }

@@ -9,6 +9,7 @@ pub mod element;
 pub mod entries;
 pub mod eval;
 pub mod explicit;
+pub mod fibre_wave;
 mod file_error;
 pub mod impact;
 pub mod material;
@@ -57,7 +58,12 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Writes to the terminal. A reader that has gone (`toron params | head`) is no error.
+/// Writes to the standard output. A reader that has gone (`toron params | head`) is no error.
 fn print(text: &str) {
     let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+/// Writes a message to the standard error, whose reader may have gone as well (`toron run 2>&1 | head`).
+pub fn complain(message: &str) {
+    let _ = std::io::stderr().write_all(message.as_bytes());
 }

@@ -40,7 +40,7 @@ enum Command {
         /// The C entry to go through, as its host would call it.
         #[arg(long, value_enum, default_value = "law")]
         via: Entry,
-        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it (every entry but the VUMATs).
+        /// Add "ddsdde", rows of the Jaumann modulus as Abaqus wants it; refused for the VUMATs, which have none.
         #[arg(long)]
         tangent: bool,
     },
@@ -52,7 +52,7 @@ enum Command {
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
     },
-    /// Measure what a point costs on this machine; takes a few seconds.
+    /// Measure what a point costs on this machine; takes about half a minute.
     Bench {
         /// Where to write the figures as bench.json.
         #[arg(short, long)]
@@ -71,7 +71,7 @@ fn main() -> ExitCode {
     match answer {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("toron: {error}");
+            toron_program::complain(&format!("toron: {error}\n"));
             ExitCode::from(error.exit_code())
         }
     }

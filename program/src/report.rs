@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::fibre_wave::FibreWave;
 use super::material::{Law, Material};
 use super::path::LoadPath;
 use super::run::{End, History, Increment};
@@ -23,7 +24,11 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         // Writing to a string does not fail.
         let _ = writeln!(text, "  {name:<22} {value}");
     };
-    line("law", format!("{} ({})", material.law_name(), material.label));
+    line("law", law(material));
+    let wave = FibreWave::of(material, &path.units);
+    if let Some(wave) = wave {
+        line("wave along the fibre", format!("{} km/s = {}", number(wave.speed), wave.formula));
+    }
     if let Some(largest) = history.increments.iter().max_by(|a, b| a.fibre_stress.total_cmp(&b.fibre_stress)) {
         let value = format!("{} {}", number(largest.fibre_stress), unit(&path.units, STRESS));
         line("largest fibre stress", format!("{value}, {}", place(path, largest)));
@@ -53,7 +58,18 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         ),
         End::Failed(reason) => line("not completed", reason.clone()),
     }
+    if let Some(doubt) = wave.and_then(|wave| wave.doubt(&path.units)) {
+        for (name, part) in ["warning", ""].into_iter().zip(doubt.lines()) {
+            line(name, part.to_string());
+        }
+    }
     text
+}
+
+/// The law, and the preset where there is one.
+fn law(material: &Material) -> String {
+    let (name, label) = (material.law_name(), &material.label);
+    if name.replace(' ', "-") == *label { name.to_string() } else { format!("{name} ({label})") }
 }
 
 /// The largest energies and those at the end, mode by mode where the law has modes.

@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::run::Outcome;
-use super::scene::{Case, Scene, Striker};
+use super::scene::{Case, Scene, Striker, Zones};
 use super::summary::{NONE, maybe, outcome};
+use crate::fibre_wave::FibreWave;
 use crate::unit_names::{SPEED, TIME, number, unit};
 
 /// Columns of a terminal.
@@ -17,15 +18,83 @@ const GAP: &str = "  ";
 const FEWEST: usize = 2;
 /// Hourglass modes that hold more than this part of the internal energy are no longer beside the point.
 const LARGEST_HOURGLASS: f64 = 0.1;
+/// A contact that stores more than this part of the energy is a spring between projectile and yarn.
+const LARGEST_CONTACT: f64 = 0.05;
 
 type Results<'a> = [(&'a Case, Outcome)];
 
 /// Title, tables, warnings and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
-    let warnings: String = results.iter().filter_map(|(case, result)| hourglass_warning(case, result)).collect();
-    let parts = [table(struck(scene, results)), table(driven(scene, results)), warnings, files(scene, results, output)];
+    let waves = waves(scene, results);
+    let of_cases = results.iter().flat_map(|(case, result)| {
+        [hourglass_warning(case, result), contact_warning(case, result)].into_iter().flatten()
+    });
+    let warnings: String = unit_warnings(scene, &waves).into_iter().chain(of_cases).collect();
+    let parts = [
+        table(struck(scene, results)),
+        table(driven(scene, results)),
+        wave_line(&waves),
+        warnings,
+        files(scene, results, output),
+    ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     format!("{}\n\n{}", scene.title, parts.join("\n"))
+}
+
+/// The waves of all the cases' materials, each once.
+fn waves(scene: &Scene, results: &Results) -> Vec<FibreWave> {
+    let materials = results.iter().flat_map(|(case, _)| match &case.zones {
+        Zones::One(material) => std::slice::from_ref(&**material),
+        Zones::Two(materials, _) => &materials[..],
+    });
+    let mut waves: Vec<FibreWave> = Vec::new();
+    for wave in materials.filter_map(|material| FibreWave::of(material, &scene.units)) {
+        if !waves.contains(&wave) {
+            waves.push(wave);
+        }
+    }
+    waves
+}
+
+/// The waves' speeds, from the slowest to the fastest by each formula.
+fn wave_line(waves: &[FibreWave]) -> String {
+    let mut formulas: Vec<&str> = Vec::new();
+    for wave in waves {
+        if !formulas.contains(&wave.formula) {
+            formulas.push(wave.formula);
+        }
+    }
+    let speeds = |formula: &str| {
+        let of_formula = waves.iter().filter(|wave| wave.formula == formula).map(|wave| wave.speed);
+        let [slowest, fastest] = [of_formula.clone().fold(f64::INFINITY, f64::min), of_formula.fold(0.0, f64::max)];
+        let [slowest, fastest] = [slowest, fastest].map(number);
+        let range = if slowest == fastest { slowest } else { format!("{slowest} to {fastest}") };
+        format!("{range} km/s = {formula}")
+    };
+    let parts: Vec<String> = formulas.into_iter().map(speeds).collect();
+    if parts.is_empty() { String::new() } else { format!("Wave along the fibre: {}\n", parts.join(", ")) }
+}
+
+/// What a wave says of the units, once for all cases that have it.
+fn unit_warnings(scene: &Scene, waves: &[FibreWave]) -> Vec<String> {
+    let doubts = waves.iter().filter_map(|wave| wave.doubt(&scene.units));
+    doubts.map(|doubt| format!("warning: {}\n", doubt.replace('\n', "\n  "))).collect()
+}
+
+/// What to do about a contact that stores too much.
+pub fn contact_warning(case: &Case, result: &Outcome) -> Option<String> {
+    let Striker::Cylinder { cylinder, .. } = case.striker else { return None };
+    let share = result.contact_share();
+    (share > LARGEST_CONTACT).then(|| {
+        format!(
+            "warning: case {}: the contact stored {:.1} % of the energy, more than {:.0} %:\n  \
+             take a larger contact-stiffness than {:e}\n",
+            case.name,
+            100.0 * share,
+            100.0 * LARGEST_CONTACT,
+            cylinder.stiffness
+        )
+    })
 }
 
 /// What to do about hourglass modes that hold too much.
@@ -87,14 +156,19 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
     let cases: Vec<_> = results.iter().filter(|(case, _)| case.striker != Striker::Driven).collect();
     let [time, speed] = [TIME, SPEED].map(|dimension| unit(&scene.units, dimension));
     let at_end = |result: &Outcome| result.residual_speed().is_none().then(|| result.last().speed);
-    let index = |result: &Outcome| Some(result.largest_index()).filter(|&index| index > 0.0);
+    // Samples fall between the steps: the element that fails passes 1 unseen.
+    let index = |result: &Outcome| match (result.failed, result.largest_index()) {
+        (Some(_), _) => "1".to_string(),
+        (None, index) if index > 0.0 => format!("{index:.3}"),
+        _ => NONE.to_string(),
+    };
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
         column(&cases, ["broken at", &time], broken_at),
         column(&cases, ["residual", &speed], |_, result| maybe(result.residual_speed(), number)),
         column(&cases, ["at end", &speed], |_, result| maybe(at_end(result), number)),
-        column(&cases, ["failure", "index"], |_, result| maybe(index(result), |index| format!("{index:.3}"))),
+        column(&cases, ["failure", "index"], |_, result| index(result)),
         column(&cases, ["elements", "deleted"], |_, result| result.last().deleted.to_string()),
     ];
     columns.extend(costs(&cases));

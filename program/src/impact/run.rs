@@ -23,6 +23,8 @@ const FRONT: f64 = 0.5;
 const PLATEAU: [f64; 2] = [0.3, 0.7];
 /// A run whose total energy moves by more than this part of itself is not stable.
 const LARGEST_IMBALANCE: f64 = 0.05;
+/// The failure index of an element that has failed, but for the rounding of single precision.
+const FAILED: f64 = 1.0 - 1e-6;
 /// Times are told apart by this part of a case's time.
 const ROUNDING: f64 = 1e-9;
 /// A transverse front this near the clamp has reached it but for what its own length adds.
@@ -92,6 +94,8 @@ pub struct Outcome {
     pub end: End,
     /// Whether a projectile strikes whose speed is its own, neither held nor driven.
     pub own_speed: bool,
+    /// When the first element reached a failure index of 1.
+    pub failed: Option<f64>,
     /// When the last line of elements along the fibre tore, and the projectile's speed then.
     pub broken: Option<(f64, f64)>,
     pub cost: Cost,
@@ -133,6 +137,7 @@ struct Run<'a, T> {
     smith: Smith,
     samples: Vec<Sample>,
     snapshots: Vec<Snapshot>,
+    failed: Option<f64>,
     broken: Option<(f64, f64)>,
     /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
     deleted: usize,
@@ -168,6 +173,7 @@ impl<'a, T: Number> Run<'a, T> {
             smith,
             samples: Vec::new(),
             snapshots: Vec::new(),
+            failed: None,
             broken: None,
             deleted: 0,
             torn: vec![false; per_layer],
@@ -218,6 +224,7 @@ impl<'a, T: Number> Run<'a, T> {
             snapshots: self.snapshots,
             end,
             own_speed: matches!(self.case.striker, Striker::Cylinder { held: false, .. }),
+            failed: self.failed,
             broken: self.broken,
             cost: self.solver.cost,
             wall: begun.elapsed(),
@@ -250,7 +257,7 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.tears() {
+        if self.broken.is_none() && self.tears(time) {
             self.broken = Some((time, self.speed()));
         }
         if let Some(projectile) = &self.solver.projectile {
@@ -271,9 +278,13 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
     /// all, so that a torn line carries no tension, whatever its neighbours do.
-    fn tears(&mut self) -> bool {
+    fn tears(&mut self, time: f64) -> bool {
         for &element in &self.solver.deleted[self.deleted..] {
             self.torn[element % self.solver.mesh.elements_per_layer] = true;
+            // The index of what has failed stays as it was then; what has collapsed has a lower one.
+            if self.solver.failure_index(element) >= FAILED {
+                self.failed = self.failed.or(Some(time));
+            }
         }
         self.deleted = self.solver.deleted.len();
         self.torn.iter().all(|&torn| torn)
@@ -390,10 +401,16 @@ fn front(values: &[f64], threshold: f64) -> Option<f64> {
 /// The largest difference of the total energy from what it was, over the largest of: the energy that was there, the work
 /// from outside.
 fn imbalance(samples: &[Sample]) -> f64 {
-    let Some(first) = samples.first().map(|sample| sample.energies.total()) else { return 0.0 };
-    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
+    let Some((first, scale)) = energy(samples) else { return 0.0 };
     let difference = samples.iter().map(|sample| (sample.energies.total() - first).abs()).fold(0.0, largest);
     if difference > 0.0 || difference.is_nan() { difference / scale } else { 0.0 }
+}
+
+/// The energy at the start, and the largest of it and of the work from outside.
+fn energy(samples: &[Sample]) -> Option<(f64, f64)> {
+    let first = samples.first()?.energies.total();
+    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
+    Some((first, scale))
 }
 
 fn larger(all: &mut [f64; 5], values: [f64; 5]) {
@@ -481,6 +498,12 @@ impl Outcome {
         let internal = self.largest_before_break(|sample| sample.energies.internal);
         let hourglass = self.largest_before_break(|sample| sample.energies.hourglass);
         if internal == 0.0 { 0.0 } else { hourglass / internal }
+    }
+
+    /// The largest energy in the contact up to the break, over the energy that was there or the work from outside.
+    pub fn contact_share(&self) -> f64 {
+        let contact = self.largest_before_break(|sample| sample.energies.contact);
+        energy(&self.samples).filter(|_| contact > 0.0).map_or(0.0, |(_, scale)| contact / scale)
     }
 
     /// The samples in which the wave of elongation passes the middle of half the span.

@@ -12,6 +12,7 @@ use crate::Error;
 use crate::explicit::contact::Cylinder;
 use crate::explicit::element::Control;
 use crate::explicit::mesh::{Section, Yarn};
+use crate::fibre_wave::FibreWave;
 use crate::material::{Law, Material};
 use crate::path::{MaterialFile, Numbers, Source};
 use crate::unit_names::number;
@@ -167,7 +168,7 @@ struct SceneFile {
 struct CaseFile {
     name: Option<Spanned<String>>,
     law: Option<LawName>,
-    failure: Option<FailureName>,
+    failure: Option<Spanned<FailureName>>,
     hyperelastic: Option<Spanned<MaterialFile>>,
     linear_elastic: Option<Spanned<MaterialFile>>,
     hyperelastic_length: Option<Spanned<f64>>,
@@ -198,6 +199,16 @@ struct CaseFile {
 impl CaseFile {
     fn law(&self) -> LawName {
         self.law.unwrap_or(LawName::Hyperelastic)
+    }
+
+    fn failure(&self) -> FailureName {
+        self.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref())
+    }
+
+    /// The place of a property that this table itself gives to the material of a law.
+    fn given(&self, law: &str, name: &str) -> Option<Range<usize>> {
+        let table = if law == HYPERELASTIC { &self.hyperelastic } else { &self.linear_elastic };
+        table.as_ref()?.get_ref().given(name).map(Spanned::span)
     }
 
     fn striker(&self) -> StrikerName {
@@ -309,7 +320,8 @@ impl Scene {
         let mut cases: Vec<Case> = Vec::new();
         if file.case.is_empty() {
             source.check_used(base, &[base])?;
-            let reader = Reader { source: &source, units: &units, file: base, span: file.scene.span() };
+            let span = file.scene.span();
+            let reader = Reader { source: &source, units: &units, file: base, own: base, span };
             cases.push(reader.case("scene".to_string())?);
         } else {
             source.check_used(base, &tables.iter().collect::<Vec<_>>())?;
@@ -317,7 +329,7 @@ impl Scene {
         for (case, table) in file.case.iter().zip(&tables) {
             let name = source.case_name(case, &cases)?;
             source.check_used(case.get_ref(), &[table])?;
-            let reader = Reader { source: &source, units: &units, file: table, span: case.span() };
+            let reader = Reader { source: &source, units: &units, file: table, own: case.get_ref(), span: case.span() };
             cases.push(reader.case(name)?);
         }
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
@@ -379,6 +391,8 @@ struct Reader<'a> {
     source: &'a Source<'a>,
     units: &'a UnitSystem,
     file: &'a CaseFile,
+    /// The case's own table, without the scene's.
+    own: &'a CaseFile,
     /// What to blame for what is missing.
     span: Range<usize>,
 }
@@ -490,8 +504,11 @@ impl Reader<'_> {
         if speed > most {
             let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
             let most = number(most);
-            let message =
+            let mut message =
                 format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+            if let Some(doubt) = FibreWave::of(material, self.units).and_then(|wave| wave.doubt(self.units)) {
+                message.push_str(&format!(";\n{doubt}"));
+            }
             return Err(self.source.error(span, &message));
         }
         Ok(speed)
@@ -565,8 +582,19 @@ impl Reader<'_> {
     }
 
     /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
-    fn choose_failure(&self, material: &mut Material, file: &MaterialFile, span: &Range<usize>) -> Result<(), Error> {
-        let failure = self.file.failure.unwrap_or(FailureName::None);
+    fn choose_failure(
+        &self,
+        law: &str,
+        material: &mut Material,
+        file: &MaterialFile,
+        span: &Range<usize>,
+    ) -> Result<(), Error> {
+        let failure = self.file.failure();
+        // A property of the scene is wrong only beside the failure of a case: that is the line to change.
+        let place = |name: &str| {
+            let of_case = self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
+            of_case.or(file.given(name).map(Spanned::span)).unwrap_or(span.clone())
+        };
         let off: &[&str] = match failure {
             FailureName::None => &["eps_lim", "sigma_lim"],
             FailureName::Uniaxial => &["alpha", "beta"],
@@ -585,18 +613,18 @@ impl Reader<'_> {
                     "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
                     given.get_ref()
                 );
-                return Err(self.source.error(given.span(), &message));
+                return Err(self.source.error(place(name), &message));
             }
         }
         let is_zero = |name: &str| material.property(name) == Some(0.0);
         let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
         if let Some(name) = missing {
             let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
-            return Err(self.source.error(file.given(name).map_or(span.clone(), Spanned::span), &message));
+            return Err(self.source.error(place(name), &message));
         }
         if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
             let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
-            return Err(self.source.error(file.given("alpha").map_or(span.clone(), Spanned::span), message));
+            return Err(self.source.error(place("alpha"), message));
         }
         Ok(())
     }
@@ -620,7 +648,7 @@ impl Reader<'_> {
             let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
             return Err(self.source.error(span, &message));
         }
-        self.choose_failure(&mut material, &file, &span)?;
+        self.choose_failure(law, &mut material, &file, &span)?;
         let table = material.table();
         let (frame, criterion) = match material.law {
             Law::LinearElastic { frame, criterion, .. } => (frame, criterion),

@@ -1,7 +1,7 @@
 //! The program as a user meets it: exit codes, files, tables, decks.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 /// A directory of this test's own, empty.
 fn scratch(name: &str) -> PathBuf {
@@ -100,6 +100,58 @@ fn exit_codes_tell_input_from_evaluation() {
     assert_eq!(toron(&directory, &["walk"]).status.code(), Some(2));
     assert_eq!(toron(&directory, &["params", "--preset", "nylon"]).status.code(), Some(2));
     assert_eq!(toron(&directory, &["params", "--units", "furlong"]).status.code(), Some(2));
+}
+
+/// Output and complaints into pipes whose reader has gone: the command ends as it would have otherwise.
+#[test]
+fn a_reader_that_has_gone_is_no_error() {
+    let directory = scratch("pipes");
+    let point =
+        r#"{"F": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "m": [1, 0, 0], "params": {"kel": 1, "ktc": 1, "p": 2, "ktd": 1}}"#;
+    let scene = "units = \"mm-g-ms\"\n[scene]\nhalf-length = 1.0\nheight = 0.1\nwidth = 0.5\nlayers = 4\nrows = 1\n\
+                 columns = 2\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\nspeed = 120.0\nend = 1e-5\n";
+    for (name, text) in [("points", point), ("scene.toml", scene)] {
+        std::fs::write(directory.join(name), text).expect("a file can be written");
+    }
+    let ended = |arguments: &[&str]| {
+        let closed = || {
+            let (reader, writer) = std::io::pipe().expect("a pipe");
+            drop(reader);
+            Stdio::from(writer)
+        };
+        let points = std::fs::File::open(directory.join("points")).expect("there are points");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        program.args(arguments).current_dir(&directory).stdin(points).stdout(closed()).stderr(closed());
+        program.status().expect("the program starts").code()
+    };
+    for arguments in [&["run"][..], &["params"], &["eval"], &["impact", "scene.toml"], &["--help"]] {
+        assert_eq!(ended(arguments), Some(0), "{arguments:?}");
+    }
+    assert_eq!(ended(&["run", "nowhere.toml"]), Some(2));
+}
+
+/// What a summary says of law and units.
+#[test]
+fn a_summary_tells_the_law_and_its_wave() {
+    let directory = scratch("wave");
+    let said = |material: &str| {
+        let path = format!("units = \"mm-tonne-s\"\n[material]\n{material}\n[[step]]\nF = {{ 11 = 1.01 }}\n");
+        std::fs::write(directory.join("path.toml"), path).expect("a file can be written");
+        let output = toron(&directory, &["run", "path.toml"]);
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let preset = said("preset = \"kevlar-km2-600\"");
+    assert!(preset.contains("law                    hyperelastic (kevlar-km2-600)\n"), "{preset}");
+    assert!(preset.contains("wave along the fibre   7.806 km/s = √(k_el/density)\n"), "{preset}");
+    assert!(!preset.contains("warning"), "{preset}");
+    let own = "law = \"hyperelastic\"\nproperties = { k_el = 82341, k_tc = 1055, p = 2.2, k_td = 649.74 }";
+    let without = said(own);
+    assert!(without.contains("law                    hyperelastic\n") && !without.contains("wave"), "{without}");
+    let wrong = said(&format!("{own}\ndensity = 1.3514e-6"));
+    let warning = "  warning                the wave along the fibre has 0.2468 km/s, and fibres have 1 to 20:\n\
+                   \x20                        density or k_el is most likely not in the units of the file, mm-tonne-s\n";
+    assert!(wrong.contains(warning), "{wrong}");
 }
 
 #[test]

@@ -253,6 +253,44 @@ fn lines_that_are_points_all_the_same() {
     }
 }
 
+/// A parameter that is misspelt, or stands beside "params", would be left out in silence.
+#[test]
+fn keys_that_nothing_reads_are_refused() {
+    let known = "allowed: kel (k_el), ktc (k_tc), p, ktd (k_td), kld (k_ld), eps_lim, alpha, beta";
+    let long = "x".repeat(1000);
+    let inside = ["epslim", "Beta", "k_tC", &long].map(|key| {
+        let shown: String = if key.len() < 40 { key.to_string() } else { key[..40].to_string() + "…" };
+        let reason = format!("line 1: \"params\" has the key \"{shown}\"; {known}");
+        (GOOD.replace("6e8", &format!("6e8, \"{key}\": 0.04")), reason)
+    });
+    let beside = ["eps_lim", "alpha", "k_ld"].map(|key| {
+        let reason = format!("line 1: the key \"{key}\" stands beside \"params\"; allowed: within it");
+        (GOOD.replacen('{', &format!("{{\"{key}\": 0.04, "), 1), reason)
+    });
+    for (point, reason) in inside.into_iter().chain(beside) {
+        let line = &eval("law", point.as_bytes())[0];
+        assert_eq!((&line["status"], &line["message"]), (&status::BAD_ARGUMENT.into(), &reason.into()));
+    }
+}
+
+/// Asked of an entry that has none, the tangent would be missing in silence.
+#[test]
+fn a_tangent_of_a_vumat_is_refused() {
+    for (via, has) in ENTRIES.map(|via| (via, !via.starts_with("vumat"))) {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let program = program.args(["eval", "--tangent", "--via", via]).stdin(Stdio::null());
+        let output = program.output().expect("the program starts");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let (code, message) = if has { (0, String::new()) } else { (2, refusal(via)) };
+        assert_eq!((output.status.code(), said), (Some(code), message));
+    }
+}
+
+fn refusal(via: &str) -> String {
+    let others = "law, law-f32, block, block-f32, umat, ls-dyna, ls-dyna-vector";
+    format!("toron: --tangent with --via {via}, which has no DDSDDE; allowed with {others}\n")
+}
+
 #[test]
 fn no_input_no_output() {
     assert!(eval("law", b"").is_empty());

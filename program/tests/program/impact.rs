@@ -16,7 +16,7 @@
 use std::path::{Path, PathBuf};
 
 use toron::law::linear_elastic::Rotation;
-use toron_program::impact::report::hourglass_warning;
+use toron_program::impact::report::{contact_warning, hourglass_warning};
 use toron_program::impact::run::{self, End, Outcome, Sample};
 use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
 use toron_program::material::Law;
@@ -83,7 +83,7 @@ fn tiny(scene: &str, name: &str, rows: usize) -> Case {
 fn a_slow_projectile_is_held() {
     let result = run(&tiny("table_4_5.toml", "mf-80", 2));
     assert_eq!((result.end, result.broken, result.residual_speed()), (End::Stopped, None, Some(0.0)));
-    assert_eq!(result.last().deleted, 0);
+    assert_eq!((result.last().deleted, result.failed), (0, None));
     assert_balanced(&result);
 }
 
@@ -312,13 +312,30 @@ fn much_hourglass_energy_is_warned_of() {
     assert_eq!(hourglass_warning(&case, &result), None);
 }
 
+/// A contact that stores more than a twentieth of the energy is warned of.
+#[test]
+fn a_soft_contact_is_warned_of() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    case.end = 0.004;
+    let mut result = run(&case);
+    assert_eq!(contact_warning(&case, &result), None, "{}", result.contact_share());
+    let energy = result.samples[0].energies.total();
+    result.samples.last_mut().expect("there are samples").energies.contact = 0.06 * energy;
+    assert_eq!(
+        contact_warning(&case, &result).expect("it is more than a twentieth"),
+        "warning: case mf-120: the contact stored 6.0 % of the energy, more than 5 %:\n  \
+         take a larger contact-stiffness than 1e6\n"
+    );
+}
+
 /// Twice the same run gives the same numbers, through the break; outputs that are not wanted change none, single precision
 /// few.
 #[test]
 fn runs_repeat_and_outputs_do_not_matter() {
     let mut case = tiny("table_4_5.toml", "mf-120", 2);
     let first = run(&case);
-    assert!(first.broken.is_some() && first.last().deleted > 0, "it breaks");
+    let (failed, broken) = (first.failed.expect("it fails"), first.broken.expect("it breaks").0);
+    assert!(0.0 < failed && failed <= broken && first.last().deleted > 0, "{failed} {broken}");
     assert_eq!(run(&case).samples, first.samples);
     case.outputs = Outputs::Stress;
     assert_eq!(run(&case).residual_speed(), first.residual_speed());
@@ -382,6 +399,21 @@ fn errors_say_what_is_wrong() {
     assert_eq!(
         scene("layers = 100\nfailure = \"multiaxial\"\nhyperelastic = { properties = { alpha = 0.0 } }"),
         "scene.toml:15: alpha and beta are 0; allowed: one of them > 0, or failure uniaxial"
+    );
+    let weight = "layers = 100\nhyperelastic = { properties = { alpha = 1.5 } }\n[[case]]\nname = \"a\"\n";
+    assert_eq!(
+        scene(&format!("{weight}failure = \"multiaxial\"\n[[case]]\nname = \"b\"\nfailure = \"uniaxial\"")),
+        "scene.toml:20: alpha is 1.5, which the failure leaves out; allowed: 0, or failure multiaxial"
+    );
+    assert_eq!(
+        scene(&format!("{weight}failure = \"uniaxial\"\nhyperelastic = {{ properties = {{ alpha = 2.0 }} }}")),
+        "scene.toml:18: alpha is 2, which the failure leaves out; allowed: 0, or failure multiaxial"
+    );
+    assert_eq!(
+        scene("layers = 100\nhyperelastic = { density = 1351.4 }"),
+        "scene.toml:11: speed is 120; allowed: up to 4.480, which stretches the yarn by 0.5;\n\
+         the wave along the fibre has 0.007806 km/s, and fibres have 1 to 20:\n\
+         density or k_el is most likely not in the units of the file, mm-g-ms"
     );
     let linear = "linear-elastic = { properties = { sigma_lim = 0.0 } }";
     assert_eq!(

@@ -1361,6 +1361,21 @@ fn announce<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
+/// Puts 0 in place of what is not finite in an old state that would be kept. Returns where it has.
+///
+/// # Safety
+/// `place` has the lanes.
+#[inline(always)]
+unsafe fn clean<T: Precision, R: Lanes<T>>(place: *mut T, new: R::Mask) -> R::Mask {
+    let zero = R::splat(0.0);
+    // SAFETY: the caller's promise.
+    unsafe {
+        let wrong = !new & !(R::load(place) * zero).le(zero);
+        zero.store_where(wrong, place);
+        wrong
+    }
+}
+
 /// Drops what is not finite in the old state of points that keep it, and takes the stress of flawed ones away. Returns the codes that
 /// say why.
 ///
@@ -1380,31 +1395,21 @@ unsafe fn settle<T: Precision, R: Lanes<T>, const WANT: u8>(
     // SAFETY: the caller's promise.
     let latch = unsafe { latch::<T, R, WANT>(block, i) };
     let mut dropped = zero.lt(zero);
-    let mut clean = |array: *mut T, c: usize| {
-        // SAFETY: the array has the component, and the lanes from i on.
-        unsafe {
-            let place = array.add(c * stride + i);
-            let value = R::load(place);
-            let wrong = !outcome.new & !(value * zero).le(zero);
-            dropped = dropped | wrong;
-            zero.store_where(wrong, place);
-        }
-    };
-    if request.energies {
-        for c in 0..4 {
-            clean(block.energies, c);
-        }
-    }
-    if request.invariants {
-        for c in 0..4 {
-            clean(block.invariants, c);
-        }
-    }
-    if request.failure {
-        clean(block.failure, 0);
-    }
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's promise: the arrays have the components, and the lanes from i on.
     unsafe {
+        if request.energies {
+            for c in 0..4 {
+                dropped = dropped | clean::<T, R>(block.energies.add(c * stride + i), outcome.new);
+            }
+        }
+        if request.invariants {
+            for c in 0..4 {
+                dropped = dropped | clean::<T, R>(block.invariants.add(c * stride + i), outcome.new);
+            }
+        }
+        if request.failure {
+            dropped = dropped | clean::<T, R>(block.failure.add(i), outcome.new);
+        }
         if request.stress {
             for place in block.stress {
                 zero.store_where(!outcome.new, place.add(i));

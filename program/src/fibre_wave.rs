@@ -1,0 +1,93 @@
+//! The speed of the wave along the fibre at rest: what shows a density or a stiffness that is in other units than the rest.
+
+use std::ops::RangeInclusive;
+
+use crate::material::{Law, Material};
+use crate::unit_names::{SPEED, number};
+use toron::host::units::UnitSystem;
+
+/// What fibres have, in km/s, with room on both sides: nylon has 2, polyethylene 12, graphene would have 20.
+const KNOWN: RangeInclusive<f64> = 1.0..=20.0;
+
+/// A wave along the fibre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FibreWave {
+    /// What its speed follows from.
+    pub formula: &'static str,
+    /// The stiffness that it takes.
+    stiffness: &'static str,
+    /// In km/s, whatever the units of the file.
+    pub speed: f64,
+}
+
+impl FibreWave {
+    /// The wave of a material in these units; none without a density or without stiffness.
+    pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
+        let (stiffness, formula) = match material.law {
+            Law::Hyperelastic(_) => ("k_el", "√(k_el/density)"),
+            Law::LinearElastic { .. } => ("e_1", "√(e_1/density)"),
+        };
+        let speed = (material.property(stiffness)? / material.density?).sqrt();
+        (speed > 0.0).then(|| FibreWave { formula, stiffness, speed: speed / units.from_si(1000.0, SPEED) })
+    }
+
+    /// That the speed is no fibre's, and why that may be.
+    pub fn doubt(&self, units: &UnitSystem) -> Option<String> {
+        (!KNOWN.contains(&self.speed)).then(|| {
+            format!(
+                "the wave along the fibre has {} km/s, and fibres have {} to {}:\n\
+                 density or {} is most likely not in the units of the file, {}",
+                number(self.speed),
+                KNOWN.start(),
+                KNOWN.end(),
+                self.stiffness,
+                units.names().join("-")
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::path::LoadPath;
+
+    /// The wave of the preset, but for these keys of its table.
+    fn wave(units: &str, preset: &str, keys: &str) -> (Option<FibreWave>, UnitSystem) {
+        let text =
+            format!("units = \"{units}\"\n[material]\npreset = \"{preset}\"\n{keys}\n[[step]]\nF = {{ 11 = 1.01 }}\n");
+        let path = LoadPath::parse("path.toml", &text).expect("the path is valid");
+        (FibreWave::of(&path.points[0].material, &path.units), path.units)
+    }
+
+    #[test]
+    fn the_speed_is_that_of_the_yarn_in_any_units() {
+        for units in ["si", "mm-tonne-s", "mm-g-ms", "cm-g-us", "in-slinch-s"] {
+            for (preset, speed) in [("kevlar-km2-600", 7.80578), ("kevlar-km2-600-linear", 7.66578)] {
+                let (wave, units) = wave(units, preset, "");
+                let wave = wave.expect("there is a density");
+                assert!((wave.speed - speed).abs() < 1e-5, "{wave:?}");
+                assert_eq!(wave.doubt(&units), None);
+            }
+        }
+    }
+
+    #[test]
+    fn a_factor_of_a_thousand_is_told() {
+        for (keys, speed) in [
+            ("density = 1.3514e-6", "0.2468"),
+            ("density = 1.3514e-12", "246.8"),
+            ("properties = { k_el = 82.341 }", "0.2468"),
+            ("properties = { k_el = 82341e3 }", "246.8"),
+        ] {
+            let (wave, units) = wave("mm-tonne-s", "kevlar-km2-600", keys);
+            let doubt = wave.and_then(|wave| wave.doubt(&units)).expect(keys);
+            let expected = format!(
+                "the wave along the fibre has {speed} km/s, and fibres have 1 to 20:\n\
+                 density or k_el is most likely not in the units of the file, mm-tonne-s"
+            );
+            assert_eq!(doubt, expected);
+        }
+        assert_eq!(wave("si", "kevlar-km2-600", "properties = { k_el = 0 }").0, None);
+    }
+}
