@@ -348,22 +348,6 @@ module toron
       integer(c_int32_t) :: toron_hyperelastic_least_acoustic_eigenvalue_f64
     end function
 
-    function toron_hyperelastic_block_f64(values, count, block) bind(c)
-      import
-      real(c_double), intent(in), optional :: values(*)
-      integer(c_size_t), value :: count
-      type(toron_block_f64), intent(in), optional :: block
-      integer(c_int32_t) :: toron_hyperelastic_block_f64
-    end function
-
-    function toron_hyperelastic_block_f32(values, count, block) bind(c)
-      import
-      real(c_float), intent(in), optional :: values(*)
-      integer(c_size_t), value :: count
-      type(toron_block_f32), intent(in), optional :: block
-      integer(c_int32_t) :: toron_hyperelastic_block_f32
-    end function
-
     function toron_hyperelastic_block_tangent_f64(values, count, block, measure, tangent) bind(c)
       import
       real(c_double), intent(in), optional :: values(*)
@@ -382,6 +366,22 @@ module toron
       integer(c_int32_t), value :: measure
       real(c_float), intent(inout), optional :: tangent(*)
       integer(c_int32_t) :: toron_hyperelastic_block_tangent_f32
+    end function
+
+    function toron_hyperelastic_block_f64(values, count, block) bind(c)
+      import
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_block_f64), intent(in), optional :: block
+      integer(c_int32_t) :: toron_hyperelastic_block_f64
+    end function
+
+    function toron_hyperelastic_block_f32(values, count, block) bind(c)
+      import
+      real(c_float), intent(in), optional :: values(*)
+      integer(c_size_t), value :: count
+      type(toron_block_f32), intent(in), optional :: block
+      integer(c_int32_t) :: toron_hyperelastic_block_f32
     end function
 
     function toron_linear_elastic_validate_f64(values, count, message, capacity, status) bind(c)
