@@ -4,9 +4,9 @@
 
 use nalgebra::Matrix3;
 use toron::host::units::UnitSystem;
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::parameters;
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use toron::{Hyperelastic, Request};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let units = UnitSystem::parse("mm-tonne-s").ok_or("no such unit system")?;

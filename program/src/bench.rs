@@ -15,12 +15,13 @@ use super::{Error, print};
 use crate::entries::{
     self, BlockPrecision, CalculixPoint, LsdynaElement, LsdynaVector, OnePoint, SolverBlock, Umat, VumatArrays,
 };
-use toron::law::block::{Level, Precision};
-use toron::law::hyperelastic::{Hyperelastic, Request};
+use toron::Level;
+use toron::Real;
+use toron::law::block::Precision;
 use toron::law::parameters::{self, HYPERELASTIC_PROPERTIES};
-use toron::law::real::Real;
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 /// The sizes of a block: one point, a few, a solver's vectors, a batch that stays in the cache, one that does not.
 pub const SIZES: [usize; 6] = [1, 8, 64, 192, 4096, 1_000_000];
@@ -77,7 +78,7 @@ impl Entry {
         self,
         law: &Hyperelastic<T>,
         scene: &mut Scene<T>,
-    ) -> Result<(), toron::law::status::Error> {
+    ) -> Result<(), toron::Error> {
         match self {
             Entry::Point => points(law, scene),
             Entry::Block(level) => drop(law.block(scene.arrays(level))?),
@@ -352,7 +353,7 @@ pub fn properties() -> &'static [f64] {
 /// All rows of a precision, its hosts' and then the law's own; the copy limit is the last one.
 fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Host]) -> Result<Vec<Row>, Error> {
     let values: Vec<T> = properties().iter().map(|&value| T::splat(value)).collect();
-    let fault = |error: toron::law::status::Error| Error::Evaluation(error.to_string());
+    let fault = |error: toron::Error| Error::Evaluation(error.to_string());
     let law = Hyperelastic::new(&values).map_err(fault)?;
     let values: [T; HYPERELASTIC_PROPERTIES] =
         values.try_into().map_err(|_| Error::Evaluation("the preset has other properties".to_string()))?;
@@ -395,8 +396,8 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
 fn faster<T: Precision>(
     best: &mut Option<f64>,
     scene: &mut Scene<T>,
-    mut run: impl FnMut(&mut Scene<T>) -> Result<(), toron::law::status::Error>,
-) -> Result<(), toron::law::status::Error> {
+    mut run: impl FnMut(&mut Scene<T>) -> Result<(), toron::Error>,
+) -> Result<(), toron::Error> {
     // What the last row left in the caches is no business of this one.
     run(scene)?;
     let start = Instant::now();

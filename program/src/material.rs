@@ -2,14 +2,14 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use toron::law::hyperelastic::{Hyperelastic, Request};
-use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::parameters::{self, FIBRE, LINEAR_FIBRE, Property, STRESS};
 use toron::law::state::{self, ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
 };
 use toron::law::status;
+use toron::{Criterion, LinearElastic, Rotation};
+use toron::{Hyperelastic, Request};
 
 /// A law, prepared.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +66,7 @@ impl Law {
         values: &[f64],
         frame: Rotation,
         criterion: Criterion,
-    ) -> Result<Law, status::Error> {
+    ) -> Result<Law, toron::Error> {
         if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) {
             let law = LinearElastic::new(values)?;
             return Ok(Law::LinearElastic { law, frame, criterion });

@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
+use toron::Hyperelastic;
 use toron::law::block::{Arrays, Block, Precision};
-use toron::law::hyperelastic::Hyperelastic;
-use toron::law::status::{self, Error};
+use toron::{Error, status};
 
 /// Fewer points than this are not worth another thread.
 const FEWEST: usize = 4096;

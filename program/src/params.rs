@@ -5,9 +5,9 @@ use std::fmt::Write;
 use super::material::alive;
 use super::unit_names::unit;
 use super::{Error, print};
+use toron::Hyperelastic;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
-use toron::law::hyperelastic::Hyperelastic;
 use toron::law::parameters::{
     self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Preset, Property,
 };

@@ -16,9 +16,8 @@ use super::material::{Law, Material};
 use super::newton::COMPONENT_NAMES;
 use super::{Error, file_error, table};
 use toron::host::units::UnitSystem;
-use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters::{self, DENSITY, FIBRE, LINEAR_FIBRE, Preset, Property};
-use toron::law::status;
+use toron::{Criterion, Rotation};
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
 const MOST_INCREMENTS: usize = 1_000_000;
@@ -337,7 +336,7 @@ impl Source<'_> {
         };
         let law = Law::new(table, &values, frame, criterion).map_err(|error| {
             let index = match error {
-                status::Error::Property { index, .. } | status::Error::Direction { index, .. } => index,
+                toron::Error::Property { index, .. } | toron::Error::Direction { index, .. } => index,
                 _ => 0,
             };
             self.error(spans[index].clone(), &error.to_string())

@@ -7,7 +7,7 @@ use super::element::Hexahedron;
 use super::material::{Answer, Material};
 use super::newton::{self, COMPONENTS, Prescribed};
 use super::path::{LoadPath, Point, Step, Target};
-use toron::law::hyperelastic::Request;
+use toron::Request;
 use toron::law::status;
 use toron::law::stress::first_piola_kirchhoff;
 

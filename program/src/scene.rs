@@ -5,9 +5,10 @@ use std::ops::{Deref, DerefMut};
 use fastrand::Rng;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
-use toron::law::block::{Arrays, Level, Precision};
-use toron::law::real::Real;
-use toron::law::tangent::Measure;
+use toron::Level;
+use toron::Measure;
+use toron::Real;
+use toron::law::block::{Arrays, Precision};
 
 /// Numbers in a cache line, of single precision: arrays and columns start on one.
 const LINE: usize = 16;

@@ -18,15 +18,19 @@
 use core::cell::Cell;
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::derivative::JaumannModulus;
+use crate::law::derivative::StressAndState;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::real::Real;
+use crate::law::number::vector::{cross, dot};
 use crate::law::parameters;
-use crate::law::point::{Call, Point, Sink, StressAndState};
-use crate::law::real::{Real, cross, dot};
+use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status;
-use crate::law::tangent::{Jaumann, Measure, Moduli};
+use crate::law::tangent::Measure;
+use crate::law::voigt::Moduli;
 
-use super::c::properties;
+use super::border::properties;
 use super::environment::in_default_environment;
 
 /// What PNEWDT is lowered to where a point cannot be evaluated.
@@ -48,6 +52,7 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn umat_tangent_f64(
     stress: *mut f64,
     statev: *mut f64,
@@ -101,14 +106,14 @@ pub unsafe extern "C" fn umat_tangent_f64(
             let mut status = status::OK;
             let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
             let call = Call { properties, f, fibre: None, state, tangent: StressAndState, sink };
-            f64::once(call).map_or_else(|error| error.code(), |()| status)
+            evaluate_call(call).map_or_else(|error| error.code(), |()| status)
         })
     } else {
         in_default_environment(move || {
             let mut status = status::OK;
             let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
-            let call = Call { properties, f, fibre: None, state, tangent: Jaumann, sink };
-            f64::once(call).map_or_else(|error| error.code(), |()| status)
+            let call = Call { properties, f, fibre: None, state, tangent: JaumannModulus, sink };
+            evaluate_call(call).map_or_else(|error| error.code(), |()| status)
         })
     }
 }
@@ -202,6 +207,7 @@ fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn umat_f64(
     stress: *mut f64,
     statev: *mut f64,
@@ -420,6 +426,7 @@ unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
     // SAFETY: the caller's promise.
     in_default_environment(move || unsafe { vumat(block) })
@@ -429,6 +436,7 @@ pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>) -> i32 {
     // SAFETY: the caller's promise.
     in_default_environment(move || unsafe { vumat(block) })

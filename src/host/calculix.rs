@@ -17,16 +17,17 @@
 use core::cell::Cell;
 use core::ffi::c_char;
 
-use crate::law::block::Precision;
-use crate::law::hyperelastic::Request;
+use crate::law::derivative::SixBySix;
+use crate::law::error::Error;
 use crate::law::parameters;
-use crate::law::point::{Call, Point, Sink};
+use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
-use crate::law::status::{self, Error};
-use crate::law::tangent::{Measure, Six};
+use crate::law::status;
+use crate::law::tangent::Measure;
 use nalgebra::{Matrix3, Vector3};
 
-use super::c::properties;
+use super::border::properties;
 use super::environment::in_default_environment;
 
 /// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
@@ -111,10 +112,10 @@ impl Arguments<'_> {
         };
         let mut answer = Answer { pnewdt: self.pnewdt, ..Answer::default() };
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
-        let tangent = Six(request, Measure::Material);
+        let tangent = SixBySix(request, Measure::Material);
         // SAFETY: CalculiX's promise: there are as many as state_count says.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
-        f64::once(Call { properties, f: self.f, fibre, state, tangent, sink: &mut answer })?;
+        evaluate_call(Call { properties, f: self.f, fibre, state, tangent, sink: &mut answer })?;
         if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
             return Err(Error::Plain(answer.status)); // no smaller increment helps
         }
@@ -200,6 +201,7 @@ fn refuse(material: &[u8; 80], message: &Message) -> ! {
 /// # Safety
 /// CalculiX's promise: every pointer has as many values as said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic(
     amat: *const c_char,
     iel: *const i32,

@@ -16,15 +16,20 @@ use core::cell::Cell;
 use core::ffi::c_int;
 
 use crate::law::block::{Pointers, Precision, components};
-use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::derivative::SixBySix;
+use crate::law::derivative::StressAndState;
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::vector::dot;
 use crate::law::parameters;
-use crate::law::point::{Call, Point, Sink, StressAndState};
-use crate::law::real::dot;
+use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::response::Request;
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
-use crate::law::status::{self, Error};
-use crate::law::tangent::{Measure, Six};
+use crate::law::status;
+use crate::law::tangent::Measure;
 
-use super::c::{PointAnswer, entry, properties, store};
+use super::border::{entry, properties, store};
+use super::c::PointAnswer;
 
 /// Elements `first` to `last`, counted from 0, of a vector block.
 struct Elements<T> {
@@ -193,7 +198,7 @@ unsafe fn scalar<T: Precision>(
     let (properties, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
-    T::once(Call { properties, f, fibre: None, state, tangent: StressAndState, sink })?;
+    evaluate_call(Call { properties, f, fibre: None, state, tangent: StressAndState, sink })?;
     Ok(status)
 }
 
@@ -201,6 +206,7 @@ unsafe fn scalar<T: Precision>(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
@@ -210,6 +216,7 @@ pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, 
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn umat_f32(cm: *const f32, sig: *mut f32, hsv: *mut f32, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
@@ -261,6 +268,7 @@ unsafe fn vector<T: Precision>(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn umat_vector_f64(
     cm: *const f64,
     sig1: *mut f64,
@@ -285,6 +293,7 @@ pub unsafe extern "C" fn umat_vector_f64(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn umat_vector_f32(
     cm: *const f32,
     sig1: *mut f32,
@@ -323,8 +332,8 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
         tangent: es,
         status: &mut status,
     };
-    let tangent = Six(Request::default(), Measure::Truesdell);
-    T::once(Call { properties, f, fibre: None, state, tangent, sink })?;
+    let tangent = SixBySix(Request::default(), Measure::Truesdell);
+    evaluate_call(Call { properties, f, fibre: None, state, tangent, sink })?;
     Ok(status)
 }
 
@@ -332,6 +341,7 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
@@ -341,6 +351,7 @@ pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es:
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
@@ -403,6 +414,7 @@ unsafe fn vector_tangent<T: Precision>(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn utan_vector_f64(
     cm: *const f64,
     hsvs: *const f64,
@@ -420,6 +432,7 @@ pub unsafe extern "C" fn utan_vector_f64(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn utan_vector_f32(
     cm: *const f32,
     hsvs: *const f32,
@@ -437,6 +450,7 @@ pub unsafe extern "C" fn utan_vector_f32(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn bulk_and_shear_f64(values: *const f64, count: usize, bulk: *mut f64, shear: *mut f64) -> i32 {
     if bulk.is_null() || shear.is_null() {
         return status::NULL_ARGUMENT;

@@ -5,13 +5,16 @@
 //! u is an eigenvector of Q(n), for a given u the extreme n one of c:(·⊗u)(·⊗u) + τ: taking turns leads to an extremum
 //! without a gradient or a step length, from each of many directions about the current frame to all that there are.
 
-use super::hyperelastic::{Hyperelastic, Request};
+use super::hyperelastic::Hyperelastic;
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::real::{Real, along, dot, scale};
+use super::number::real::Real;
+use super::number::vector::{along, dot, scale};
+use super::response::Request;
 use super::state::HYPERELASTIC_STATE;
 use super::status;
-use super::stress::{VOIGT, principal_axes};
+use super::stress::principal_axes;
 use super::tangent::Measure;
+use super::voigt::VOIGT;
 
 /// Whole numbers up to this one make the directions to start from: 109 of them, none farther than 14° from the next.
 const FINENESS: i32 = 3;

@@ -1,8 +1,8 @@
 //! When the yarn breaks: uniaxial (UF) and multiaxial (MF) failure, and the latch (thesis, section 4.4.2).
 
-use super::elementary::ln_1p;
 use super::kinematics::Strain;
-use super::real::Real;
+use super::number::elementary::ln_1p;
+use super::number::real::Real;
 
 /// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
 const LEAST_LIMIT: f64 = 1e-30;

@@ -10,16 +10,16 @@
 //! [`kinematics`](super::kinematics) gives it. It is the thesis's Eq. 4.14 pushed forward, without its quotient 0/0:
 //! 2 I_td/ŝ is smooth through ŝ = 0.
 
-use super::elementary::{Exponent, Power, power};
+use super::bounds::{check, limits, within};
+use super::error::Error;
 use super::failure::Failure;
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
+use super::number::elementary::{Exponent, Power, power};
+use super::number::real::Real;
+use super::number::vector::{along, scale};
 use super::parameters::{self, FIBRE, HYPERELASTIC_PROPERTIES};
-use super::real::{Real, along, scale};
-use super::status::{self, Error};
-use super::stress::{square, symmetric_product as product};
-use super::wave_speed::COMPACTION_FLOOR;
-
-pub use super::point::Point;
+use super::status;
+use super::voigt::{square, sum, symmetric_product as product};
 
 /// The properties by name, in one system of units. Hosts pass the same numbers as an array, in the order of
 /// [`parameters::HYPERELASTIC`], which has their bounds.
@@ -67,53 +67,8 @@ pub struct Hyperelastic<R> {
     pub(super) frame: FibreFrame<R>,
     /// Whether the fibre lies along the first axis, so that most products with the frame need not be computed.
     pub(super) aligned: bool,
-}
-
-/// What a caller wants beside the stress; what is left out is not computed and stays 0.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Request {
-    pub stress: bool,
-    pub energies: bool,
-    pub invariants: bool,
-    /// Failure index and latch. Left out, no point fails; a point that has failed before stays failed all the same.
-    pub failure: bool,
-    pub modes: bool,
-    pub wave_modulus: bool,
-}
-
-impl Request {
-    /// Everything there is.
-    pub const ALL: Request =
-        Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
-    /// What a solver wants at every step.
-    pub const STRESS_AND_STATE: Request = Request { modes: false, wave_modulus: false, ..Request::ALL };
-}
-
-/// What the law answers at once, for one point or for several side by side.
-#[derive(Clone, Copy)]
-pub struct Response<R: Real> {
-    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards. Where `standing` is NaN it
-    /// means nothing.
-    pub stress: [R; 6],
-    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
-    pub modes: [[R; 6]; 4],
-    /// ρ0 c² for a bound c of the wave speed, at least k_el.
-    pub wave_modulus: R,
-    /// The latch, or NaN where the point cannot be evaluated; why is the [`verdict`](Hyperelastic::verdict).
-    pub standing: R,
-    /// Where the point has neither failed before nor is flawed, so that its state is a new one.
-    pub new: R::Mask,
-}
-
-/// What a point remembers. Where its state is not new the energies, invariants and the index mean nothing: the old ones stand.
-#[derive(Clone, Copy)]
-pub struct History<R> {
-    /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index.
-    pub energies: [R; 4],
-    pub invariants: [R; 4],
-    pub failure_index: R,
-    /// The new latch, 0 or 1.
-    pub failed: R,
+    /// Whether there is a longitudinal-shear stiffness; without one its terms are not computed.
+    pub(super) shears: bool,
 }
 
 impl<T: Real + Into<f64>> Hyperelastic<T> {
@@ -145,13 +100,13 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
     // they would all have to be there first.
     #[inline(always)]
     pub(super) fn prepare(properties: &[T], frame: &PropertyFrame<T>) -> Result<Self, Error> {
-        const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = parameters::limits(&parameters::HYPERELASTIC);
+        const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = limits(&parameters::HYPERELASTIC);
         let Ok(properties) = <&[T; HYPERELASTIC_PROPERTIES]>::try_from(properties) else {
-            parameters::check(&parameters::HYPERELASTIC, properties)?;
+            check(&parameters::HYPERELASTIC, properties)?;
             return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the check says so
         };
-        if !parameters::within(&LIMITS, properties) {
-            parameters::check(&parameters::HYPERELASTIC, properties)?;
+        if !within(&LIMITS, properties) {
+            check(&parameters::HYPERELASTIC, properties)?;
         }
         let &[k_el, k_tc, p, k_td, k_ld, _, _, _, m_1, m_2, m_3] = properties;
         if !frame.usable {
@@ -177,6 +132,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             failure: Failure::none(),
             frame: frame.frame,
             aligned: frame.aligned,
+            shears: T::splat(0.0).into() < k_ld.into(),
         })
     }
 
@@ -224,6 +180,9 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
     }
 }
 
+/// Below this compaction the stiffness W″ of an exponent p ≤ 2 is held, since it is infinite at 0 for p < 2.
+const COMPACTION_FLOOR: f64 = 1e-8;
+
 /// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: for p > 2 it is 0 at 0, and held where
 /// i^(p−1) is 0 as well, so that no quotient overflows.
 #[inline(always)]
@@ -235,24 +194,22 @@ fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) ->
     [floor, p * (p - T::splat(1.0)) * k_tc * power(floor, exponent) / floor]
 }
 
-/// Where the point stands and what it carries: the intact answer of the law before failure and errors have their say.
+/// The factors of the four modes in the Kirchhoff stress τ of the intact material, see the formula above.
 #[derive(Clone, Copy, Debug)]
-pub struct Kirchhoff<R> {
-    /// k_el⟨I_el⟩, (p/2) k_tc⟨−I_tc⟩^(p−1), (k_td/2)(I_td/ŝ), k_ld/λ²: the factors of the four modes in τ.
+pub(crate) struct Kirchhoff<R> {
+    /// k_el⟨I_el⟩, of e⊗e.
     pub tension: R,
+    /// (p/2) k_tc⟨−I_tc⟩^(p−1), of −P.
     pub pressure: R,
+    /// (k_td/2)(I_td/ŝ), of D̂.
     pub distortion: R,
+    /// k_ld/λ², of (u⊗c1 + c1⊗u)/λ².
     pub shear: R,
-    /// k_tc⟨−I_tc⟩^p, which shares its power with the pressure.
+    /// The energy k_tc⟨−I_tc⟩^p, which shares its power with the pressure.
     pub compaction_energy: R,
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The fibre direction of the properties with two axes across it.
-    pub fn frame(&self) -> FibreFrame<R> {
-        self.frame
-    }
-
     /// Bulk and shear modulus of an isotropic solid whose longitudinal wave is the fibre's: K + 4G/3 = k_el. For hosts that
     /// take their time step and contact stiffness from two constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
@@ -261,7 +218,7 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The same properties in another number: many lanes instead of one.
     #[inline(always)]
-    pub fn lanes<L: Real>(&self) -> Hyperelastic<L>
+    pub(crate) fn lanes<L: Real>(&self) -> Hyperelastic<L>
     where
         R: Into<f64>,
     {
@@ -279,18 +236,19 @@ impl<R: Real> Hyperelastic<R> {
             failure: self.failure.map(lane),
             frame: FibreFrame { m: vector(self.frame.m), t1: vector(self.frame.t1), t2: vector(self.frame.t2) },
             aligned: self.aligned,
+            shears: self.shears,
         }
     }
 
     /// The first step of the compaction's power.
     #[inline(always)]
-    pub fn compaction(&self, strain: &Strain<R>) -> Power<R> {
+    pub(crate) fn compaction(&self, strain: &Strain<R>) -> Power<R> {
         Power::new(-strain.i_tc)
     }
 
     /// The factors of the four modes in the Kirchhoff stress, given ⟨−I_tc⟩^(p−1).
     #[inline(always)]
-    pub fn kirchhoff(&self, d: &Stretch<R>, strain: &Strain<R>, power: R) -> Kirchhoff<R> {
+    pub(crate) fn kirchhoff(&self, d: &Stretch<R>, strain: &Strain<R>, power: R) -> Kirchhoff<R> {
         let zero = R::splat(0.0);
         Kirchhoff {
             tension: self.k_el * strain.i_el.max(zero),
@@ -302,16 +260,22 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// Likewise, with the power taken at once.
+    /// |W′| and W″ of the compaction: its loading side at I_tc = 0, and with p < 2 held where W″ is infinite.
     #[inline(always)]
-    pub fn kirchhoff_of(&self, kinematics: Kinematics<'_, R>) -> Kirchhoff<R> {
-        let power = self.compaction(kinematics.strain).reduce(&self.exponent).finish();
-        self.kirchhoff(kinematics.stretch, kinematics.strain, power)
+    pub(crate) fn compaction_slopes(&self, strain: &Strain<R>, k: &Kirchhoff<R>) -> (R, R) {
+        let zero = R::splat(0.0);
+        let compaction = -strain.i_tc;
+        let slope = R::splat(2.0) * k.pressure;
+        let held = compaction.le(self.held_below);
+        // Divided before the slope is known, which takes long to compute.
+        let factor = (self.p - R::splat(1.0)) / R::select(held, R::splat(1.0), compaction);
+        let curvature = R::select(held, self.greatest_curvature, factor * slope);
+        (slope, R::select(zero.le(compaction), curvature, zero))
     }
 
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]
-    pub fn energies(&self, strain: &Strain<R>, i_ld: R, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
+    pub(crate) fn energies(&self, strain: &Strain<R>, i_ld: R, k: &Kirchhoff<R>, shear: bool) -> [R; 4] {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let elongation = strain.i_el.max(zero);
         [
@@ -328,7 +292,13 @@ impl<R: Real> Hyperelastic<R> {
     /// which holds its digits where the section is hardly distorted. So
     /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
     #[inline(always)]
-    pub fn cauchy(&self, kinematics: Kinematics<'_, R>, k: &Kirchhoff<R>, intact: R::Mask, shear: bool) -> [R; 6] {
+    pub(crate) fn cauchy(
+        &self,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        intact: R::Mask,
+        shear: bool,
+    ) -> [R; 6] {
         let Kinematics { stretch: d, section, images: [c, a, b], strain } = kinematics;
         let zero = R::splat(0.0);
         let distortion = k.distortion * d.inverse_jacobian;
@@ -362,7 +332,7 @@ impl<R: Real> Hyperelastic<R> {
 
     /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
     #[inline(always)]
-    pub fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
+    pub(crate) fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
         let [w1, w2, w3] = d.pulled_back(n);
         let two = R::splat(2.0);
         let distortion = k.distortion * d.area_ratio;
@@ -375,121 +345,6 @@ impl<R: Real> Hyperelastic<R> {
             sum(product(two * t12, w1, w2), product(two * t13, w1, w3)),
         ]
     }
-}
-
-impl<R: Real> Hyperelastic<R> {
-    /// The stress of a point, given its kinematics, the factors of its modes, `doubt` (0 where all that may be relied on, else
-    /// NaN) and the latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be
-    /// computed.
-    ///
-    /// No NaN or infinity leaves in the wave modulus, and none in the rest but where the point cannot be evaluated.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    pub fn respond(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        frame: &FibreFrame<R>,
-        doubt: R,
-        latch: R,
-        request: Request,
-        shear: bool,
-    ) -> Response<R> {
-        let Kinematics { stretch: d, strain, .. } = kinematics;
-        let zero = R::splat(0.0);
-        // A latch that is NaN, or made so, is not intact.
-        let mut standing = latch + doubt;
-        let intact = Failure::intact(standing);
-        let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
-
-        // Whether all that was asked for is a finite number: zero times that is zero. With the bounds of the properties
-        // the invariants, the index and the energies are wherever there is no doubt, but for the shear's energy.
-        // A compaction energy that does not fit shows in the stress, if that is asked for.
-        if !R::HEADROOM || shear {
-            let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
-            standing = sum.mul_add(zero, standing);
-            if request.energies && !request.stress {
-                standing = k.compaction_energy.mul_add(zero, standing);
-            }
-        }
-        if request.energies && shear {
-            standing = self.energies(strain, d.shear_invariant(), k, shear)[3].mul_add(zero, standing);
-        }
-        let mut modes = [[zero; 6]; 4];
-        let mut wave = self.k_el;
-        if request.modes || request.wave_modulus {
-            let decomposition = Decomposition::new(kinematics);
-            if request.modes {
-                modes = self.modes(&decomposition, k, frame);
-                for &x in modes.iter().flatten() {
-                    standing = x.mul_add(zero, standing);
-                }
-            }
-            if request.wave_modulus {
-                wave = self.wave_modulus(&decomposition, strain, k);
-                standing = wave.mul_add(zero, standing);
-            }
-        }
-        let new = Failure::intact(standing);
-        if request.modes {
-            for x in modes.iter_mut().flatten() {
-                *x = R::select(new, *x, zero);
-            }
-        }
-        Response { stress, modes, wave_modulus: R::select(new, wave, self.k_el), standing, new }
-    }
-
-    /// What a point remembers, given where its state is a new one. No NaN or infinity leaves in the latch.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    pub fn history(
-        &self,
-        strain: &Strain<R>,
-        i_ld: R,
-        k: &Kirchhoff<R>,
-        new: R::Mask,
-        latch: R,
-        request: Request,
-        shear: bool,
-    ) -> History<R> {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let index = if request.failure { self.failure.index(strain) } else { zero };
-        History {
-            energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
-            invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
-            failure_index: index,
-            failed: R::select(!Failure::intact(latch) | (new & Failure::reached(index)), one, zero),
-        }
-    }
-
-    /// The status code of a point that keeps its old state, as a number: why it cannot be evaluated, or 0 where it has failed
-    /// before. `usable` says whether its fibre direction is.
-    #[inline(always)]
-    pub fn verdict(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: R::Mask, latch: R) -> R {
-        let zero = R::splat(0.0);
-        let code = |status: i32| R::splat(f64::from(status));
-        // A number times zero is zero unless it is NaN or infinite. What is too large has no determinant to speak of.
-        let (mut finite, mut size) = (zero, zero);
-        for column in f {
-            for &entry in column {
-                finite = entry.mul_add(zero, finite);
-                size = entry.mul_add(entry, size);
-            }
-        }
-        let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
-        // The first reason that applies, from the last to the first.
-        let flaw = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
-        let flaw = R::select(usable, flaw, code(status::FIBRE_DIRECTION));
-        let flaw = R::select(finite.le(zero), flaw, code(status::NOT_FINITE));
-        let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));
-        R::select(Failure::intact(latch), flaw, failed)
-    }
-}
-
-/// The sum of two tensors of six components.
-#[inline(always)]
-fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]]
 }
 
 /// The components of the longitudinal-shear stress on (e, q1) and (e, q2): `factor` · P b e.

@@ -25,8 +25,9 @@
 //! over several points: each has a chain of operations short enough for the processor to overlap points, and divides and
 //! takes roots at its end, where nothing waits for them.
 
-use super::elementary::{Asinh, Logarithm};
-use super::real::{Real, accurate_cross, along, cross, dot, image, scale};
+use super::number::elementary::{Asinh, Logarithm};
+use super::number::real::Real;
+use super::number::vector::{accurate_cross, along, cross, dot, image, scale};
 
 /// F is near the reference where every entry of its diagonal is above this: F − 1 is exact from ½ on.
 const NEAR_REFERENCE: f64 = 0.6;
@@ -181,10 +182,10 @@ pub struct Stretch<R: Real> {
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
-    /// λ², its reciprocal, and what rounding took from it.
+    /// λ², its reciprocal, and the rounding error of λ²: the exact value less this one.
     pub square: R,
     pub inverse_square: R,
-    lost: R,
+    rounding: R,
     /// h2 and h3: the fibre's image times those of the axes across it; (h2² + h3²)/λ².
     pub h: [R; 2],
     slip_square: R,
@@ -193,7 +194,7 @@ pub struct Stretch<R: Real> {
 impl<R: Real> Stretch<R> {
     /// Of `f` (columns of F) in the material axes; with it F m, (F − σ1) t1 and (F − σ1) t2, which the section is made of.
     ///
-    /// Meaningful where [`Strain::doubt`] says so; what other points give must be masked out by the caller.
+    /// Valid where [`Strain::nan_if_invalid`] is 0; the caller masks out the other points.
     #[inline(always)]
     pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 3]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -216,7 +217,7 @@ impl<R: Real> Stretch<R> {
             inverse_jacobian: jacobian.reciprocal(),
             square,
             inverse_square,
-            lost: u11 - (square - sigma),
+            rounding: u11 - (square - sigma),
             h,
             slip_square: h[0].mul_add(h[0], h[1] * h[1]) * inverse_square,
         };
@@ -243,10 +244,10 @@ pub struct Section<R: Real> {
     /// t̂ = ½(a·a + b·b) and ŝ.
     pub half_trace: R,
     pub distortion: R,
-    /// J_t², its reciprocal, and what rounding took from it.
+    /// J_t², its reciprocal, and the rounding error of J_t²: the exact value less this one.
     area_square: R,
     inverse_area_square: R,
-    lost: R,
+    rounding: R,
 }
 
 impl<R: Real> Section<R> {
@@ -281,7 +282,7 @@ impl<R: Real> Section<R> {
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
             inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
-            lost: R::select(near, growth - (area_square - one), R::splat(0.0)),
+            rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
     }
@@ -305,7 +306,7 @@ pub struct Logarithms<R: Real> {
     product_3: R,
     inverse: R,
     /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
-    pub doubt: R,
+    pub nan_if_invalid: R,
 }
 
 impl<R: Real> Logarithms<R> {
@@ -326,7 +327,7 @@ impl<R: Real> Logarithms<R> {
             inverse: R::splat(1.0) / (product_3 * d_4),
             // NaN in F is NaN in the growth, and stays so in the largest one. Where the three images are almost parallel a and b
             // may vanish by cancellation, though J does not. With a·a and the growth in range J_t² is a normal number.
-            doubt: R::select(
+            nan_if_invalid: R::select(
                 least.lt(d.jacobian.min(d.square).min(section.a_square))
                     & d.square.max(section.half_trace).max(d.slip_square).max(growth).lt(most),
                 R::splat(0.0),
@@ -348,7 +349,7 @@ pub struct Strain<R> {
     /// 1/(a·a), for the stress.
     pub inverse_a_square: R,
     /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
-    pub doubt: R,
+    pub nan_if_invalid: R,
 }
 
 impl<R: Real> Strain<R> {
@@ -359,14 +360,14 @@ impl<R: Real> Strain<R> {
         let ([ln_stretch, ln_area], over) = if R::WAITS {
             let both = l.stretch.pair(&l.area);
             let over_both = d.inverse_square.pair(section.inverse_area_square);
-            let logarithms = both.finish(both.denominator().reciprocal(), d.lost.pair(section.lost), over_both);
+            let logarithms = both.finish(both.denominator().reciprocal(), d.rounding.pair(section.rounding), over_both);
             (logarithms.apart(), [d_3.reciprocal(), d_4.reciprocal()])
         } else {
             let inverse_3 = l.inverse * d_4;
             let inverse_2 = inverse_3 * d_3;
             let (over_1, over_2) = (inverse_2 * l.area.denominator(), inverse_2 * l.stretch.denominator());
-            let stretch = l.stretch.finish(over_1, d.lost, d.inverse_square);
-            let area = l.area.finish(over_2, section.lost, section.inverse_area_square);
+            let stretch = l.stretch.finish(over_1, d.rounding, d.inverse_square);
+            let area = l.area.finish(over_2, section.rounding, section.inverse_area_square);
             ([stretch, area], [inverse_3 * l.product_2, l.inverse * l.product_3])
         };
         let (i_td, distortion_ratio) = l.distortion.finish(over);
@@ -376,7 +377,7 @@ impl<R: Real> Strain<R> {
             i_td,
             distortion_ratio,
             inverse_a_square: R::splat(1.0) / section.a_square,
-            doubt: l.doubt,
+            nan_if_invalid: l.nan_if_invalid,
         }
     }
 }
@@ -405,16 +406,14 @@ pub struct Kinematics<'a, R: Real> {
 pub struct Decomposition<R> {
     pub e: [R; 3],
     pub q1: [R; 3],
-    pub lambda: R,
     pub inverse_lambda: R,
     pub f_a: R,
     pub f_b: R,
     pub r11: R,
     pub r12: R,
     pub r22: R,
-    /// det F and its reciprocal.
+    /// det F.
     pub jacobian: R,
-    pub inverse_jacobian: R,
     pub area_ratio: R,
     pub d1: R,
     pub d2: R,
@@ -426,12 +425,7 @@ pub struct Decomposition<R> {
 impl<R: Real> Decomposition<R> {
     #[inline(always)]
     pub fn new(kinematics: Kinematics<'_, R>) -> Self {
-        Decomposition::of(kinematics.stretch, kinematics.section, &kinematics.images)
-    }
-
-    /// Likewise, before the strains are known.
-    #[inline(always)]
-    pub fn of(d: &Stretch<R>, section: &Section<R>, [c1, a, _]: &[[R; 3]; 3]) -> Self {
+        let Kinematics { stretch: d, section, images: [c1, a, _], .. } = kinematics;
         let one = R::splat(1.0);
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();
@@ -440,9 +434,8 @@ impl<R: Real> Decomposition<R> {
         let inverse_area = one / area_ratio;
         let r12 = section.x23 * inverse_r11;
         Decomposition {
-            e: scale(inverse_lambda, *c1),
-            q1: scale(inverse_r11, *a),
-            lambda,
+            e: scale(inverse_lambda, c1),
+            q1: scale(inverse_r11, a),
             inverse_lambda,
             f_a: d.h[0] * inverse_lambda,
             f_b: d.h[1] * inverse_lambda,
@@ -450,7 +443,6 @@ impl<R: Real> Decomposition<R> {
             r12,
             r22: area_ratio * inverse_r11,
             jacobian: d.jacobian,
-            inverse_jacobian: d.inverse_jacobian,
             area_ratio,
             d1: r12.mul_add(r12, section.delta) * inverse_area,
             d2: r12 * inverse_r11,

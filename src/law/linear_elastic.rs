@@ -11,17 +11,18 @@
 
 use nalgebra::Matrix3;
 
-use super::block::Lanes;
+use super::bounds::check;
+use super::error::Error;
 use super::failure::Failure;
 use super::kinematics::FibreFrame;
-pub use super::linear_tangent::LinearTangent;
-use super::matrix::{
-    Matrix, cofactors, difference, is_finite, product, scaled, selected, square_norm, sum, transposed, unit,
+use super::number::real::{Lanes, Real};
+use super::number::vector::{
+    Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
+    sum, transposed, unit,
 };
 use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
-use super::real::{Real, along, cross, dot, image, scale};
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
-use super::status::{self, Error};
+use super::status;
 use super::stress::{largest_principal, turned};
 
 /// The frame that turns with the material.
@@ -96,7 +97,7 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
     /// # Errors
     /// The first property that is wrong, with its value and what is allowed.
     pub fn new(properties: &[T]) -> Result<Self, Error> {
-        parameters::check(&parameters::LINEAR_ELASTIC, properties)?;
+        check(&parameters::LINEAR_ELASTIC, properties)?;
         let &[e_1, e_2, g, limit, m_1, m_2, m_3, n_1, n_2, n_3] = properties else {
             return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
         };

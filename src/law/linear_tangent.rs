@@ -5,8 +5,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::linear_elastic::{Answer, Criterion, LinearElastic, LinearPoint, Rotation, Wanted};
 use super::state::{LINEAR_ELASTIC_STATE, LINEAR_LARGEST, LINEAR_STRESS};
 use super::status;
-use super::stress::{PAIRS, VOIGT, components, matrix, pulled_back, truesdell_of_jaumann};
+use super::stress::{components, matrix, pulled_back, truesdell_of_jaumann};
 use super::tangent::Measure;
+use super::voigt::{PAIRS, VOIGT};
 
 impl LinearElastic {
     /// As [`step`](Self::step), with the tangent consistent with what the step does: that of the intact material in the

@@ -2,18 +2,23 @@
 
 pub mod acoustic;
 pub mod block;
-pub mod elementary;
-pub mod failure;
+pub mod bounds;
+pub(crate) mod derivative;
+pub mod error;
+pub(crate) mod failure;
 pub mod hyperelastic;
-pub mod kinematics;
+pub(crate) mod kinematics;
 pub mod linear_elastic;
-mod linear_tangent;
-pub mod matrix;
+pub mod linear_tangent;
+pub mod number;
 pub mod parameters;
 pub mod point;
-pub mod real;
+pub mod response;
 pub mod state;
 pub mod status;
 pub mod stress;
 pub mod tangent;
+#[cfg(test)]
+mod tests;
+pub mod voigt;
 pub mod wave_speed;

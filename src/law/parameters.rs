@@ -1,8 +1,5 @@
 //! The tables of properties of both laws and their presets: the single source for messages, headers, documents, decks.
 
-use super::real::Real;
-use super::status::{Error, PROPERTY_COUNT, PROPERTY_NOT_FINITE, PROPERTY_OUT_OF_BOUNDS};
-
 /// What a quantity is measured in, as powers of mass, length and time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension {
@@ -165,63 +162,4 @@ pub static PRESETS: [Preset; 2] = [
 /// The preset of this name.
 pub fn preset(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
-}
-
-/// The least and the greatest number that each property of a table may be.
-pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
-    let mut limits = [[f64::MIN; N], [f64::MAX; N]];
-    let mut k = 0;
-    while k < N {
-        let Property { minimum, minimum_excluded, maximum, .. } = table[k];
-        limits[0][k] = (if minimum_excluded { minimum.next_up() } else { minimum }).max(f64::MIN);
-        limits[1][k] = maximum.min(f64::MAX);
-        k += 1;
-    }
-    limits
-}
-
-/// Whether all values stand within their limits: what [`check`] finds, without a decision about each.
-#[inline(always)]
-pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
-    // Two sums of the same kind each, which the compiler takes several at a time.
-    let (mut enough, mut too_much) = (true, false);
-    let mut k = 0;
-    while k < N {
-        enough &= least[k] <= values[k].into();
-        k += 1;
-    }
-    k = 0;
-    while k < N {
-        too_much |= greatest[k] < values[k].into();
-        k += 1;
-    }
-    enough & !too_much
-}
-
-/// Checks number, finiteness and bounds of `values` against a table; directions are the laws' own business.
-///
-/// # Errors
-/// Names the first property that is wrong, its value and what is allowed.
-pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> Result<(), Error> {
-    if values.len() != table.len() {
-        return Err(Error::Count {
-            code: PROPERTY_COUNT,
-            what: "number of properties",
-            found: values.len() as i64,
-            wanted: table.len() as i64,
-        });
-    }
-    for (index, (property, &value)) in table.iter().zip(values).enumerate() {
-        let value: f64 = value.into();
-        if !value.is_finite() {
-            return Err(Error::Property { code: PROPERTY_NOT_FINITE, index, property, value });
-        }
-        if value < property.minimum
-            || value > property.maximum
-            || (property.minimum_excluded && value == property.minimum)
-        {
-            return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value });
-        }
-    }
-    Ok(())
 }

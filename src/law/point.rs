@@ -4,14 +4,21 @@ use core::cell::Cell;
 
 use nalgebra::Matrix3;
 
-use super::elementary::Power;
+use super::derivative::{Derivative, NineByNine, NoTangent, SixBySix};
+use super::error::Error;
 use super::failure::Failure;
-use super::hyperelastic::{Hyperelastic, Kirchhoff, PropertyFrame, Request};
+use super::hyperelastic::{Hyperelastic, PropertyFrame};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
-use super::real::{Real, Single};
+use super::number::elementary::Power;
+#[cfg(target_arch = "x86_64")]
+use super::number::level::has_fma;
+use super::number::real::{Real, Single};
+use super::number::registers::Registers;
+use super::response::{Request, nan_unless_finite};
 use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
-use super::status::{self, Error};
-use super::tangent::unrepresentable;
+use super::status;
+use super::tangent::Measure;
+use super::voigt::Moduli;
 
 /// What the law answers for one point, ready to store.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,41 +35,8 @@ pub struct Point<T> {
     pub status: i32,
 }
 
-/// What is to be made of a point beside its answer: so many numbers.
-///
-/// A trait and no closure: the compiler need not inline a closure, which then lacks the instructions of the function that
-/// calls it.
-pub trait Derivative<const N: usize>: Copy {
-    /// What the tangent needs and can be had before the invariants.
-    type Early<R: Real>;
-    /// The one of these that the law's own functions are built for, and that asks for the same.
-    type General: Derivative<N>;
-
-    fn general(self) -> Self::General;
-
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Self::Early<R>;
-
-    /// What is wanted of the law itself.
-    fn request(self) -> Request;
-
-    /// Whether an entry may leave the range of R at a point whose strains are within it.
-    fn overflows<R: Real>(self, shear: bool) -> bool;
-
-    #[allow(clippy::too_many_arguments)]
-    fn of<R: Real>(
-        self,
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        along_coordinates: bool,
-        early: &Self::Early<R>,
-        shear: bool,
-    ) -> [R; N];
-}
-
 /// Where the answer goes. Handed over while it stands in registers: a copy by way of memory would make the processor wait.
-pub trait Sink<T, const N: usize> {
+pub(crate) trait Sink<T, const N: usize> {
     fn take(self, point: Point<T>, entries: [T; N]);
 }
 
@@ -73,92 +47,7 @@ impl<T, const N: usize> Sink<T, N> for (&mut Point<T>, &mut [T; N]) {
     }
 }
 
-/// The law alone.
-#[derive(Clone, Copy)]
-pub struct Alone(pub Request);
-
-/// Stress and state alone, known to the compiler to be all that is wanted.
-#[derive(Clone, Copy)]
-pub struct StressAndState;
-
-impl Derivative<0> for Alone {
-    type Early<R: Real> = ();
-    type General = Self;
-
-    fn general(self) -> Self {
-        self
-    }
-
-    #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
-
-    #[inline(always)]
-    fn request(self) -> Request {
-        self.0
-    }
-
-    #[inline(always)]
-    fn overflows<R: Real>(self, _: bool) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        _: &Hyperelastic<R>,
-        _: Kinematics<'_, R>,
-        _: &Kirchhoff<R>,
-        _: &FibreFrame<R>,
-        _: bool,
-        (): &(),
-        _: bool,
-    ) -> [R; 0] {
-        []
-    }
-}
-
-impl Derivative<0> for StressAndState {
-    type Early<R: Real> = ();
-    type General = Alone;
-
-    fn general(self) -> Alone {
-        Alone(Request::STRESS_AND_STATE)
-    }
-
-    #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
-
-    #[inline(always)]
-    fn request(self) -> Request {
-        Request::STRESS_AND_STATE
-    }
-
-    #[inline(always)]
-    fn overflows<R: Real>(self, _: bool) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        _: &Hyperelastic<R>,
-        _: Kinematics<'_, R>,
-        _: &Kirchhoff<R>,
-        _: &FibreFrame<R>,
-        _: bool,
-        (): &(),
-        _: bool,
-    ) -> [R; 0] {
-        []
-    }
-}
-
 impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
-    /// Whether there is a longitudinal-shear stiffness; without one its terms need not be computed.
-    pub fn shears(&self) -> bool {
-        T::splat(0.0).lt(self.k_ld)
-    }
-
     /// The law at one point, with the fibre direction of the properties.
     ///
     /// `f` is the deformation gradient, `state` the old state: all 0 at the start. A point that cannot be evaluated (F
@@ -179,7 +68,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         request: Request,
     ) -> Point<T> {
-        self.point_with(f, fibre, state, Alone(request)).0
+        self.point_with(f, fibre, state, NoTangent(request)).0
     }
 
     /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
@@ -197,6 +86,45 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // the law is there
         (point, entries)
+    }
+
+    /// The law at one point with a tangent of six rows; [`Measure::Nominal`] is taken for dS/dE.
+    ///
+    /// The call that detects failure gives the intact tangent; a point that has failed before, or cannot be evaluated, has
+    /// none: zeros. A tangent that does not fit the number format makes the point one that cannot be evaluated.
+    pub fn point_with_moduli(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+        measure: Measure,
+    ) -> (Point<T>, Moduli<T>) {
+        let (point, moduli) = self.point_with(f, fibre, state, SixBySix(request, measure));
+        (point, Moduli(moduli))
+    }
+
+    /// The law at one point with dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; otherwise as
+    /// [`point_with_moduli`](Self::point_with_moduli).
+    pub fn point_with_nominal(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        state: &[T; HYPERELASTIC_STATE],
+        request: Request,
+    ) -> (Point<T>, [T; 81]) {
+        self.point_with(f, fibre, state, NineByNine(request))
+    }
+
+    /// The law at one point with the fibre direction of the properties, and the full matrix of a measure with six rows.
+    pub fn tangent(&self, f: &Matrix3<T>, measure: Measure) -> (Point<T>, [[T; 6]; 6])
+    where
+        T: nalgebra::Scalar,
+    {
+        let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
+        let fresh = [T::splat(0.0); HYPERELASTIC_STATE];
+        let (point, moduli) = self.point_with_moduli(&columns, None, &fresh, Request::ALL, measure);
+        (point, moduli.matrix())
     }
 }
 
@@ -254,28 +182,6 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     }
 }
 
-/// A law whose fibre is not taken for the first axis even where it lies along it, as lanes with a tangent do not: the operations are
-/// those of a fibre of any direction.
-#[derive(Clone, Copy)]
-pub(super) struct InGeneralAxes<L>(pub L);
-
-impl<T, L: Source<T>> Source<T> for InGeneralAxes<L> {
-    #[inline(always)]
-    fn frame(&self) -> PropertyFrame<T> {
-        PropertyFrame { aligned: false, ..self.0.frame() }
-    }
-
-    #[inline(always)]
-    fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
-        self.0.law(frame)
-    }
-
-    #[inline(always)]
-    fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
-        self.0.power_and_failure(law, strain)
-    }
-}
-
 /// The law at one point, computed in R; see [`Hyperelastic::point_with`].
 ///
 /// # Errors
@@ -316,7 +222,7 @@ pub(super) fn evaluate<
 }
 
 /// A call from a host that hands over the properties with every point.
-pub struct Call<'a, T, D, S, const N: usize> {
+pub(crate) struct Call<'a, T, D, S, const N: usize> {
     pub properties: &'a [T],
     /// Columns of F.
     pub f: &'a [[T; 3]; 3],
@@ -352,9 +258,34 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     }
 }
 
+/// Evaluates a call by the best instructions: within four roundings of the input's sensitivity of what
+/// [`Hyperelastic::point_along`] gives, with the same status.
+///
+/// # Errors
+/// The first property that is wrong; nothing is handed to the sink.
+#[inline(always)]
+pub(crate) fn evaluate_call<T: Registers, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
+    call: Call<'_, T, D, S, N>,
+) -> Result<(), Error> {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2,fma")]
+        fn with_fma<T: Registers, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
+            call: Call<'_, T, D, S, N>,
+        ) -> Result<(), Error> {
+            call.evaluate::<T::Point>()
+        }
+        if has_fma() {
+            // SAFETY: the processor has the instructions.
+            return unsafe { with_fma(call) };
+        }
+    }
+    call.evaluate_plainly()
+}
+
 /// A state as the law reads it: its place may be that of the new one.
 #[inline(always)]
-pub fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE]) -> [Cell<T>; HYPERELASTIC_STATE] {
+pub(crate) fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE]) -> [Cell<T>; HYPERELASTIC_STATE] {
     [
         Cell::new(a),
         Cell::new(b),
@@ -408,7 +339,7 @@ fn point_in<
 ) -> Result<(), Error> {
     let (stretch, images) = Stretch::new(f, axes);
     let law = source.law(own)?;
-    let (shear, mut law) = (law.shears(), law.lanes::<R>());
+    let (shear, mut law) = (law.shears, law.lanes::<R>());
     let (section, [a, b]) = Section::new(&stretch, images, axes);
     let images = [images[0], a, b];
     let logarithms = Logarithms::new(&stretch, &section);
@@ -418,20 +349,20 @@ fn point_in<
     let (power, failure) = source.power_and_failure(&law, &strain);
     law.failure = failure;
     let k = law.kirchhoff(&stretch, &strain, power);
-    let (request, overflows) = (tangent.request(), tangent.overflows::<R>(shear));
+    let (request, may_overflow) = (tangent.request(), tangent.may_overflow::<R>(shear));
     let entries = tangent.of(&law, kinematics, &k, frame, A::ALONG_COORDINATES, &early, shear);
     let latch = R::of(state[FAILED].get());
-    let doubt = R::select(usable, strain.doubt, R::splat(f64::NAN));
-    let r = law.respond(kinematics, &k, frame, doubt, latch, request, shear);
-    let h = law.history(&strain, stretch.shear_invariant(), &k, r.new, latch, request, shear);
+    let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
+    let r = law.respond(kinematics, &k, frame, nan_if_invalid, latch, request, shear);
+    let h = law.history(&strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
     // The stress need not wait for the tangent's finiteness.
     let zero = R::splat(0.0);
-    let representable = if overflows { unrepresentable(&entries).le(zero) } else { zero.le(zero) };
-    if !R::holds(r.new & representable) {
+    let representable = if may_overflow { nan_unless_finite(&entries).le(zero) } else { zero.le(zero) };
+    if !R::holds(r.updated & representable) {
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
-        let verdict: f64 = law.verdict(f, &stretch, usable, latch).value().into();
+        let code: f64 = law.status_code(f, &stretch, usable, latch).value().into();
         let wave_modulus = R::select(representable, r.wave_modulus, law.k_el).value();
-        sink.take(Point::kept(state, failed, wave_modulus, verdict as i32), [T::splat(0.0); N]);
+        sink.take(Point::unchanged(state, failed, wave_modulus, code as i32), [T::splat(0.0); N]);
         return Ok(());
     }
     let failed = h.failed.value();
@@ -451,7 +382,7 @@ fn point_in<
 impl<T: Real<Mask = bool>> Point<T> {
     /// All zero.
     #[inline(always)]
-    pub fn nothing() -> Self {
+    pub(crate) fn nothing() -> Self {
         let zero = T::splat(0.0);
         Point {
             stress: [zero; 6],
@@ -462,12 +393,12 @@ impl<T: Real<Mask = bool>> Point<T> {
         }
     }
 
-    /// A point that carries nothing and keeps its state but for the latch, for the reason `verdict`.
+    /// A point without stress that keeps its old state but for the latch.
     #[inline(never)]
-    fn kept(state: &[Cell<T>; HYPERELASTIC_STATE], failed: T, wave_modulus: T, verdict: i32) -> Self {
+    fn unchanged(state: &[Cell<T>; HYPERELASTIC_STATE], failed: T, wave_modulus: T, status: i32) -> Self {
         let zero = T::splat(0.0);
-        let mut point = Point { wave_modulus, status: verdict, ..Point::nothing() };
-        // The latch has been looked at, and alive is never read.
+        let mut point = Point { wave_modulus, status, ..Point::nothing() };
+        // The latch has been checked, and alive is never read.
         for (x, old) in point.state.iter_mut().zip(state).take(FAILED) {
             let old = old.get();
             let finite = (old * zero).le(zero);

@@ -2,34 +2,9 @@
 
 use nalgebra::Matrix3;
 
-use super::matrix::{self, Matrix, product, select, transposed};
-use super::real::{Real, cross, dot, image};
-use super::tangent::Moduli;
-
-/// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
-pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
-pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
-
-/// s a⊗a, 11 22 33 12 23 31.
-#[inline(always)]
-pub fn square<R: Real>(s: R, a: [R; 3]) -> [R; 6] {
-    let [x, y, z] = [s * a[0], s * a[1], s * a[2]];
-    [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]]
-}
-
-/// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
-#[inline(always)]
-pub fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
-    let half = R::splat(0.5) * s;
-    [
-        s * a[0] * b[0],
-        s * a[1] * b[1],
-        s * a[2] * b[2],
-        half * a[0].mul_add(b[1], a[1] * b[0]),
-        half * a[1].mul_add(b[2], a[2] * b[1]),
-        half * a[2].mul_add(b[0], a[0] * b[2]),
-    ]
-}
+use super::number::real::Real;
+use super::number::vector::{Matrix, cross, dot, image, product, select, transposed, unit};
+use super::voigt::{Moduli, PAIRS, paired_with_one, upper_triangle};
 
 /// The symmetric matrix of six components 11 22 33 12 23 31.
 pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
@@ -112,18 +87,18 @@ pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
     let size = s[0].abs().max(s[1].abs()).max(s[2].abs()).max(s[3].abs()).max(s[4].abs()).max(s[5].abs());
     let size = size.max(least);
-    let unit = size.reciprocal();
+    let over_size = size.reciprocal();
     // The deviator over p = √(J2/3): its eigenvalues are 2 cos φ, with cos 3φ half its determinant.
-    let mean = (s[0] + s[1] + s[2]) * unit * R::splat(1.0 / 3.0);
-    let [a, b, c] = [s[0].mul_add(unit, -mean), s[1].mul_add(unit, -mean), s[2].mul_add(unit, -mean)];
-    let [d, e, f] = [s[3] * unit, s[4] * unit, s[5] * unit];
+    let mean = (s[0] + s[1] + s[2]) * over_size * R::splat(1.0 / 3.0);
+    let [a, b, c] = [s[0].mul_add(over_size, -mean), s[1].mul_add(over_size, -mean), s[2].mul_add(over_size, -mean)];
+    let [d, e, f] = [s[3] * over_size, s[4] * over_size, s[5] * over_size];
     let square = R::splat(1.0 / 6.0) * dot([a, b, c], [a, b, c]) + R::splat(1.0 / 3.0) * dot([d, e, f], [d, e, f]);
     let p = square.max(least).sqrt();
     let scaling = p.reciprocal();
     let [a, b, c, d, e, f] = [a * scaling, b * scaling, c * scaling, d * scaling, e * scaling, f * scaling];
     let apart = apart(half * dot([a, d, f], cross([d, b, e], [f, e, c])));
     let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
-    let n = matrix::unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
+    let n = unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
     let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
     // Less what it is along the axis and in the mean across it, the deviator is half the gap of the other two, twice.
     let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
@@ -153,48 +128,6 @@ fn apart<R: Real>(r: R) -> R {
         x = x - (square - three).mul_add(x, -two * size) * (three * (square - one)).reciprocal();
     }
     R::select(r.lt(R::splat(0.0)), -x, x)
-}
-
-/// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.
-macro_rules! upper_triangle {
-    ($entry:ident($($argument:expr),*)) => {
-        [
-            $entry::<_, 0, 0>($($argument),*), $entry::<_, 0, 1>($($argument),*), $entry::<_, 0, 2>($($argument),*),
-            $entry::<_, 0, 3>($($argument),*), $entry::<_, 0, 4>($($argument),*), $entry::<_, 0, 5>($($argument),*),
-            $entry::<_, 1, 1>($($argument),*), $entry::<_, 1, 2>($($argument),*), $entry::<_, 1, 3>($($argument),*),
-            $entry::<_, 1, 4>($($argument),*), $entry::<_, 1, 5>($($argument),*), $entry::<_, 2, 2>($($argument),*),
-            $entry::<_, 2, 3>($($argument),*), $entry::<_, 2, 4>($($argument),*), $entry::<_, 2, 5>($($argument),*),
-            $entry::<_, 3, 3>($($argument),*), $entry::<_, 3, 4>($($argument),*), $entry::<_, 3, 5>($($argument),*),
-            $entry::<_, 4, 4>($($argument),*), $entry::<_, 4, 5>($($argument),*), $entry::<_, 5, 5>($($argument),*),
-        ]
-    };
-}
-
-pub(super) use upper_triangle;
-
-/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, where there is one.
-#[inline(always)]
-pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
-    let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
-    if ROW == COLUMN {
-        return Some(if ROW < 3 { R::splat(4.0) * b[ROW] } else { b[VOIGT[i][i]] + b[VOIGT[j][j]] });
-    }
-    if ROW < 3 {
-        // i = j: an index of the column's is the row's, or none is.
-        return if COLUMN >= 3 && (k == i || l == i) { Some(b[COLUMN] + b[COLUMN]) } else { None };
-    }
-    // Two different pairs of different indices share one; the others remain.
-    Some(
-        b[if i == k {
-            VOIGT[j][l]
-        } else if i == l {
-            VOIGT[j][k]
-        } else if j == k {
-            VOIGT[i][l]
-        } else {
-            VOIGT[i][k]
-        }],
-    )
 }
 
 #[inline(always)]

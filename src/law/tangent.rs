@@ -15,14 +15,13 @@
 //! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b, each over the lengths of c, a and b, where c, a and b are
 //! orthogonal. No quotient 0/0 anywhere, and symmetric by construction: only the upper triangle is computed.
 
-use nalgebra::Matrix3;
-
-use super::hyperelastic::{Hyperelastic, Kirchhoff, Request};
+use super::hyperelastic::{Hyperelastic, Kirchhoff};
 use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
-use super::point::{Derivative, Point};
-use super::real::{Real, along, cross, dot, image, scale};
-use super::state::HYPERELASTIC_STATE;
-use super::stress::{PAIRS, VOIGT, paired_with_one, square, symmetric_product, upper_triangle};
+use super::number::real::Real;
+use super::number::vector::{along, cross, dot, image, scale};
+use super::voigt::{
+    Moduli, PAIRS, VOIGT, added, combination, multiple, paired_with_one, square, symmetric_product, upper_triangle,
+};
 
 /// Which derivative of which stress. Rows and columns of the 6×6 are 11 22 33 12 23 31, its columns engineering shears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,39 +52,6 @@ impl Measure {
     }
 }
 
-/// A symmetric 6×6 matrix: its upper triangle, row by row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moduli<R>(pub [R; 21]);
-
-impl<R: Copy> Moduli<R> {
-    /// Where an entry stands in the upper triangle.
-    pub const fn place(row: usize, column: usize) -> usize {
-        let (a, b) = if row < column { (row, column) } else { (column, row) };
-        a * (11 - a) / 2 + b
-    }
-
-    /// The full matrix.
-    #[inline(always)]
-    pub fn matrix(&self) -> [[R; 6]; 6] {
-        let c = &self.0;
-        [
-            [c[0], c[1], c[2], c[3], c[4], c[5]],
-            [c[1], c[6], c[7], c[8], c[9], c[10]],
-            [c[2], c[7], c[11], c[12], c[13], c[14]],
-            [c[3], c[8], c[12], c[15], c[16], c[17]],
-            [c[4], c[9], c[13], c[16], c[18], c[19]],
-            [c[5], c[10], c[14], c[17], c[19], c[20]],
-        ]
-    }
-}
-
-impl<R> AsMut<[R]> for Moduli<R> {
-    #[inline(always)]
-    fn as_mut(&mut self) -> &mut [R] {
-        &mut self.0
-    }
-}
-
 /// The factors of the modulus, all over the same number: J for a modulus of σ, 1 for one of τ or S.
 struct Factors<R> {
     /// A = k_el (1 − 2 I_el) in tension, I_el = 0 included.
@@ -105,7 +71,7 @@ struct Factors<R> {
 
 /// The section's shape: J_t and its reciprocal, x = cosh 2 I_td, s = sinh 2 I_td.
 #[derive(Clone, Copy)]
-pub struct Shape<R> {
+pub(crate) struct Shape<R> {
     area_ratio: R,
     inverse_area_ratio: R,
     cosh: R,
@@ -127,7 +93,7 @@ impl<R: Real> Shape<R> {
 
 /// What a modulus in space is made of; tensors as 11 22 33 12 23 31.
 #[derive(Clone, Copy)]
-pub struct Bases<R> {
+pub(crate) struct Bases<R> {
     shape: Shape<R>,
     inverse_lambda: R,
     /// e, E = e⊗e and D.
@@ -138,7 +104,7 @@ pub struct Bases<R> {
 
 impl<R: Real> Bases<R> {
     #[inline(always)]
-    fn new(d: &Stretch<R>, section: &Section<R>, [c, a, b]: &[[R; 3]; 3]) -> Self {
+    pub(super) fn new(d: &Stretch<R>, section: &Section<R>, [c, a, b]: &[[R; 3]; 3]) -> Self {
         let shape = Shape::new(section);
         // So e is exactly a coordinate axis where c is along one, but for a rounding of λ².
         let inverse_lambda = R::splat(1.0) / d.square.sqrt();
@@ -195,39 +161,7 @@ fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
     paired_along::<R, ROW, COLUMN>(*fibre, &t.with_fibre, sum)
 }
 
-/// a A.
-#[inline(always)]
-fn multiple<R: Real>(a: R, x: &[R; 6]) -> [R; 6] {
-    [a * x[0], a * x[1], a * x[2], a * x[3], a * x[4], a * x[5]]
-}
-
-/// a A + b B.
-#[inline(always)]
-fn combination<R: Real>(a: R, x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
-    [
-        a.mul_add(x[0], b * y[0]),
-        a.mul_add(x[1], b * y[1]),
-        a.mul_add(x[2], b * y[2]),
-        a.mul_add(x[3], b * y[3]),
-        a.mul_add(x[4], b * y[4]),
-        a.mul_add(x[5], b * y[5]),
-    ]
-}
-
 impl<R: Real> Hyperelastic<R> {
-    /// |W′| and W″ of the compaction: its loading side at I_tc = 0, and with p < 2 held where W″ is infinite.
-    #[inline(always)]
-    pub(super) fn compaction_slopes(&self, strain: &Strain<R>, k: &Kirchhoff<R>) -> (R, R) {
-        let zero = R::splat(0.0);
-        let compaction = -strain.i_tc;
-        let slope = R::splat(2.0) * k.pressure;
-        let held = compaction.le(self.held_below);
-        // Divided before the slope is known, which takes long to compute.
-        let factor = (self.p - R::splat(1.0)) / R::select(held, R::splat(1.0), compaction);
-        let curvature = R::select(held, self.greatest_curvature, factor * slope);
-        (slope, R::select(zero.le(compaction), curvature, zero))
-    }
-
     #[inline(always)]
     fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
@@ -255,7 +189,7 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The Truesdell modulus of σ or the Jaumann modulus of τ over J.
     #[inline(always)]
-    fn spatial_tangent(
+    pub(super) fn spatial_tangent(
         &self,
         kinematics: Kinematics<'_, R>,
         bases: &Bases<R>,
@@ -329,7 +263,7 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The tangent of a 6×6 measure; [`Measure::Nominal`] has nine columns and [`nominal_tangent`](Self::nominal_tangent).
     #[inline(always)]
-    pub fn moduli(
+    pub(crate) fn moduli(
         &self,
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
@@ -352,7 +286,7 @@ impl<R: Real> Hyperelastic<R> {
     /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus of σ, given
     /// σ as well.
     #[inline(always)]
-    pub fn nominal_tangent(
+    pub(crate) fn nominal_tangent(
         &self,
         kinematics: Kinematics<'_, R>,
         k: &Kirchhoff<R>,
@@ -631,19 +565,6 @@ fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] 
     symmetric_product(R::splat(2.0), e, across)
 }
 
-/// A + b B.
-#[inline(always)]
-fn added<R: Real>(x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
-    [
-        b.mul_add(y[0], x[0]),
-        b.mul_add(y[1], x[1]),
-        b.mul_add(y[2], x[2]),
-        b.mul_add(y[3], x[3]),
-        b.mul_add(y[4], x[4]),
-        b.mul_add(y[5], x[5]),
-    ]
-}
-
 #[inline(always)]
 fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
@@ -656,190 +577,6 @@ fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
 /// 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and what it is multiplied with is no larger than 1; those of D carry 1/s for each D. No
 /// factor is a product of 0 and infinity: where the compaction is so small that its reciprocal is large, its curvature is held.
 #[inline(always)]
-pub(super) fn overflows<R: Real>(measure: Measure, shear: bool) -> bool {
+pub(crate) fn may_overflow<R: Real>(measure: Measure, shear: bool) -> bool {
     shear || !R::HEADROOM || !matches!(measure, Measure::Truesdell | Measure::Jaumann)
-}
-
-/// 0 where all are finite numbers, else NaN.
-#[inline(always)]
-pub(super) fn unrepresentable<R: Real>(values: &[R]) -> R {
-    let zero = R::splat(0.0);
-    // Four sums, which need not wait for one another.
-    let [mut a, mut b, mut c, mut d] = [zero; 4];
-    let mut fours = values.chunks_exact(4);
-    for four in &mut fours {
-        if let &[x, y, z, w] = four {
-            (a, b) = (x.mul_add(zero, a), y.mul_add(zero, b));
-            (c, d) = (z.mul_add(zero, c), w.mul_add(zero, d));
-        }
-    }
-    for &x in fours.remainder() {
-        a = x.mul_add(zero, a);
-    }
-    (a + b) + (c + d)
-}
-
-/// A tangent of six rows.
-#[derive(Clone, Copy)]
-pub struct Six(pub Request, pub Measure);
-
-impl Derivative<21> for Six {
-    type Early<R: Real> = ();
-    type General = Self;
-
-    fn general(self) -> Self {
-        self
-    }
-
-    #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
-
-    #[inline(always)]
-    fn request(self) -> Request {
-        self.0
-    }
-
-    #[inline(always)]
-    fn overflows<R: Real>(self, shear: bool) -> bool {
-        overflows::<R>(self.1, shear)
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        along_coordinates: bool,
-        (): &(),
-        shear: bool,
-    ) -> [R; 21] {
-        law.moduli(kinematics, k, n, along_coordinates, self.1, shear).0
-    }
-}
-
-/// DDSDDE beside stress and state, known to the compiler to be all that is wanted.
-#[derive(Clone, Copy)]
-pub struct Jaumann;
-
-impl Derivative<21> for Jaumann {
-    type Early<R: Real> = Bases<R>;
-    type General = Six;
-
-    fn general(self) -> Six {
-        Six(Request::STRESS_AND_STATE, Measure::Jaumann)
-    }
-
-    #[inline(always)]
-    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Bases<R> {
-        Bases::new(d, section, images)
-    }
-
-    #[inline(always)]
-    fn request(self) -> Request {
-        Request::STRESS_AND_STATE
-    }
-
-    #[inline(always)]
-    fn overflows<R: Real>(self, shear: bool) -> bool {
-        overflows::<R>(Measure::Jaumann, shear)
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        _: &FibreFrame<R>,
-        _: bool,
-        bases: &Bases<R>,
-        shear: bool,
-    ) -> [R; 21] {
-        law.spatial_tangent(kinematics, bases, k, Measure::Jaumann, shear).0
-    }
-}
-
-/// dP/dF.
-#[derive(Clone, Copy)]
-pub struct Nine(pub Request);
-
-impl Derivative<81> for Nine {
-    type Early<R: Real> = ();
-    type General = Self;
-
-    fn general(self) -> Self {
-        self
-    }
-
-    #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
-
-    #[inline(always)]
-    fn request(self) -> Request {
-        self.0
-    }
-
-    #[inline(always)]
-    fn overflows<R: Real>(self, shear: bool) -> bool {
-        overflows::<R>(Measure::Nominal, shear)
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        _: bool,
-        (): &(),
-        shear: bool,
-    ) -> [R; 81] {
-        let zero = R::splat(0.0);
-        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
-        law.nominal_tangent(kinematics, k, n, &stress, shear)
-    }
-}
-
-impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
-    /// The law at one point with a tangent of six rows; [`Measure::Nominal`] is taken for dS/dE.
-    ///
-    /// The call that detects failure gives the intact tangent; a point that has failed before, or cannot be evaluated, has
-    /// none: zeros. A tangent that does not fit the number format makes the point one that cannot be evaluated.
-    pub fn point_with_moduli(
-        &self,
-        f: &[[T; 3]; 3],
-        fibre: Option<[T; 3]>,
-        state: &[T; HYPERELASTIC_STATE],
-        request: Request,
-        measure: Measure,
-    ) -> (Point<T>, Moduli<T>) {
-        let (point, moduli) = self.point_with(f, fibre, state, Six(request, measure));
-        (point, Moduli(moduli))
-    }
-
-    /// The law at one point with dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; otherwise as
-    /// [`point_with_moduli`](Self::point_with_moduli).
-    pub fn point_with_nominal(
-        &self,
-        f: &[[T; 3]; 3],
-        fibre: Option<[T; 3]>,
-        state: &[T; HYPERELASTIC_STATE],
-        request: Request,
-    ) -> (Point<T>, [T; 81]) {
-        self.point_with(f, fibre, state, Nine(request))
-    }
-
-    /// The law at one point with the fibre direction of the properties, and the full matrix of a measure with six rows.
-    pub fn tangent(&self, f: &Matrix3<T>, measure: Measure) -> (Point<T>, [[T; 6]; 6])
-    where
-        T: nalgebra::Scalar,
-    {
-        let columns = [[f.m11, f.m21, f.m31], [f.m12, f.m22, f.m32], [f.m13, f.m23, f.m33]];
-        let fresh = [T::splat(0.0); HYPERELASTIC_STATE];
-        let (point, moduli) = self.point_with_moduli(&columns, None, &fresh, Request::ALL, measure);
-        (point, moduli.matrix())
-    }
 }

@@ -15,13 +15,10 @@
 //!
 //! At rest, and along a stretched fibre, that is √(k_el/ρ0): slack or not, tension may come back within a step.
 
+use super::error::Error;
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Strain};
-use super::real::Real;
-use super::status::Error;
-
-/// Below this compaction the stiffness W″ of an exponent p ≤ 2 is held, since it is infinite at 0 for p < 2.
-pub(super) const COMPACTION_FLOOR: f64 = 1e-8;
+use super::number::real::Real;
 
 /// A reference density that a wave speed can be computed with.
 ///
@@ -44,7 +41,7 @@ pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
 impl<R: Real> Hyperelastic<R> {
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
-    pub fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
+    pub(crate) fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
         let (zero, quarter) = (R::splat(0.0), R::splat(0.25));
         let (slope, curvature) = self.compaction_slopes(strain, k);
         let active = zero.le(-strain.i_tc);

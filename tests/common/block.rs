@@ -3,11 +3,12 @@
 use std::fmt::Debug;
 
 use nalgebra::Matrix3;
-use toron::law::block::{Level, Pointers, Precision, components, components_mut};
-use toron::law::hyperelastic::{Hyperelastic, Request};
-use toron::law::real::Real;
+use toron::Level;
+use toron::Measure;
+use toron::Real;
+use toron::law::block::{Pointers, Precision, components, components_mut};
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
-use toron::law::tangent::Measure;
+use toron::{Hyperelastic, Request};
 
 /// A precision, with what the tests need of it beside.
 pub trait Number: Precision + Default + Debug + nalgebra::Scalar {

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use toron::law::real::Real;
+use toron::Real;
 
 /// x + x′ ε with ε² = 0.
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +50,12 @@ impl Neg for Dual {
     type Output = Self;
     fn neg(self) -> Self {
         Dual::new(-self.value, -self.slope)
+    }
+}
+
+impl From<Dual> for f64 {
+    fn from(x: Dual) -> f64 {
+        x.value
     }
 }
 

@@ -14,7 +14,7 @@ use std::fmt;
 
 use nalgebra::Matrix3;
 use serde::Deserialize;
-use toron::law::hyperelastic::Point;
+use toron::Point;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 

@@ -3,7 +3,6 @@
 //! The baseline gives the scalar law's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few
 //! roundings of the input; at one level, no result depends on where its point stands.
 
-use std::cell::Cell;
 use std::ops::Range;
 
 use crate::common::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
@@ -11,14 +10,17 @@ use crate::common::deformations::{Ranges, Sample, deformation, samples};
 use crate::common::truth::{Answer, Score, cases};
 use nalgebra::Matrix3;
 use proptest::prelude::*;
-use toron::law::block::{Arrays, Level, Precision};
-use toron::law::hyperelastic::{Hyperelastic, Request};
+use toron::Arrays;
+use toron::Error;
+use toron::Level;
+use toron::Measure;
+use toron::Point;
+use toron::Real;
+use toron::host::c;
 use toron::law::parameters::PRESETS;
-use toron::law::point::{self, Point, StressAndState};
-use toron::law::real::Real;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
-use toron::law::status::{self, Error};
-use toron::law::tangent::{Jaumann, Measure};
+use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 /// Where the groups of an output stand, see `common/block.rs`.
 const STRESS: Range<usize> = 0..6;
@@ -250,21 +252,30 @@ fn lanes_stay_with_the_scalar_law_f32() {
     lanes_stay_with_the_scalar_law::<f32>();
 }
 
-/// The law as a host calls it that hands over the properties with every point, and DDSDDE.
+/// The law as a host calls it that hands over the properties with every point, and the modulus of the Jaumann rate.
 fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
-    let f = std::array::from_fn(|j| std::array::from_fn(|i| input.f[3 * j + i]));
-    let (mut point, mut moduli) = (Point::nothing(), [f64::NAN; 21]);
-    let sink = (&mut point, &mut moduli);
-    let call = point::Call { properties, f: &f, fibre: None, state: &input.old.map(Cell::new), tangent: Jaumann, sink };
-    f64::once(call).expect("valid properties");
+    let (props, f, old, none) = (properties.as_ptr(), input.f.as_ptr(), input.old.as_ptr(), std::ptr::null_mut());
+    let mut tangent = [[f64::NAN; 6]; 6];
+    let mut answers =
+        [Point { stress: [0.0; 6], state: input.old, modes: [[0.0; 6]; 4], wave_modulus: 0.0, status: 0 }; 2];
+    for (point, with_tangent) in answers.iter_mut().zip([true, false]) {
+        let (stress, state) = (point.stress.as_mut_ptr(), point.state.as_mut_ptr());
+        // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
+        point.status = unsafe {
+            if with_tangent {
+                let to = tangent.as_mut_ptr().cast();
+                let fibre = std::ptr::null();
+                c::hyperelastic_point_tangent_f64(props, 11, f, fibre, old, state, stress, c::TORON_TANGENT_JAUMANN, to)
+            } else {
+                c::hyperelastic_point_f64(props, 11, f, std::ptr::null(), old, state, stress, none, 0.0, none)
+            }
+        };
+    }
     // Without the tangent the answer is the same.
-    let (mut alone, mut nothing) = (Point::nothing(), []);
-    let sink = (&mut alone, &mut nothing);
-    let call =
-        point::Call { properties, f: &f, fibre: None, state: &input.old.map(Cell::new), tangent: StressAndState, sink };
-    f64::once(call).expect("valid properties");
+    let [point, alone] = answers;
     assert_eq!(bits(&alone), bits(&point), "{input:?}");
-    (point, moduli)
+    let triangle = (0..6).flat_map(|row| tangent[row][row..].to_vec()).collect::<Vec<_>>();
+    (point, triangle.try_into().expect("the upper triangle"))
 }
 
 /// Stress and state, whose zeros may differ in sign.

@@ -8,9 +8,9 @@ use crate::common::deformations::{Ranges, Sample, deformation, direction, sample
 use crate::common::{Exact, exact, rounded};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 /// The six components of the library: 11 22 33 12 23 31.
 const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];

@@ -8,13 +8,14 @@ use crate::common::block::{Number, levels};
 use crate::common::deformations::samples;
 use nalgebra::Matrix3;
 use proptest::prelude::*;
-use toron::law::block::Level;
-use toron::law::block::linear::{LinearPointers, LinearPrecision};
+use toron::Error;
+use toron::Level;
+use toron::law::block::linear::LinearPointers;
 use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
 };
-use toron::law::status::{self, Error};
+use toron::law::status;
 
 /// Tab. 4.4, in GPa; a fibre along no axis.
 const YARN: [f64; 10] = [79.414, 0.794, 0.126, 3.637, 1.0, 0.4, -0.3, 0.1, 1.0, 0.5];
@@ -116,7 +117,7 @@ impl Call {
 }
 
 /// Runs a block; what is not wanted comes back as 0. Gaps must stay untouched.
-fn run<T: Number + LinearPrecision>(law: &LinearElastic<T>, inputs: &[Input], call: &Call) -> (Vec<Output>, i32) {
+fn run<T: Number>(law: &LinearElastic<T>, inputs: &[Input], call: &Call) -> (Vec<Output>, i32) {
     let (n, stride) = (inputs.len(), inputs.len() + call.gap);
     let guard = T::splat(-7.25);
     let filled = |components: usize, value: &dyn Fn(&Input, usize) -> f64| {
@@ -210,7 +211,7 @@ fn baseline_is_the_law_at_a_point() {
 /// Every kind of trouble has its own code at every level and in both precisions; a latched point is none.
 #[test]
 fn codes() {
-    fn check<T: Number + LinearPrecision>() {
+    fn check<T: Number>() {
         for call in levels().flat_map(all_calls) {
             let (found, worst) = run(&law::<T>(), &troubled(), &call);
             assert_ne!(worst, status::OK);
@@ -263,7 +264,7 @@ fn codes() {
 /// Every number of points, odd leading dimensions, in place or not, troubled neighbours: the same bits.
 #[test]
 fn nothing_depends_on_the_place() {
-    fn check<T: Number + LinearPrecision>() {
+    fn check<T: Number>() {
         let law = law::<T>();
         let good = [steps(1e-4, 20), steps(0.1, 20)].concat();
         let bad = troubled();
@@ -333,7 +334,7 @@ fn blocks_that_are_refused() {
 /// increment, is the same for every increment. The truth is the law in double precision, of the same numbers.
 #[test]
 fn small_increments_keep_their_digits() {
-    fn worst<T: Number + LinearPrecision>(level: Level, rotation: Rotation, increment: f64) -> f64 {
+    fn worst<T: Number>(level: Level, rotation: Rotation, increment: f64) -> f64 {
         let exact = LinearElastic::<f64>::new(&YARN.map(|x| T::splat(x).into())).expect("valid properties");
         let axes = by_columns(&exact.reference_axes());
         let rounded = |f: [f64; 9]| f.map(|x| T::splat(x).into());

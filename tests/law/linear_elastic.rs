@@ -6,13 +6,13 @@ use crate::common::deformations::{rotation, samples};
 use approx::assert_relative_eq;
 use nalgebra::{Matrix3, Rotation3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
-use toron::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, LinearTangent, Rotation};
+use toron::Measure;
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
 };
 use toron::law::status;
 use toron::law::stress::{components, matrix, pulled_back};
-use toron::law::tangent::Measure;
+use toron::{Criterion, LinearElastic, LinearPoint, LinearTangent, Rotation};
 
 /// Tab. 4.4, in GPa.
 const E1: f64 = 79.414;

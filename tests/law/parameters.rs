@@ -2,15 +2,16 @@
 
 use std::collections::HashSet;
 
+use toron::Error;
+use toron::Hyperelastic;
 use toron::host::units::UnitSystem;
-use toron::law::hyperelastic::Hyperelastic;
 use toron::law::linear_elastic::LinearElastic;
 use toron::law::parameters::{
     self, DENSITY, HYPERELASTIC, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC, LINEAR_ELASTIC_PROPERTIES, NUMBER, PRESETS,
     STRESS, preset,
 };
 use toron::law::state::{self, StateVariable};
-use toron::law::status::{self, Error};
+use toron::law::status;
 
 const YARN: [f64; HYPERELASTIC_PROPERTIES] = [82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0];
 const LINEAR: [f64; LINEAR_ELASTIC_PROPERTIES] = [79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -235,7 +236,7 @@ fn presets() {
     let names = PRESETS.iter().map(|preset| preset.name).collect::<HashSet<_>>();
     assert_eq!(names.len(), PRESETS.len());
     for preset in &PRESETS {
-        assert!(parameters::check(preset.table, preset.values).is_ok(), "{}", preset.name);
+        assert!(toron::law::bounds::check(preset.table, preset.values).is_ok(), "{}", preset.name);
         assert_eq!(preset.density, 1351.4);
     }
 }

@@ -9,14 +9,14 @@ use crate::common::dual::Dual;
 use crate::common::truth::cases;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use proptest::prelude::*;
-use toron::law::block::{Arrays, Level};
-use toron::law::hyperelastic::{Hyperelastic, Point, Request};
-use toron::law::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
-use toron::law::real::Real;
+use toron::Measure;
+use toron::Real;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron::law::stress::{PAIRS, components, first_piola_kirchhoff, matrix, pulled_back, truesdell_of_jaumann};
-use toron::law::tangent::Measure;
+use toron::law::stress::{components, first_piola_kirchhoff, matrix, pulled_back, truesdell_of_jaumann};
+use toron::law::voigt::PAIRS;
+use toron::{Arrays, Level};
+use toron::{Hyperelastic, Point, Request};
 
 const FRESH: [f64; HYPERELASTIC_STATE] = [0.0; HYPERELASTIC_STATE];
 const SIX: [Measure; 3] = [Measure::Material, Measure::Truesdell, Measure::Jaumann];
@@ -33,9 +33,10 @@ struct Stiffness {
 }
 
 impl Stiffness {
-    fn law(&self, m: &Vector3<f64>) -> Hyperelastic<f64> {
+    fn law<T: Real + Into<f64>>(&self, m: &Vector3<f64>) -> Hyperelastic<T> {
         let Stiffness { k_el, k_tc, p, k_td, k_ld } = *self;
-        Hyperelastic::new(&[k_el, k_tc, p, k_td, k_ld, 0.0, 0.0, 0.0, m.x, m.y, m.z]).expect("valid properties")
+        let properties = [k_el, k_tc, p, k_td, k_ld, 0.0, 0.0, 0.0, m.x, m.y, m.z];
+        Hyperelastic::new(&properties.map(T::splat)).expect("valid properties")
     }
 }
 
@@ -123,19 +124,13 @@ fn truth() {
 // ---------------------------------------------------------------------------------------------------------------------
 // Dual numbers
 
-/// Cauchy and second Piola–Kirchhoff stress of F + ε dF, by the law's generic code.
-fn dual_stresses(law: &Hyperelastic<f64>, f: &Matrix3<f64>, df: &Matrix3<f64>, shear: bool) -> [[Dual; 6]; 2] {
-    let law = law.lanes::<Dual>();
+/// Cauchy and second Piola–Kirchhoff stress of F + ε dF.
+fn dual_stresses(law: &Hyperelastic<Dual>, f: &Matrix3<f64>, df: &Matrix3<f64>) -> [[Dual; 6]; 2] {
     let columns = std::array::from_fn(|j| std::array::from_fn(|i| Dual::new(f[(i, j)], df[(i, j)])));
-    let frame: FibreFrame<Dual> = law.frame();
-    let (stretch, images) = Stretch::new(&columns, &frame);
-    let (section, [a, b]) = Section::new(&stretch, images, &frame);
-    let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
-    let kinematics = Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain };
-    let k = law.kirchhoff_of(kinematics);
-    let modes = law.modes(&Decomposition::new(kinematics), &k, &frame);
-    let second = std::array::from_fn(|c| modes[0][c] + modes[1][c] + modes[2][c] + modes[3][c]);
-    [law.cauchy(kinematics, &k, true, shear), second]
+    let point = law.point_along(&columns, None, &FRESH.map(Dual::splat), Request::ALL);
+    assert_eq!(point.status, status::OK);
+    let modes = point.modes;
+    [point.stress, std::array::from_fn(|c| modes[0][c] + modes[1][c] + modes[2][c] + modes[3][c])]
 }
 
 fn slopes(s: &[Dual; 6]) -> Vector6<f64> {
@@ -151,19 +146,19 @@ fn dual_numbers() {
         if invariants[0].abs() < 1e-4 || invariants[1].abs() < 1e-2 {
             continue;
         }
-        let (law, shear) = (k.law(&m), k.k_ld > 0.0);
+        let (law, dual) = (k.law(&m), k.law(&m));
         let l = Matrix3::<f64>::from_row_slice(&h);
         let d = (l + l.transpose()) * 0.5;
         let inverse = f.try_inverse().expect("an inverse");
         let stress = matrix(&law.point(&f, &FRESH, Request::ALL).stress);
 
         // Jaumann: a motion without spin. Truesdell: what is left of it without the stress.
-        let moved = slopes(&dual_stresses(&law, &f, &(d * f), shear)[0]);
+        let moved = slopes(&dual_stresses(&dual, &f, &(d * f))[0]);
         let jaumann = moved + six_of(&stress) * d.trace();
         let truesdell = jaumann - six_of(&(d * stress + stress * d));
         // dS/dE: a change of E alone; dP/dF: any.
-        let material = slopes(&dual_stresses(&law, &f, &(inverse.transpose() * d), shear)[1]);
-        let second = dual_stresses(&law, &f, &l, shear)[1];
+        let material = slopes(&dual_stresses(&dual, &f, &(inverse.transpose() * d))[1]);
+        let second = dual_stresses(&dual, &f, &l)[1];
         let nominal = l * matrix(&second.map(|s| s.value)) + f * matrix(&second.map(|s| s.slope));
 
         let six = |measure| six(&law, &f, measure);

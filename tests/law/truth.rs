@@ -3,9 +3,9 @@
 //! The measures and their units stand in `common/truth.rs`; `--nocapture` prints the worst of each category.
 
 use crate::common::truth::{Answer, Score, cases};
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 #[test]
 fn double_precision() {

@@ -9,10 +9,10 @@ use approx::assert_relative_eq;
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use proptest::prelude::*;
 use toron::law::acoustic::Acoustic;
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::status;
 use toron::law::stress::{matrix, principal_axes};
+use toron::{Hyperelastic, Request};
 
 const EXPONENTS: [f64; 6] = [1.2, 1.5, 2.0, 2.2, 3.0, 5.0];
 

@@ -2,11 +2,11 @@
 
 use allocation_counter::measure;
 use nalgebra::{Matrix3, Vector3};
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::parameters::PRESETS;
 use toron::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 /// Runs `work`, which must leave the allocator alone, and returns what it made.
 fn without_allocation<T>(work: impl FnOnce() -> T) -> T {
@@ -69,7 +69,7 @@ fn linear_elastic() {
 #[test]
 fn messages() {
     let mut written = 0;
-    let describe = |error: status::Error, written: &mut usize| error.describe(&mut |piece| *written += piece.len());
+    let describe = |error: toron::Error, written: &mut usize| error.describe(&mut |piece| *written += piece.len());
     without_allocation(|| {
         let mut properties = [0.0; 11];
         properties.copy_from_slice(PRESETS[0].values);
@@ -79,12 +79,12 @@ fn messages() {
             wrong[index] = value;
             describe(Hyperelastic::<f64>::new(&wrong).expect_err("a wrong property"), &mut written);
         }
-        let argument = status::Error::Argument { name: "density", value: 1.0 / 3.0, wanted: "a finite number > 0" };
+        let argument = toron::Error::Argument { name: "density", value: 1.0 / 3.0, wanted: "a finite number > 0" };
         describe(argument, &mut written);
         for (code, ..) in status::TABLE {
-            describe(status::Error::Plain(code), &mut written);
+            describe(toron::Error::Plain(code), &mut written);
         }
-        describe(status::Error::Plain(1), &mut written);
+        describe(toron::Error::Plain(1), &mut written);
     });
     assert!(written > 1000, "{written} bytes");
 }

@@ -55,8 +55,8 @@ fn an_empty_project_can_use_the_package() {
 }
 
 const USE: &str = "#![no_std]
-pub fn stress(properties: &[f64], f: &[[f64; 3]; 3]) -> Result<[f64; 6], toron::law::status::Error> {
-    use toron::law::hyperelastic::{Hyperelastic, Request};
+pub fn stress(properties: &[f64], f: &[[f64; 3]; 3]) -> Result<[f64; 6], toron::Error> {
+    use toron::{Hyperelastic, Request};
     let law = Hyperelastic::new(properties)?;
     Ok(law.point_along(f, None, &[0.0; 11], Request::STRESS_AND_STATE).stress)
 }

@@ -11,13 +11,13 @@ use crate::Error;
 use crate::entries::{self, LinearFrame, LinearSolverBlock, SolverBlock};
 use crate::material::{Law, Material};
 use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use toron::law::state::{
     FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
     LINEAR_STRESS, LINEAR_WORK,
 };
 use toron::law::status;
+use toron::{Criterion, Rotation};
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
 /// first cache (vector lengths of explicit solvers are of this order).

@@ -441,8 +441,8 @@ mod tests {
     use crate::explicit::element::Control;
     use crate::explicit::mesh::{Section, Yarn};
     use crate::material::{Law, Material};
-    use toron::law::linear_elastic::{Criterion, Rotation};
     use toron::law::parameters;
+    use toron::{Criterion, Rotation};
 
     /// A cube of 1 mm whose nodes move as they are told; it may fail.
     fn cube(told: impl Fn([f64; 3]) -> Support) -> Solver<f64> {

@@ -139,8 +139,8 @@ mod tests {
     use super::*;
     use crate::explicit::element::{Control, first_piola_kirchhoff};
     use crate::material::{Law, Material};
-    use toron::law::linear_elastic::{Criterion, Rotation};
     use toron::law::parameters;
+    use toron::{Criterion, Rotation};
 
     const STEP: f64 = 1e-8;
     const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3 };

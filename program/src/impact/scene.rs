@@ -17,7 +17,7 @@ use crate::material::{Law, Material};
 use crate::path::{MaterialFile, Numbers, Source};
 use crate::unit_names::number;
 use toron::host::units::UnitSystem;
-use toron::law::linear_elastic::{Criterion, Rotation};
+use toron::{Criterion, Rotation};
 
 /// An element takes some 700 bytes: more do not fit most memories.
 const MOST_ELEMENTS: usize = 10_000_000;

@@ -8,9 +8,9 @@
 use crate::calculix_decks::{Job, Results, Tangent, both_tangents as run, control, properties, vectors};
 use crate::hexahedra::Mesh;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use toron::law::hyperelastic::{Hyperelastic, Point, Request};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::{first_piola_kirchhoff, matrix};
+use toron::{Hyperelastic, Point, Request};
 use toron_program::material::NominalTangent;
 use toron_program::newton::{self, Prescribed};
 

@@ -8,11 +8,11 @@ use std::process::Command;
 use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 use nalgebra::{Matrix3, Vector3};
 use toron::host::units::UnitSystem;
-use toron::law::hyperelastic::{Hyperelastic, Point, Request};
-use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::parameters::{self, DENSITY, Dimension, FIBRE, PRESETS, Preset, Property};
 use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
 use toron::law::status;
+use toron::{Criterion, LinearElastic, Rotation};
+use toron::{Hyperelastic, Point, Request};
 
 const DOCUMENTS: [&str; 4] = ["theory.md", "hosts.md", "validation.md", "load-paths.md"];
 

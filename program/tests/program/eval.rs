@@ -7,9 +7,9 @@ use std::process::{Command, Stdio};
 use crate::common::truth::{Answer, Score, cases};
 use nalgebra::Matrix3;
 use serde_json::Value;
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
+use toron::{Hyperelastic, Request};
 
 const ENTRIES: [&str; 8] = ["law", "block", "block-f32", "umat", "vumat", "vumat-sp", "ls-dyna", "ls-dyna-vector"];
 

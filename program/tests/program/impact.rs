@@ -15,7 +15,7 @@
 
 use std::path::{Path, PathBuf};
 
-use toron::law::linear_elastic::Rotation;
+use toron::Rotation;
 use toron_program::impact::report::{contact_warning, hourglass_warning};
 use toron_program::impact::run::{self, End, Outcome, Sample};
 use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};

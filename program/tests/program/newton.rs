@@ -1,9 +1,9 @@
 //! Newton's method with the laws' tangents: the residual falls quadratically.
 
 use nalgebra::Matrix3;
-use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters;
 use toron::law::stress::first_piola_kirchhoff;
+use toron::{Criterion, Rotation};
 use toron_program::material::{Law, Material};
 use toron_program::newton::{self, Prescribed, Solution};
 

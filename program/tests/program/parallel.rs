@@ -3,8 +3,9 @@
 use std::fmt::Debug;
 
 use proptest::prelude::*;
-use toron::law::block::{Arrays, Block, Level, Precision};
-use toron::law::hyperelastic::Hyperelastic;
+use toron::Hyperelastic;
+use toron::Level;
+use toron::law::block::{Arrays, Block, Precision};
 use toron::law::status::{BAD_LEADING_DIMENSION, Error, INVERTED, OK};
 use toron_program::bench::properties;
 use toron_program::parallel::parallel_block;

@@ -8,9 +8,9 @@ use crate::calculix_decks::{both_tangents, control, properties, vectors};
 use crate::hexahedra::Mesh;
 use nalgebra::{Matrix3, Vector3};
 use plotters::prelude::*;
-use toron::law::hyperelastic::{Hyperelastic, Request};
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::first_piola_kirchhoff;
+use toron::{Hyperelastic, Request};
 use toron_program::picture::{self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 
 /// Half axes of the section and thickness of the slice, in µm.

@@ -2,13 +2,15 @@
 
 use libc::size_t;
 
-use crate::law::block::{Level, Pointers, Precision, components, components_mut, raw_block_of};
+use crate::law::block::{Pointers, Precision, components, components_mut, raw_block_of};
+use crate::law::error::Error;
+use crate::law::number::level::Level;
 use crate::law::parameters;
-use crate::law::status::{self, Error};
+use crate::law::status;
 use crate::law::tangent::Measure;
 
-use super::{TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST};
-use super::{entry, properties};
+use super::constants::{TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST};
+use crate::host::border::{entry, properties};
 
 /// A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
 ///
@@ -112,6 +114,7 @@ unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Blo
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_f64(values: *const f64, count: size_t, block: *const Block<f64>) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { self::block(values, count, block) })
@@ -121,6 +124,7 @@ pub unsafe extern "C" fn hyperelastic_block_f64(values: *const f64, count: size_
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_f32(values: *const f32, count: size_t, block: *const Block<f32>) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { self::block(values, count, block) })

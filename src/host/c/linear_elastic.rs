@@ -5,16 +5,19 @@ use nalgebra::Matrix3;
 
 use crate::host::environment::in_default_environment;
 use crate::law::block::Precision;
-use crate::law::block::linear::{LinearPointers, LinearPrecision};
+use crate::law::block::linear::LinearPointers;
+use crate::law::error::Error;
 use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 use crate::law::parameters;
-use crate::law::status::{self, Error};
+use crate::law::status;
 use crate::law::tangent::Measure;
 
-use super::about::write_text;
-use super::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use super::{TORON_ROTATION_FIBRE, TORON_ROTATION_POLAR, TORON_ROTATION_SPIN};
-use super::{blocks, entry, properties, store, tangents};
+use super::blocks;
+use super::constants::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use super::constants::{TORON_ROTATION_FIBRE, TORON_ROTATION_POLAR, TORON_ROTATION_SPIN};
+use super::tangents;
+use crate::host::border::write_text;
+use crate::host::border::{entry, properties, store};
 
 /// An array of a fixed size, or zeros for null.
 ///
@@ -72,6 +75,7 @@ unsafe fn store_linear(point: &LinearPoint, state_new: *mut f64, stress: *mut f6
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_validate_f64(
     values: *const f64,
     count: size_t,
@@ -95,6 +99,7 @@ pub unsafe extern "C" fn linear_elastic_validate_f64(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_axes_f64(values: *const f64, count: size_t, axes: *mut f64) -> i32 {
     if axes.is_null() {
         return status::NULL_ARGUMENT;
@@ -163,6 +168,7 @@ unsafe fn linear_step(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_step_f64(
     values: *const f64,
     count: size_t,
@@ -186,6 +192,7 @@ pub unsafe extern "C" fn linear_elastic_step_f64(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_step_tangent_f64(
     values: *const f64,
     count: size_t,
@@ -212,6 +219,7 @@ pub unsafe extern "C" fn linear_elastic_step_tangent_f64(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_increment_f64(
     values: *const f64,
     count: size_t,
@@ -264,7 +272,7 @@ pub struct LinearBlock<T> {
 
 /// # Safety
 /// As for `toron_linear_elastic_block_f64`.
-unsafe fn linear_block<T: LinearPrecision>(
+unsafe fn linear_block<T: Precision>(
     values: *const T,
     count: size_t,
     block: *const LinearBlock<T>,
@@ -300,6 +308,7 @@ unsafe fn linear_block<T: LinearPrecision>(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_block_f64(
     values: *const f64,
     count: size_t,
@@ -315,6 +324,7 @@ pub unsafe extern "C" fn linear_elastic_block_f64(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn linear_elastic_block_f32(
     values: *const f32,
     count: size_t,

@@ -6,17 +6,20 @@ use libc::{c_char, size_t};
 
 use crate::host::environment::in_default_environment;
 use crate::law::block::Precision;
-use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::derivative::{NoTangent, StressAndState};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::real::Real;
 use crate::law::parameters;
-use crate::law::point::{Alone, Call, Point, Sink, StressAndState, cells};
-use crate::law::real::Real;
+use crate::law::point::{Call, Point, Sink, cells, evaluate_call};
+use crate::law::response::Request;
 use crate::law::state;
-use crate::law::status::{self, Error};
-use crate::law::tangent::Moduli;
+use crate::law::status;
+use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
-use super::about::write_text;
-use super::{entry, properties, store};
+use crate::host::border::write_text;
+use crate::host::border::{entry, properties, store};
 
 /// # Safety
 /// As for `toron_hyperelastic_validate_f64`.
@@ -45,6 +48,7 @@ unsafe fn validate<T: Real + Into<f64>>(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_validate_f64(
     values: *const f64,
     count: size_t,
@@ -60,6 +64,7 @@ pub unsafe extern "C" fn hyperelastic_validate_f64(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_validate_f32(
     values: *const f32,
     count: size_t,
@@ -203,9 +208,9 @@ unsafe fn point<T: Precision>(
         status: &mut status,
     };
     if request == Request::STRESS_AND_STATE {
-        T::once(Call { properties, f, fibre, state, tangent: StressAndState, sink })?;
+        evaluate_call(Call { properties, f, fibre, state, tangent: StressAndState, sink })?;
     } else {
-        T::once(Call { properties, f, fibre, state, tangent: Alone(request), sink })?;
+        evaluate_call(Call { properties, f, fibre, state, tangent: NoTangent(request), sink })?;
     }
     Ok(status)
 }
@@ -215,6 +220,7 @@ unsafe fn point<T: Precision>(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_f64(
     values: *const f64,
     count: size_t,
@@ -238,6 +244,7 @@ pub unsafe extern "C" fn hyperelastic_point_f64(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_f32(
     values: *const f32,
     count: size_t,

@@ -8,8 +8,9 @@ use crate::law::parameters::{self, Dimension, Property};
 use crate::law::state::{self, StateVariable};
 use crate::law::status;
 
-use super::about::name;
-use super::{TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_LINEAR_ELASTIC, store};
+use super::constants::{TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_LINEAR_ELASTIC};
+use crate::host::border::name;
+use crate::host::border::store;
 
 /// A row of the tables of properties and state variables. Texts are terminated UTF-8.
 #[repr(C)]
@@ -123,6 +124,7 @@ fn count_or(count: Option<usize>) -> i32 {
 }
 
 /// `toron_property_count` of the C interface.
+#[inline(never)]
 pub extern "C" fn property_count(law: i32) -> i32 {
     count_or(property_table(law).map(<[_]>::len))
 }
@@ -131,6 +133,7 @@ pub extern "C" fn property_count(law: i32) -> i32 {
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn property(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { write_row(property_table(law), index, row) }
@@ -140,6 +143,7 @@ pub unsafe extern "C" fn property(law: i32, index: i32, row: *mut TableRow) -> i
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn property_index(law: i32, property: *const c_char) -> i32 {
     // SAFETY: the caller's promise.
     let wanted = unsafe { name(property) };
@@ -147,6 +151,7 @@ pub unsafe extern "C" fn property_index(law: i32, property: *const c_char) -> i3
 }
 
 /// `toron_state_count` of the C interface.
+#[inline(never)]
 pub extern "C" fn state_count(law: i32) -> i32 {
     count_or(state_table(law).map(<[_]>::len))
 }
@@ -155,6 +160,7 @@ pub extern "C" fn state_count(law: i32) -> i32 {
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn state_variable(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { write_row(state_table(law), index, row) }
@@ -164,6 +170,7 @@ pub unsafe extern "C" fn state_variable(law: i32, index: i32, row: *mut TableRow
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char) -> i32 {
     // SAFETY: the caller's promise.
     let wanted = unsafe { name(variable) };
@@ -174,6 +181,7 @@ pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char) -> i32 {
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn preset_f64(
     preset: *const c_char,
     units: *const c_char,
@@ -219,6 +227,7 @@ unsafe fn preset(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn preset_f32(
     preset: *const c_char,
     units: *const c_char,

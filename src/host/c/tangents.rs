@@ -3,17 +3,20 @@
 use libc::size_t;
 
 use crate::law::block::{Pointers, Precision};
-use crate::law::hyperelastic::{Hyperelastic, Request};
+use crate::law::derivative::{NineByNine, SixBySix};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
 use crate::law::parameters;
-use crate::law::point::{Call, cells};
+use crate::law::point::{Call, cells, evaluate_call};
+use crate::law::response::Request;
 use crate::law::state;
-use crate::law::status::{self, Error};
-use crate::law::tangent::{Measure, Nine, Six};
+use crate::law::status;
+use crate::law::tangent::Measure;
 
 use super::blocks::Block;
+use super::constants::{TORON_TANGENT_JAUMANN, TORON_TANGENT_MATERIAL, TORON_TANGENT_NOMINAL, TORON_TANGENT_TRUESDELL};
 use super::points::{PointAnswer, PointArguments};
-use super::{TORON_TANGENT_JAUMANN, TORON_TANGENT_MATERIAL, TORON_TANGENT_NOMINAL, TORON_TANGENT_TRUESDELL};
-use super::{entry, properties, store};
+use crate::host::border::{entry, properties, store};
 
 pub(super) fn measure(measure: i32) -> Result<Measure, Error> {
     match measure {
@@ -69,9 +72,9 @@ unsafe fn point_tangent<T: Precision>(
         status: &mut status,
     };
     if measure == Measure::Nominal {
-        T::once(Call { properties, f, fibre, state, tangent: Nine(request), sink })?;
+        evaluate_call(Call { properties, f, fibre, state, tangent: NineByNine(request), sink })?;
     } else {
-        T::once(Call { properties, f, fibre, state, tangent: Six(request, measure), sink })?;
+        evaluate_call(Call { properties, f, fibre, state, tangent: SixBySix(request, measure), sink })?;
     }
     Ok(status)
 }
@@ -81,6 +84,7 @@ unsafe fn point_tangent<T: Precision>(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_tangent_f64(
     values: *const f64,
     count: size_t,
@@ -103,6 +107,7 @@ pub unsafe extern "C" fn hyperelastic_point_tangent_f64(
 /// # Safety
 /// As said there.
 #[allow(clippy::too_many_arguments)]
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_tangent_f32(
     values: *const f32,
     count: size_t,
@@ -124,6 +129,7 @@ pub unsafe extern "C" fn hyperelastic_point_tangent_f32(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
     values: *const f64,
     count: size_t,
@@ -173,6 +179,7 @@ unsafe fn block_tangent<T: Precision>(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_tangent_f64(
     values: *const f64,
     count: size_t,
@@ -188,6 +195,7 @@ pub unsafe extern "C" fn hyperelastic_block_tangent_f64(
 ///
 /// # Safety
 /// As said there.
+#[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_tangent_f32(
     values: *const f32,
     count: size_t,

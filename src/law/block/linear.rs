@@ -9,11 +9,13 @@
 
 use core::ops::Range;
 
-use super::{Lanes, Level, Precision, leading_dimension_below, least_code};
+use super::kernel::least_code;
 use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation, Wanted};
-use crate::law::matrix::Matrix;
+use crate::law::number::level::Level;
+use crate::law::number::real::{Lanes, Scalar};
+use crate::law::number::vector::Matrix;
 use crate::law::state::LINEAR_ELASTIC_STATE;
-use crate::law::status::{self, Error};
+use crate::law::status;
 
 /// A block as a host passes it. Null is left out: an old state that is null is a fresh one, an output not wanted.
 #[derive(Clone, Copy, Debug)]
@@ -33,117 +35,13 @@ pub struct LinearPointers<T> {
     pub level: Option<Level>,
 }
 
-/// A precision that the linear elastic law's kernel is built for.
-pub trait LinearPrecision: Precision {
-    /// Runs the kernel at a level.
-    ///
-    /// # Safety
-    /// As for [`LinearElastic::raw_block`]; the processor has the level's instructions.
-    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &LinearPointers<Self>) -> i32;
-}
-
-/// A kernel for some lanes, with the instructions that they need.
-macro_rules! kernel {
-    ($(#[$features:meta])? $name:ident, $t:ty, $lanes:ty) => {
-        $(#[$features])?
-        unsafe fn $name(law: &LinearElastic<$t>, block: &LinearPointers<$t>, points: Range<usize>) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe { sweep::<$t, $lanes>(law, block, points) }
-        }
-    };
-}
-
-macro_rules! linear_precision {
-    ($t:ident: $baseline:ty, $avx2:ty, $avx512:ty, $one:ty) => {
-        impl LinearPrecision for $t {
-            unsafe fn dispatch_linear(level: Level, law: &LinearElastic<$t>, block: &LinearPointers<$t>) -> i32 {
-                kernel!(
-                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma"))]
-                    avx512,
-                    $t,
-                    $avx512
-                );
-                kernel!(
-                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
-                    avx2,
-                    $t,
-                    $avx2
-                );
-                kernel!(
-                    #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2,fma"))]
-                    one,
-                    $t,
-                    $one
-                );
-                kernel!(baseline, $t, $baseline);
-                kernel!(scalar, $t, $t);
-                // What fills no register goes to narrower ones, which give the same bits.
-                let n = block.n;
-                let whole = |lanes: usize| n - n % lanes;
-                let fours = whole(<$avx2 as Lanes<$t>>::COUNT);
-                // SAFETY: the caller has found the instructions, and answers for the arrays.
-                unsafe {
-                    match level {
-                        Level::Baseline => {
-                            let pairs = whole(<$baseline as Lanes<$t>>::COUNT);
-                            baseline(law, block, 0..pairs).min(scalar(law, block, pairs..n))
-                        }
-                        Level::Avx2 => avx2(law, block, 0..fours).min(one(law, block, fours..n)),
-                        Level::Avx512 => {
-                            let wide = whole(<$avx512 as Lanes<$t>>::COUNT);
-                            let rest = avx2(law, block, wide..fours).min(one(law, block, fours..n));
-                            avx512(law, block, 0..wide).min(rest)
-                        }
-                    }
-                }
-            }
-        }
-    };
-}
-
-#[cfg(target_arch = "x86_64")]
-linear_precision!(f64: super::x86::F64x2, super::x86::F64x4, super::x86::F64x8, super::x86::F64x1);
-#[cfg(target_arch = "x86_64")]
-linear_precision!(f32: super::x86::F32x4, super::x86::F32x8, super::x86::F32x16, super::x86::F32x1);
-#[cfg(not(target_arch = "x86_64"))]
-linear_precision!(f64: f64, f64, f64, f64);
-#[cfg(not(target_arch = "x86_64"))]
-linear_precision!(f32: f32, f32, f32, f32);
-
-impl<T: LinearPrecision> LinearElastic<T> {
-    /// The law over a step at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
-    ///
-    /// # Errors
-    /// A null deformation gradient, null axes for the spin, a leading dimension below n.
-    ///
-    /// # Safety
-    /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
-    /// reading or writing; outputs overlap nothing but, exactly, the old state they replace.
-    pub unsafe fn raw_block(&self, block: &LinearPointers<T>) -> Result<i32, Error> {
-        if block.n == 0 {
-            return Ok(status::OK);
-        }
-        let spin = block.rotation == Rotation::Spin;
-        if block.f_old.is_null() || block.f_new.is_null() || (spin && block.axes.is_null()) {
-            return Err(Error::Plain(status::NULL_ARGUMENT));
-        }
-        if block.leading_dimension < block.n {
-            return Err(leading_dimension_below(block.n, block.leading_dimension));
-        }
-        let level = block.level.unwrap_or_else(Level::best).min(Level::best());
-        let axes = if spin { block.axes } else { core::ptr::null_mut() };
-        // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
-        Ok(unsafe { T::dispatch_linear(level, self, &LinearPointers { axes, ..*block }) })
-    }
-}
-
 /// The kernel, for points that fill whole registers.
 ///
 /// # Safety
 /// As for [`LinearElastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
 /// a multiple of COUNT.
 #[inline(always)]
-unsafe fn sweep<T: Precision, R: Lanes<T>>(
+pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     law: &LinearElastic<T>,
     block: &LinearPointers<T>,
     points: Range<usize>,
@@ -165,9 +63,9 @@ unsafe fn sweep<T: Precision, R: Lanes<T>>(
 /// Evaluates the points of a register from `i` on; returns their codes.
 ///
 /// # Safety
-/// As for [`sweep`], with i + COUNT ≤ n.
+/// As for [`sweep_linear`], with i + COUNT ≤ n.
 #[inline(always)]
-unsafe fn evaluate<T: Precision, R: Lanes<T>>(law: &LinearElastic<R>, block: &LinearPointers<T>, i: usize) -> R {
+unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &LinearPointers<T>, i: usize) -> R {
     let stride = block.leading_dimension;
     let wanted = Wanted { stress: !block.stress.is_null(), state: !block.state_new.is_null() };
     // SAFETY: the arrays that the block has are valid for the lanes from i on.

@@ -1,6 +1,46 @@
-//! 3×3 matrices by columns in the number that the law is written in.
+//! Vectors of three components and 3×3 matrices by columns.
 
-use super::real::{Real, along, cross, dot, image, scale};
+use super::real::Real;
+
+/// Scalar product of two vectors.
+#[inline(always)]
+pub fn dot<R: Real>(a: [R; 3], b: [R; 3]) -> R {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// Vector product of two vectors.
+#[inline(always)]
+pub fn cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [a[1].mul_add(b[2], -(a[2] * b[1])), a[2].mul_add(b[0], -(a[0] * b[2])), a[0].mul_add(b[1], -(a[1] * b[0]))]
+}
+
+/// Vector product of two vectors, each component to within 1.5 ulp.
+#[inline(always)]
+pub fn accurate_cross<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
+    [
+        R::difference_of_products(a[1], b[2], a[2], b[1]),
+        R::difference_of_products(a[2], b[0], a[0], b[2]),
+        R::difference_of_products(a[0], b[1], a[1], b[0]),
+    ]
+}
+
+/// `a + s b`.
+#[inline(always)]
+pub fn along<R: Real>(a: [R; 3], s: R, b: [R; 3]) -> [R; 3] {
+    [s.mul_add(b[0], a[0]), s.mul_add(b[1], a[1]), s.mul_add(b[2], a[2])]
+}
+
+/// `s a`.
+#[inline(always)]
+pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
+    [s * a[0], s * a[1], s * a[2]]
+}
+
+/// The image of a vector under the matrix of these columns.
+#[inline(always)]
+pub fn image<R: Real>(columns: &[[R; 3]; 3], v: [R; 3]) -> [R; 3] {
+    along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0])
+}
 
 /// Three columns.
 pub type Matrix<R> = [[R; 3]; 3];

@@ -1,6 +1,6 @@
 //! The elementary functions and the lanes' operations, at every level of instructions that this machine has.
 //!
-//! The functions keep the errors that the table of `law/elementary.rs` promises, in units in the last place of the exact
+//! The functions keep the errors that the table of `number/elementary.rs` promises, in units in the last place of the exact
 //! result. In double precision the reference has 128 binary digits; in single precision the double-precision library is
 //! exact enough, its error being below 2^-26 of such a unit. `--nocapture` prints the worst found and where.
 
@@ -10,9 +10,12 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use fastrand::Rng;
 
-use super::{Lanes, Level, Precision};
-use crate::law::elementary::{Exponent, asinh, ln_1p, ln_sum, power};
-use crate::law::real::Real;
+use crate::law::number::elementary::{Asinh, Exponent, ln_1p, ln_sum, power};
+use crate::law::number::level::Level;
+use crate::law::number::real::{Lanes, Real};
+use crate::law::number::registers::Registers;
+#[cfg(target_arch = "x86_64")]
+use crate::law::number::x86;
 
 /// A reference for double precision: enough digits for its error not to matter, few enough to be quick.
 type Reference = FBig<HalfEven, 2>;
@@ -21,20 +24,9 @@ fn reference(x: f64) -> Reference {
     Reference::try_from(x).expect("a finite number").with_precision(128).value()
 }
 
-/// A precision, with its lanes and its measure of errors.
-trait Number: Precision + Debug {
+/// A precision and its measure of errors.
+trait Number: Registers + Debug {
     type Exact;
-    #[cfg(target_arch = "x86_64")]
-    type Baseline: Lanes<Self>;
-    #[cfg(target_arch = "x86_64")]
-    type Avx2: Lanes<Self>;
-    #[cfg(target_arch = "x86_64")]
-    type Avx512: Lanes<Self>;
-    /// The lanes of one point, in a block and in a call of its own.
-    #[cfg(target_arch = "x86_64")]
-    type One: Lanes<Self>;
-    #[cfg(target_arch = "x86_64")]
-    type Point: Lanes<Self>;
     /// How far this is from the exact number.
     fn ulps(self, exact: &Self::Exact) -> f64;
     fn exact(self) -> Self::Exact;
@@ -42,16 +34,6 @@ trait Number: Precision + Debug {
 
 impl Number for f64 {
     type Exact = Reference;
-    #[cfg(target_arch = "x86_64")]
-    type Baseline = super::x86::F64x2;
-    #[cfg(target_arch = "x86_64")]
-    type Avx2 = super::x86::F64x4;
-    #[cfg(target_arch = "x86_64")]
-    type Avx512 = super::x86::F64x8;
-    #[cfg(target_arch = "x86_64")]
-    type One = super::x86::F64x1;
-    #[cfg(target_arch = "x86_64")]
-    type Point = super::x86::F64Point;
     fn ulps(self, exact: &Reference) -> f64 {
         if !self.is_finite() {
             return f64::INFINITY;
@@ -67,16 +49,6 @@ impl Number for f64 {
 
 impl Number for f32 {
     type Exact = f64;
-    #[cfg(target_arch = "x86_64")]
-    type Baseline = super::x86::F32x4;
-    #[cfg(target_arch = "x86_64")]
-    type Avx2 = super::x86::F32x8;
-    #[cfg(target_arch = "x86_64")]
-    type Avx512 = super::x86::F32x16;
-    #[cfg(target_arch = "x86_64")]
-    type One = super::x86::F32x1;
-    #[cfg(target_arch = "x86_64")]
-    type Point = super::x86::F32Point;
     fn ulps(self, exact: &f64) -> f64 {
         if !self.is_finite() {
             return f64::INFINITY;
@@ -261,6 +233,14 @@ impl Function<1, 2> for InverseSinh {
         let (value, ratio) = asinh(s);
         [value, ratio]
     }
+}
+
+/// asinh s and (asinh s)/s for s ≥ 0.
+fn asinh<R: Real>(s: R) -> (R, R) {
+    let one = R::splat(1.0);
+    let (asinh, _) = Asinh::new(s, s.mul_add(s, one).sqrt(), one);
+    let (a, ratio) = asinh.finish(asinh.denominators().map(R::reciprocal));
+    (a + a, ratio + ratio)
 }
 
 /// asinh in double precision without the cancellation that some libraries have for small arguments.
@@ -599,7 +579,7 @@ struct Series<const TERMS: u8>;
 #[cfg(target_arch = "x86_64")]
 impl<const TERMS: u8> Function<2, 1> for Series<TERMS> {
     fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
-        [super::x86::reciprocal_series::<R, TERMS>(x, y)]
+        [x86::reciprocal_series::<R, TERMS>(x, y)]
     }
 }
 
@@ -608,7 +588,7 @@ struct NewtonStep;
 #[cfg(target_arch = "x86_64")]
 impl Function<2, 1> for NewtonStep {
     fn of<R: Real>(&self, [x, y]: [R; 2]) -> [R; 1] {
-        [super::x86::newton_reciprocal(x, y)]
+        [x86::newton_reciprocal(x, y)]
     }
 }
 
@@ -624,9 +604,9 @@ fn refined_reciprocals_do_not_depend_on_the_approximation() {
 
     let arguments: Vec<[f64; 2]> =
         hard_mantissas().into_iter().flat_map(|x| errors.map(|error| [x, error / x])).collect();
-    let series = in_lanes::<f64, super::x86::F64x1, 2, 1>(&Series::<3>, &arguments);
+    let series = in_lanes::<f64, x86::F64x1, 2, 1>(&Series::<3>, &arguments);
     let near: Vec<_> = series.iter().zip(&arguments).map(|(&[s], &[x, y])| [x, y_plus_product_upwards(s, y)]).collect();
-    let found = in_lanes::<f64, super::x86::F64x1, 2, 1>(&NewtonStep, &near);
+    let found = in_lanes::<f64, x86::F64x1, 2, 1>(&NewtonStep, &near);
     for (&[found], &[x, y]) in found.iter().zip(&arguments) {
         assert_eq!(found, 1.0 / x, "1/{x:e} from {y:e}");
     }
@@ -637,7 +617,7 @@ fn refined_reciprocals_do_not_depend_on_the_approximation() {
         // Rounding may have carried an approximation beyond what the instruction promises.
         .filter(|&[x, y]| (f64::from(x) * f64::from(y) - 1.0).abs() <= 2f64.powi(-14))
         .collect();
-    let series = in_lanes::<f32, super::x86::F32x1, 2, 1>(&Series::<1>, &arguments);
+    let series = in_lanes::<f32, x86::F32x1, 2, 1>(&Series::<1>, &arguments);
     let near = series.iter().zip(&arguments).map(|(&[s], &[x, y])| {
         // Less than 62 bits: of the exact sum only the sign of the remainder counts.
         let sum = (f64::from(s) * f64::from(y) + f64::from(y)) as f32;
@@ -645,7 +625,7 @@ fn refined_reciprocals_do_not_depend_on_the_approximation() {
         [x, if remainder > 0.0 { sum.next_up() } else { sum }]
     });
     let near: Vec<_> = near.collect();
-    let found = in_lanes::<f32, super::x86::F32x1, 2, 1>(&NewtonStep, &near);
+    let found = in_lanes::<f32, x86::F32x1, 2, 1>(&NewtonStep, &near);
     for (&[found], &[x, y]) in found.iter().zip(&arguments) {
         assert_eq!(found, 1.0 / x, "1/{x:e} from {y:e}");
     }

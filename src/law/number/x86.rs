@@ -10,9 +10,8 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::Lanes;
-use crate::law::elementary::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
-use crate::law::real::{Real, Single};
+use super::real::{Lanes, Real, Single};
+use super::series::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
 macro_rules! register {
@@ -335,7 +334,7 @@ fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
 
 /// r + r² + …, so many terms, with r = 1 − x y.
 #[inline(always)]
-pub(super) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
+pub(crate) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
     let r = (-x).mul_add(y, R::splat(1.0));
     let mut series = r;
     for _ in 1..TERMS {
@@ -346,7 +345,7 @@ pub(super) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
 
 /// A Newton step for 1/x from y.
 #[inline(always)]
-pub(super) fn newton_reciprocal<R: Real>(x: R, y: R) -> R {
+pub(crate) fn newton_reciprocal<R: Real>(x: R, y: R) -> R {
     (-x).mul_add(y, R::splat(1.0)).mul_add(y, y)
 }
 
@@ -663,11 +662,3 @@ single!(F64x1 of f64, _mm_cvtsd_f64);
 single!(F32x1 of f32, _mm_cvtss_f32);
 single!(F64Point of f64, _mm_cvtsd_f64);
 single!(F32Point of f32, _mm_cvtss_f32);
-
-/// The root by the processor's own instruction, for scalars. libm's is written out for SSE2: among wider instructions it waits for
-/// the wide registers.
-#[inline(always)]
-pub fn root(x: f64) -> f64 {
-    // SAFETY: every x86-64 has SSE2.
-    unsafe { _mm_cvtsd_f64(_mm_sqrt_sd(_mm_setzero_pd(), _mm_set_sd(x))) }
-}

@@ -2,7 +2,7 @@
 //!
 //! A library's `log` differs from machine to machine and cannot run in lanes; these give the same bits everywhere that
 //! the arithmetic does. Errors in units in the last place (ulp), worst found by the tests against a correctly rounded
-//! reference at every level of instructions (`law/block/tests.rs`):
+//! reference at every level of instructions (`law/tests/elementary.rs`):
 //!
 //! | function | f64 | f32 | where |
 //! |---|---|---|---|
@@ -11,63 +11,10 @@
 //! | `asinh(s)` | 4.5 | 4.5 | 0 ≤ s ≤ 1e150 (f64), 1e18 (f32) |
 //! | its (asinh s)/s | 6.5 | 6.5 | as above |
 //! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below about 2^−1001 (f64), 2^−105 (f32) are 0; those above 2^1004 not promised, above 2^127 (f32) infinite |
-//!
-//! The coefficients are minimax polynomials found by Remez exchange in 300-bit arithmetic.
 
 use core::f64::consts::{LN_2, LOG2_E};
 
 use super::real::Real;
-
-/// ½ (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
-pub(super) const HALF_ARTANH_F64: [f64; 7] = quartered([
-    0.6666666666667272,
-    0.39999999996156954,
-    0.28571429396138265,
-    0.22222138432215943,
-    0.1818635891183978,
-    0.15250131648093396,
-    0.153686343008258,
-]);
-pub(super) const HALF_ARTANH_F32: [f64; 3] = quartered([0.6666694752001328, 0.39957808364879166, 0.3036093709608493]);
-
-/// Likewise for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
-pub(super) const LN_F64: [f64; 7] = of_twice(HALF_ARTANH_F64);
-pub(super) const LN_F32: [f64; 3] = of_twice(HALF_ARTANH_F32);
-
-const fn quartered<const N: usize>(mut c: [f64; N]) -> [f64; N] {
-    let mut j = 0;
-    while j < N {
-        c[j] *= 0.25;
-        j += 1;
-    }
-    c
-}
-
-const fn of_twice<const N: usize>(mut c: [f64; N]) -> [f64; N] {
-    let (mut j, mut factor) = (0, 0.5);
-    while j < N {
-        c[j] *= factor;
-        factor *= 0.25;
-        j += 1;
-    }
-    c
-}
-
-/// (e^r − 1 − r)/r² in powers of r, |r| ≤ ½ ln 2; error of the exponential 2^−58, 2^−28.2.
-pub(super) const EXP_F64: [f64; 10] = [
-    0.5000000000000012,
-    0.166666666666667,
-    0.04166666666651542,
-    0.008333333333307205,
-    0.0013888888947016604,
-    0.00019841269917383284,
-    2.4801489941623132e-05,
-    2.7557216301455982e-06,
-    2.763128051606888e-07,
-    2.5117860795509996e-08,
-];
-pub(super) const EXP_F32: [f64; 5] =
-    [0.5000000095185461, 0.1666651883965976, 0.04166620580112459, 0.008368889354403867, 0.0013950491223541559];
 
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
@@ -226,15 +173,6 @@ impl<R: Real> Asinh<R> {
         let a = self.k.mul_add(R::splat(0.25 * LN_2), w * series);
         (a, R::select(self.small, reciprocal * series, a * over_s))
     }
-}
-
-/// asinh s and (asinh s)/s for s ≥ 0.
-#[inline(always)]
-pub fn asinh<R: Real>(s: R) -> (R, R) {
-    let one = R::splat(1.0);
-    let (asinh, _) = Asinh::new(s, s.mul_add(s, one).sqrt(), one);
-    let (a, ratio) = asinh.finish(asinh.denominators().map(R::reciprocal));
-    (a + a, ratio + ratio)
 }
 
 /// The exponent of a power, prepared once: q = high + low, where an integer up to 2^11 times `high` is exact.

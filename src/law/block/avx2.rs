@@ -1,0 +1,33 @@
+//! The kernels in AVX2 with fused multiply-add.
+
+use core::ops::Range;
+
+use super::instructions::Instructions;
+use super::kernel::sweep;
+use super::linear::{LinearPointers, sweep_linear};
+use super::pointers::Pointers;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::registers::Registers;
+
+pub(super) struct Avx2;
+
+impl Instructions for Avx2 {
+    type Lanes<T: Registers> = T::Avx2;
+
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        block: &Pointers<T>,
+        points: Range<usize>,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { sweep::<T, T::Avx2, WANT>(law, block, points) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { sweep_linear::<T, T::Avx2>(law, block, points) }
+    }
+}

@@ -1,0 +1,33 @@
+//! The kernels in AVX-512.
+
+use core::ops::Range;
+
+use super::instructions::Instructions;
+use super::kernel::sweep;
+use super::linear::{LinearPointers, sweep_linear};
+use super::pointers::Pointers;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::registers::Registers;
+
+pub(super) struct Avx512;
+
+impl Instructions for Avx512 {
+    type Lanes<T: Registers> = T::Avx512;
+
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        block: &Pointers<T>,
+        points: Range<usize>,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { sweep::<T, T::Avx512, WANT>(law, block, points) }
+    }
+
+    #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { sweep_linear::<T, T::Avx512>(law, block, points) }
+    }
+}

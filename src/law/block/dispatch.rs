@@ -1,0 +1,213 @@
+//! From a block to kernels: the widest registers first, and for the points left over narrower ones.
+
+use core::ops::Range;
+
+#[cfg(target_arch = "x86_64")]
+use super::avx2::Avx2;
+#[cfg(target_arch = "x86_64")]
+use super::avx512::Avx512;
+use super::baseline::Baseline;
+#[cfg(target_arch = "x86_64")]
+use super::few;
+use super::instructions::Instructions;
+use super::kernel::{ALIGNED, ANY, FIBRES, STATE, STRESS};
+use super::linear::LinearPointers;
+use super::pointers::Pointers;
+use super::remainder::{padded, padded_linear};
+#[cfg(target_arch = "x86_64")]
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::level::Level;
+use crate::law::number::real::Lanes;
+use crate::law::number::registers::Registers;
+use crate::law::response::Request;
+use crate::law::status;
+
+/// A precision that the block kernels are built for: f32 or f64.
+pub trait Precision: Registers {
+    /// Runs the kernels of the hyperelastic law at a level.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`]; the processor has the level's instructions.
+    #[doc(hidden)]
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
+
+    /// The hyperelastic law of these properties at the points of a block one by one; no tangent.
+    ///
+    /// # Errors
+    /// The first property that is wrong; nothing is written.
+    ///
+    /// # Safety
+    /// As for `dispatch`, on a processor with AVX2 and FMA.
+    #[cfg(target_arch = "x86_64")]
+    #[doc(hidden)]
+    unsafe fn one_by_one(properties: &[Self], block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
+
+    /// Runs the kernels of the linear elastic law at a level.
+    ///
+    /// # Safety
+    /// As for [`LinearElastic::raw_block`]; the processor has the level's instructions.
+    #[doc(hidden)]
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &LinearPointers<Self>) -> i32;
+}
+
+// Of their own and not generic, so that the kernels are compiled into this crate and not into those that use it.
+impl Precision for f64 {
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Pointers<f64>, request: Request) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { dispatch(level, law, block, request) }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn one_by_one(properties: &[f64], block: &Pointers<f64>, request: Request) -> Result<i32, Error> {
+        // SAFETY: the caller's promise.
+        unsafe { few::one_by_one(properties, block, request) }
+    }
+
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &LinearPointers<f64>) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { dispatch_linear(level, law, block) }
+    }
+}
+
+impl Precision for f32 {
+    unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Pointers<f32>, request: Request) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { dispatch(level, law, block, request) }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    unsafe fn one_by_one(properties: &[f32], block: &Pointers<f32>, request: Request) -> Result<i32, Error> {
+        // SAFETY: the caller's promise.
+        unsafe { few::one_by_one(properties, block, request) }
+    }
+
+    unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &LinearPointers<f32>) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { dispatch_linear(level, law, block) }
+    }
+}
+
+/// How many points a register holds.
+fn lanes<T: Registers, I: Instructions>() -> usize {
+    <I::Lanes<T> as Lanes<T>>::COUNT
+}
+
+/// The points of a block that fill whole registers, from `first` on.
+fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> {
+    first..n - (n - first) % lanes::<T, I>()
+}
+
+/// # Safety
+/// As for [`Precision::dispatch`].
+unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
+    let n = block.n;
+    // SAFETY: the caller's promise.
+    unsafe {
+        match level {
+            Level::Baseline => {
+                let part = whole::<T, Baseline>(0, n);
+                let rest = part.end..n;
+                let worst = run_any::<T, Baseline>(law, block, part);
+                worst.min(padded::<T, T::Baseline>(block, rest, |points| {
+                    run_any::<T, Baseline>(law, points, 0..points.n)
+                }))
+            }
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 | Level::Avx512 => {
+                let wide = if level == Level::Avx512 { whole::<T, Avx512>(0, n) } else { 0..0 };
+                let part = whole::<T, Avx2>(wide.end, n);
+                let rest = part.end..n;
+                let worst = run::<T, Avx512>(law, block, request, wide).min(run::<T, Avx2>(law, block, request, part));
+                worst.min(padded::<T, T::Avx2>(block, rest, |points| run::<T, Avx2>(law, points, request, 0..points.n)))
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            Level::Avx2 | Level::Avx512 => run_any::<T, Baseline>(law, block, 0..n),
+        }
+    }
+}
+
+/// Runs the kernel that is built for exactly what hosts usually ask for, or the one that looks up what the block asks for.
+///
+/// # Safety
+/// As for [`Precision::dispatch`], for points of the block that fill whole registers.
+unsafe fn run<T: Registers, I: Instructions>(
+    law: &Hyperelastic<T>,
+    block: &Pointers<T>,
+    request: Request,
+    points: Range<usize>,
+) -> i32 {
+    if points.is_empty() {
+        return status::OK;
+    }
+    let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
+    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && !law.shears;
+    let state = energies && invariants && failure;
+    let stress_alone = !energies && !invariants && !failure && block.failure_old.is_null();
+    let fibres = !block.fibre[0].is_null();
+    const STATE_FIBRES: u8 = STATE + FIBRES;
+    const STATE_ALIGNED: u8 = STATE + ALIGNED;
+    const STRESS_FIBRES: u8 = STRESS + FIBRES;
+    const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
+    // SAFETY: the caller's promise.
+    unsafe {
+        match (usual && state, usual && stress_alone) {
+            (true, _) if fibres => I::run::<T, STATE_FIBRES>(law, block, points),
+            (true, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block, points),
+            (true, _) => I::run::<T, STATE>(law, block, points),
+            (_, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block, points),
+            (_, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block, points),
+            (_, true) => I::run::<T, STRESS>(law, block, points),
+            _ => run_any::<T, I>(law, block, points),
+        }
+    }
+}
+
+/// Runs the kernel that looks up what the block asks for.
+///
+/// # Safety
+/// As for [`run`].
+unsafe fn run_any<T: Registers, I: Instructions>(
+    law: &Hyperelastic<T>,
+    block: &Pointers<T>,
+    points: Range<usize>,
+) -> i32 {
+    const ANY_ALIGNED: u8 = ANY + ALIGNED;
+    if points.is_empty() {
+        return status::OK;
+    }
+    // Beside the tangent the products with the frame that an aligned fibre saves weigh little.
+    let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
+    // SAFETY: the caller's promise.
+    unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block, points) } else { I::run::<T, ANY>(law, block, points) } }
+}
+
+/// # Safety
+/// As for [`Precision::dispatch_linear`].
+unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
+    let n = block.n;
+    // SAFETY: the caller's promise.
+    unsafe {
+        match level {
+            Level::Baseline => {
+                let part = whole::<T, Baseline>(0, n);
+                let rest = part.end..n;
+                let worst = Baseline::run_linear(law, block, part);
+                worst.min(padded_linear::<T, T::Baseline>(block, rest, |points| {
+                    Baseline::run_linear(law, points, 0..points.n)
+                }))
+            }
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 | Level::Avx512 => {
+                let wide = if level == Level::Avx512 { whole::<T, Avx512>(0, n) } else { 0..0 };
+                let part = whole::<T, Avx2>(wide.end, n);
+                let rest = part.end..n;
+                let worst = Avx512::run_linear(law, block, wide).min(Avx2::run_linear(law, block, part));
+                worst.min(padded_linear::<T, T::Avx2>(block, rest, |points| Avx2::run_linear(law, points, 0..points.n)))
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            Level::Avx2 | Level::Avx512 => Baseline::run_linear(law, block, 0..n),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! A block of a few points, with the properties: evaluated one by one, which takes less time than to prepare the law and to fill a
+//! register.
+
+use super::pointers::Pointers;
+use crate::law::derivative::{Derivative, NoTangent, StressAndState};
+use crate::law::error::Error;
+use crate::law::number::real::Scalar;
+use crate::law::number::registers::Registers;
+use crate::law::point::{self, Point, Sink, cells};
+use crate::law::response::Request;
+use crate::law::state::{self, HYPERELASTIC_STATE};
+use crate::law::status;
+use crate::law::wave_speed;
+
+/// Up to so many points are a few.
+pub(super) const FEW: usize = 3;
+
+/// The law of these properties at every point of a block, one by one, in the operations of the lanes: a point's result does not
+/// depend on how many there are. Returns the worst status.
+///
+/// # Errors
+/// The first property that is wrong; nothing is written.
+///
+/// # Safety
+/// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), on a processor with AVX2 and FMA, for a block without a
+/// tangent.
+#[target_feature(enable = "avx2,fma")]
+pub(super) unsafe fn one_by_one<T: Registers>(
+    properties: &[T],
+    block: &Pointers<T>,
+    request: Request,
+) -> Result<i32, Error> {
+    // SAFETY: the caller's promise.
+    unsafe {
+        match request {
+            Request::STRESS_AND_STATE => evaluate_each(properties, block, StressAndState),
+            _ => evaluate_each(properties, block, NoTangent(request)),
+        }
+    }
+}
+
+/// # Errors
+/// As for [`one_by_one`].
+///
+/// # Safety
+/// As for [`one_by_one`].
+#[inline(always)]
+unsafe fn evaluate_each<T: Registers, D: Derivative<0>>(
+    properties: &[T],
+    block: &Pointers<T>,
+    request: D,
+) -> Result<i32, Error> {
+    let mut worst = status::OK;
+    for i in 0..block.n {
+        // SAFETY: the caller's promise.
+        let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), cells(block.old_state(i))) };
+        let mut code = status::OK;
+        let sink = OnePoint { block, i, code: &mut code };
+        point::evaluate::<T, T::One, _, _, _, 0>(properties, &f, fibre, &state, request, sink)?;
+        worst = worst.min(code);
+    }
+    Ok(worst)
+}
+
+impl<T: Scalar> Pointers<T> {
+    /// The columns of F at a point.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`], with i < n; so for the others.
+    #[inline(always)]
+    unsafe fn columns(&self, i: usize) -> [[T; 3]; 3] {
+        // SAFETY: the caller's promise.
+        let entry = |c: usize| unsafe { *self.deformation_gradient[c].add(i) };
+        [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
+    }
+
+    /// Its fibre direction, if it has one of its own.
+    #[inline(always)]
+    unsafe fn direction(&self, i: usize) -> Option<[T; 3]> {
+        let [m_1, m_2, m_3] = self.fibre;
+        // SAFETY: the caller's promise.
+        if m_1.is_null() { None } else { Some(unsafe { [*m_1.add(i), *m_2.add(i), *m_3.add(i)] }) }
+    }
+
+    /// Its old state as far as it is wanted and there is one, else zeros; the latch counts even where failure is not wanted.
+    #[inline(always)]
+    unsafe fn old_state(&self, i: usize) -> [T; HYPERELASTIC_STATE] {
+        let mut state = [T::splat(0.0); HYPERELASTIC_STATE];
+        // SAFETY: the caller's promise.
+        let old = |array: *const T, c: usize| unsafe { *array.add(c * self.leading_dimension + i) };
+        if !self.energies.is_null() && !self.energies_old.is_null() {
+            for (c, value) in state.iter_mut().skip(state::ENERGIES).take(4).enumerate() {
+                *value = old(self.energies_old, c);
+            }
+        }
+        if !self.invariants.is_null() && !self.invariants_old.is_null() {
+            for (c, value) in state.iter_mut().skip(state::INVARIANTS).take(4).enumerate() {
+                *value = old(self.invariants_old, c);
+            }
+        }
+        if !self.failure.is_null() && !self.failure_old.is_null() {
+            state[state::FAILURE_INDEX] = old(self.failure_old, 0);
+        }
+        if !self.failure_old.is_null() {
+            state[state::FAILED] = old(self.failure_old, 1);
+        }
+        state
+    }
+}
+
+/// Where the answer for one point of a block goes.
+struct OnePoint<'a, T> {
+    block: &'a Pointers<T>,
+    i: usize,
+    code: &'a mut i32,
+}
+
+impl<T: Scalar> OnePoint<'_, T> {
+    #[inline(always)]
+    fn put(self, point: &Point<T>) {
+        let OnePoint { block, i, code } = self;
+        *code = point.status;
+        // SAFETY: whoever makes this has a block that can be evaluated, with i < n.
+        let store = |values: &[T], array: *mut T| unsafe {
+            if !array.is_null() {
+                for (c, &value) in values.iter().enumerate() {
+                    *array.add(c * block.leading_dimension + i) = value;
+                }
+            }
+        };
+        let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive] = point.state;
+        store(&[w_el, w_tc, w_td, w_ld], block.energies);
+        store(&[i_el, i_tc, i_td, i_ld], block.invariants);
+        store(&[index, failed, alive], block.failure);
+        store(point.modes.as_flattened(), block.modes);
+        // SAFETY: as above.
+        unsafe {
+            if !block.stress[0].is_null() {
+                for (column, value) in block.stress.into_iter().zip(point.stress) {
+                    *column.add(i) = value;
+                }
+            }
+            if !block.wave_speed.is_null() {
+                *block.wave_speed.add(i) = wave_speed::wave_speed(point.wave_modulus, block.density);
+            }
+            if !block.status.is_null() {
+                *block.status.add(i) = point.status;
+            }
+        }
+    }
+}
+
+impl<T: Scalar> Sink<T, 0> for OnePoint<'_, T> {
+    #[inline(always)]
+    fn take(self, point: Point<T>, _: [T; 0]) {
+        self.put(&point);
+    }
+}

@@ -1,0 +1,31 @@
+//! What a set of instructions gives a block: registers, and the kernels compiled for it. Each set has a file of its own, so that the
+//! compiler builds them side by side.
+
+use core::ops::Range;
+
+use super::linear::LinearPointers;
+use super::pointers::Pointers;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::real::Lanes;
+use crate::law::number::registers::Registers;
+
+pub(super) trait Instructions {
+    type Lanes<T: Registers>: Lanes<T>;
+
+    /// The kernel of the hyperelastic law that is built for `WANT`, see [`kernel`](super::kernel).
+    ///
+    /// # Safety
+    /// As for [`sweep`](super::kernel::sweep), on a processor that has the instructions.
+    unsafe fn run<T: Registers, const WANT: u8>(
+        law: &Hyperelastic<T>,
+        block: &Pointers<T>,
+        points: Range<usize>,
+    ) -> i32;
+
+    /// The kernel of the linear elastic law.
+    ///
+    /// # Safety
+    /// As for [`sweep_linear`](super::linear::sweep_linear), on a processor that has the instructions.
+    unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32;
+}

@@ -1,0 +1,568 @@
+//! The kernel: the stages of the law, each over several registers of points before the next one.
+
+use core::mem::MaybeUninit;
+use core::ops::Range;
+
+use super::pointers::Pointers;
+use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
+use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
+use crate::law::number::elementary::{Power, Reduced};
+use crate::law::number::real::{Lanes, Real, Scalar};
+use crate::law::response::{Request, nan_unless_finite};
+use crate::law::status;
+use crate::law::tangent::{Measure, may_overflow};
+use crate::law::wave_speed;
+
+// What a kernel is built for, so that its loops hold no decision about it. All but the last are for a law without longitudinal
+// shear.
+
+/// The stress alone, with the fibre direction of the properties; the others add to it.
+pub(super) const STRESS: u8 = 0;
+/// Energies, invariants, failure and the latch as well.
+pub(super) const STATE: u8 = 1;
+/// A fibre direction for each point.
+pub(super) const FIBRES: u8 = 2;
+/// The fibre direction of the properties is the first axis.
+pub(super) const ALIGNED: u8 = 4;
+/// Whatever the block has arrays for, which the kernel looks up for each group of registers; and a longitudinal shear.
+pub(super) const ANY: u8 = 8;
+
+/// The kernel, for points that fill whole registers.
+///
+/// # Safety
+/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
+/// a multiple of COUNT; `WANT` asks for nothing that the block leaves out.
+#[inline(always)]
+pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<T>,
+    block: &Pointers<T>,
+    points: Range<usize>,
+) -> i32 {
+    let lanes = law.lanes::<R>();
+    let mut worst = R::splat(0.0);
+    let mut i = points.start;
+    while i < points.end {
+        let count = STAGED.min((points.end - i) / R::COUNT);
+        // SAFETY: i + count COUNT ≤ the end, and the caller's promise.
+        unsafe { evaluate::<T, R, WANT>(&lanes, block, i, count, &mut worst) };
+        i += count * R::COUNT;
+    }
+    least_code(worst)
+}
+
+/// The least of the codes in the lanes, or 0.
+#[inline(always)]
+pub(super) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
+    let mut stored = [0; WIDEST];
+    // SAFETY: there is room for the widest lanes.
+    unsafe { codes.store_integers(stored.as_mut_ptr()) };
+    let mut code = status::OK;
+    for &one in stored.iter().take(R::COUNT) {
+        code = code.min(one);
+    }
+    code
+}
+
+/// The most lanes that there are.
+pub(super) const WIDEST: usize = 16;
+
+/// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
+/// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
+pub(super) const STAGED: usize = 6;
+
+/// What a stage leaves for the next ones.
+struct Stage<X>([MaybeUninit<X>; STAGED]);
+
+impl<X> Stage<X> {
+    #[inline(always)]
+    fn new() -> Self {
+        Stage([const { MaybeUninit::uninit() }; STAGED])
+    }
+
+    /// # Safety
+    /// k < STAGED: without bounds a stage's loop has one way out.
+    #[inline(always)]
+    unsafe fn put(&mut self, k: usize, x: X) {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.get_unchecked_mut(k) }.write(x);
+    }
+
+    /// # Safety
+    /// What stands at k has been put there.
+    #[inline(always)]
+    unsafe fn get(&self, k: usize) -> &X {
+        // SAFETY: the caller's promise.
+        unsafe { self.0.get_unchecked(k).assume_init_ref() }
+    }
+}
+
+/// What a stage hands to the next one and nobody else, in one place: what stages leave must stay in the nearest cache, with
+/// the points' own numbers.
+#[derive(Clone, Copy)]
+union Step<R: Real> {
+    logarithms: Logarithms<R>,
+    power: Power<R>,
+    reduced: Reduced<R>,
+    powered: R,
+}
+
+/// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
+///
+/// # Safety
+/// As for [`sweep`], with i + count COUNT ≤ n and count ≤ STAGED.
+#[inline(always)]
+unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    count: usize,
+    worst: &mut R,
+) {
+    let mut frames = Stage::new();
+    // SAFETY: the caller's promise; each stage reads what the one before has put.
+    unsafe {
+        if WANT & ALIGNED != 0 {
+            staged::<T, R, FirstAxis, WANT>(law, block, i, count, |_| (FirstAxis, None), worst);
+        } else if WANT & (FIBRES | ANY) != 0 {
+            for k in 0..count {
+                frames.put(k, frame::<T, R, WANT>(law, block, i + k * R::COUNT));
+            }
+            let fibre = |k: usize| {
+                let (frame, usable) = *frames.get(k);
+                (frame, Some(usable))
+            };
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, fibre, worst);
+        } else {
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |_| (law.frame, None), worst);
+        }
+    }
+}
+
+/// Evaluates `count` registers of points from `i` on, stage by stage. `axes` are those of a register, with where they are
+/// usable if that is not everywhere.
+///
+/// # Safety
+/// As for [`evaluate`].
+#[inline(always)]
+unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    count: usize,
+    axes: impl Fn(usize) -> (A, Option<R::Mask>),
+    worst: &mut R,
+) {
+    let (mut stretches, mut sections, mut kept, mut images) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
+    let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
+    let zero = R::splat(0.0);
+    let mut check = zero;
+    let at = |k: usize| i + k * R::COUNT;
+    // Without an array for them the status codes go to a scratch array: to ask at every store would cost more.
+    let mut scratch = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
+    let status = if block.status.is_null() { scratch.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
+    // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
+    // what the ones before have put.
+    unsafe {
+        for k in 0..count {
+            let n = axes(k).0;
+            let (stretch, vectors) = Stretch::new(&gradient(block, at(k)), &n);
+            stretches.put(k, stretch);
+            kept.put(k, n.keep(vectors));
+        }
+        for k in 0..count {
+            let (n, d) = (axes(k).0, stretches.get(k));
+            let (section, vectors) = Section::new(d, n.recall(kept.get(k), &gradient(block, at(k)), d), &n);
+            sections.put(k, section);
+            images.put(k, vectors);
+        }
+        for k in 0..count {
+            steps.put(k, Step { logarithms: Logarithms::new(stretches.get(k), sections.get(k)) });
+        }
+        for k in 0..count {
+            strains.put(k, Strain::new(stretches.get(k), sections.get(k), &steps.get(k).logarithms));
+            for column in block.stress {
+                R::prefetch(column.wrapping_add(at(k)));
+            }
+        }
+        for k in 0..count {
+            steps.put(k, Step { power: law.compaction(strains.get(k)) });
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.energies, block.leading_dimension, at(k));
+        }
+        for k in 0..count {
+            steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.invariants, block.leading_dimension, at(k));
+        }
+        for k in 0..count {
+            steps.put(k, Step { powered: steps.get(k).reduced.finish() });
+            prefetch::<T, R, 3>(WANT & (STATE | ANY) != 0, block.failure, block.leading_dimension, at(k));
+        }
+        for k in 0..count {
+            let nan_if_invalid = match axes(k).1 {
+                Some(usable) => R::select(usable, strains.get(k).nan_if_invalid, R::splat(f64::NAN)),
+                None => strains.get(k).nan_if_invalid,
+            };
+            let d = stretches.get(k);
+            let [fibre, ..] = axes(k).0.recall(kept.get(k), &gradient(block, at(k)), d);
+            let &[a, b] = images.get(k);
+            let kinematics =
+                Kinematics { stretch: d, section: sections.get(k), images: [fibre, a, b], strain: strains.get(k) };
+            let outcome = respond::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, nan_if_invalid);
+            zero.store_integers(status.wrapping_add(at(k)));
+            outcomes.put(k, outcome);
+        }
+        for k in 0..count {
+            check = add_to_check::<T, R, WANT>(block, at(k), outcomes.get(k).latch_or_nan, check);
+        }
+        // Invalid points are rare. A number less itself is 0, unless it is NaN or infinite.
+        #[allow(clippy::eq_op)]
+        let all_finite = (check - check).le(zero);
+        if R::any(!all_finite) {
+            for k in 0..count {
+                let usable = axes(k).1.unwrap_or(zero.le(zero));
+                let code = reset_invalid::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k));
+                code.store_integers(status.wrapping_add(at(k)));
+                *worst = R::select(code.lt(*worst), code, *worst);
+            }
+        }
+        if WANT & (STATE | ANY) != 0 {
+            for k in 0..count {
+                let (d, strain) = (stretches.get(k), strains.get(k));
+                store_state::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
+            }
+        }
+        if wants_tangent::<T, WANT>(block) {
+            for k in 0..count {
+                clear_tangent(block, at(k), outcomes.get(k));
+            }
+        }
+    }
+}
+
+/// The columns of F.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3] {
+    let f = &block.deformation_gradient;
+    // SAFETY: the caller's promise.
+    unsafe {
+        [
+            [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
+            [R::load(f[3].add(i)), R::load(f[4].add(i)), R::load(f[5].add(i))],
+            [R::load(f[6].add(i)), R::load(f[7].add(i)), R::load(f[8].add(i))],
+        ]
+    }
+}
+
+/// The material frame, of the property or of the points, and where it is usable.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+) -> (FibreFrame<R>, R::Mask) {
+    let m = &block.fibre;
+    if WANT & ANY != 0 && m[0].is_null() {
+        let zero = R::splat(0.0);
+        return (law.frame, zero.le(zero));
+    }
+    // SAFETY: the caller's promise.
+    let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
+    FibreFrame::new(direction)
+}
+
+/// Whether there is a longitudinal shear.
+#[inline(always)]
+fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
+    WANT & ANY != 0 && law.shears
+}
+
+/// What a kernel is asked for.
+#[inline(always)]
+fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
+    let asked = WANT & ANY != 0;
+    Request {
+        stress: !asked || !block.stress[0].is_null(),
+        energies: if asked { !block.energies.is_null() } else { WANT & STATE != 0 },
+        invariants: if asked { !block.invariants.is_null() } else { WANT & STATE != 0 },
+        failure: if asked { !block.failure.is_null() } else { WANT & STATE != 0 },
+        modes: asked && !block.modes.is_null(),
+        wave_modulus: asked && !block.wave_speed.is_null(),
+    }
+}
+
+/// What the later stages need to know of a point.
+struct Outcome<R: Real> {
+    /// Whether it has a new state: it had not failed before and can be evaluated.
+    updated: R::Mask,
+    /// The old latch, NaN where the point cannot be evaluated.
+    latch_or_nan: R,
+}
+
+/// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are to be reset. The state is stored by a
+/// stage of its own: every component lies in another page, and a processor stores to few pages at a time without waiting.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    kinematics: Kinematics<'_, R>,
+    power: R,
+    nan_if_invalid: R,
+) -> Outcome<R> {
+    let Kinematics { stretch: d, strain, .. } = kinematics;
+    let request = request::<T, WANT>(block);
+    let stride = block.leading_dimension;
+
+    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
+    unsafe {
+        let latch = latch::<T, R, WANT>(block, i);
+        // The modes and the tangent alone want the frame again.
+        let tangent = wants_tangent::<T, WANT>(block);
+        let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
+        let k = law.kirchhoff(d, strain, power);
+        let shear = shears::<R, WANT>(law);
+        let nan_if_invalid = if tangent {
+            nan_if_invalid + store_tangent(law, block, i, kinematics, &k, &frame, shear)
+        } else {
+            nan_if_invalid
+        };
+        let r = law.respond(kinematics, &k, &frame, nan_if_invalid, latch, request, shear);
+
+        if request.stress {
+            for c in 0..6 {
+                r.stress[c].store(block.stress[c].add(i));
+            }
+        }
+        if request.modes {
+            for (mode, s) in r.modes.iter().enumerate() {
+                for (c, &value) in s.iter().enumerate() {
+                    value.store(block.modes.add((6 * mode + c) * stride + i));
+                }
+            }
+        }
+        if request.wave_modulus {
+            let density = R::splat(block.density.into());
+            // The ratio of two numbers may leave the range; that of their roots does not.
+            wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
+        }
+        Outcome { updated: r.updated, latch_or_nan: r.latch_or_nan }
+    }
+}
+
+/// The latch of the old state.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> R {
+    let absent = if WANT & ANY != 0 { block.failure_old.is_null() } else { WANT & STATE == 0 };
+    if absent {
+        return R::splat(0.0);
+    }
+    // SAFETY: the caller's promise.
+    unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
+}
+
+/// Whether a kernel is asked for the tangent: only those that ask, and are not built for an aligned fibre, ever are.
+#[inline(always)]
+fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
+    WANT & ANY != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
+}
+
+/// Stores the tangent of the intact material. Returns 0 where all of it are finite numbers, else NaN.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on of a block that wants the tangent.
+#[inline(always)]
+#[allow(clippy::too_many_arguments)]
+unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    kinematics: Kinematics<'_, R>,
+    k: &Kirchhoff<R>,
+    frame: &FibreFrame<R>,
+    shear: bool,
+) -> R {
+    let store = |entries: &[R]| {
+        for (c, entry) in entries.iter().enumerate() {
+            // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
+            unsafe { entry.store(block.tangent.add(c * block.leading_dimension + i)) };
+        }
+    };
+    if block.measure == Measure::Nominal {
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
+        let nominal = law.nominal_tangent(kinematics, k, frame, &stress, shear);
+        store(&nominal);
+        nan_unless_finite(&nominal)
+    } else {
+        let moduli = law.moduli(kinematics, k, frame, false, block.measure, shear);
+        store(moduli.matrix().as_flattened());
+        if may_overflow::<R>(block.measure, shear) { nan_unless_finite(&moduli.0) } else { R::splat(0.0) }
+    }
+}
+
+/// Sets the tangent of points to 0 that have failed before or cannot be evaluated.
+///
+/// # Safety
+/// As for [`store_tangent`], after it.
+#[inline(always)]
+unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
+    let zero = R::splat(0.0);
+    if !R::any(!outcome.updated) {
+        return;
+    }
+    for c in 0..block.measure.components() {
+        // SAFETY: the array has the component, and the lanes from i on.
+        unsafe {
+            let place = block.tangent.add(c * block.leading_dimension + i);
+            R::select(outcome.updated, R::load(place), zero).store(place);
+        }
+    }
+}
+
+/// `check` with what a register adds to it: the sum is no finite number where one of its points needs [`reset_invalid`], since it
+/// cannot be evaluated or its old state is not finite.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`respond`].
+#[inline(always)]
+unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    block: &Pointers<T>,
+    i: usize,
+    latch_or_nan: R,
+    check: R,
+) -> R {
+    let request = request::<T, WANT>(block);
+    // SAFETY: the arrays have the component, and the lanes from i on.
+    let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
+    let mut sum = if request.failure { latch_or_nan + old(block.failure, 0) } else { latch_or_nan };
+    for c in 0..4 {
+        sum = match (request.energies, request.invariants) {
+            (true, true) => old(block.energies, c).mul_add(old(block.invariants, c), sum),
+            (true, false) => sum + old(block.energies, c),
+            (false, true) => sum + old(block.invariants, c),
+            (false, false) => sum,
+        };
+    }
+    check + sum
+}
+
+/// Stores the new state of the points that have one, and the latch of all.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`respond`].
+#[inline(always)]
+unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    d: &Stretch<R>,
+    strain: &Strain<R>,
+    power: R,
+    outcome: &Outcome<R>,
+) {
+    let request = request::<T, WANT>(block);
+    let stride = block.leading_dimension;
+    // SAFETY: the arrays have the components, and the lanes from i on.
+    unsafe {
+        let latch = latch::<T, R, WANT>(block, i);
+        let k = law.kirchhoff(d, strain, power);
+        let r = law.history(strain, d.shear_invariant(), &k, outcome.updated, latch, request, shears::<R, WANT>(law));
+        if request.energies {
+            for (c, energy) in r.energies.into_iter().enumerate() {
+                energy.store_where(outcome.updated, block.energies.add(c * stride + i));
+            }
+        }
+        if request.invariants {
+            for (c, invariant) in r.invariants.into_iter().enumerate() {
+                invariant.store_where(outcome.updated, block.invariants.add(c * stride + i));
+            }
+        }
+        if request.failure {
+            r.failure_index.store_where(outcome.updated, block.failure.add(i));
+            r.failed.store(block.failure.add(stride + i));
+            (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
+        }
+    }
+}
+
+/// Has the processor fetch what [`store_state`] will store to.
+#[inline(always)]
+fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T, leading_dimension: usize, i: usize) {
+    if wanted {
+        for c in 0..COMPONENTS {
+            R::prefetch(array.wrapping_add(c * leading_dimension + i));
+        }
+    }
+}
+
+/// Puts 0 in place of what is not finite in an old state that is kept. Returns where it has.
+///
+/// # Safety
+/// `place` has the lanes.
+#[inline(always)]
+unsafe fn zero_if_not_finite<T: Scalar, R: Lanes<T>>(place: *mut T, updated: R::Mask) -> R::Mask {
+    let zero = R::splat(0.0);
+    // SAFETY: the caller's promise.
+    unsafe {
+        let wrong = !updated & !(R::load(place) * zero).le(zero);
+        zero.store_where(wrong, place);
+        wrong
+    }
+}
+
+/// Sets the stress of points that have failed before or cannot be evaluated to 0, and so what is not finite in the old state that
+/// they keep. Returns their status codes.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`respond`] and before [`store_state`].
+#[inline(always)]
+unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(
+    law: &Hyperelastic<R>,
+    block: &Pointers<T>,
+    i: usize,
+    d: &Stretch<R>,
+    usable: R::Mask,
+    outcome: &Outcome<R>,
+) -> R {
+    let (zero, stride) = (R::splat(0.0), block.leading_dimension);
+    let request = request::<T, WANT>(block);
+    // SAFETY: the caller's promise.
+    let latch = unsafe { latch::<T, R, WANT>(block, i) };
+    let mut dropped = zero.lt(zero);
+    // SAFETY: the caller's promise: the arrays have the components, and the lanes from i on.
+    unsafe {
+        if request.energies {
+            for c in 0..4 {
+                dropped = dropped | zero_if_not_finite::<T, R>(block.energies.add(c * stride + i), outcome.updated);
+            }
+        }
+        if request.invariants {
+            for c in 0..4 {
+                dropped = dropped | zero_if_not_finite::<T, R>(block.invariants.add(c * stride + i), outcome.updated);
+            }
+        }
+        if request.failure {
+            dropped = dropped | zero_if_not_finite::<T, R>(block.failure.add(i), outcome.updated);
+        }
+        if request.stress {
+            for place in block.stress {
+                zero.store_where(!outcome.updated, place.add(i));
+            }
+        }
+        let code = law.status_code(&gradient(block, i), d, usable, latch);
+        let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
+        R::select(outcome.updated, zero, code)
+    }
+}

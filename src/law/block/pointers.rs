@@ -1,0 +1,164 @@
+//! A block of points as hosts hold it: a pointer for each array, or each component.
+
+use crate::law::error::Error;
+use crate::law::number::level::Level;
+use crate::law::number::real::Scalar;
+use crate::law::response::Request;
+use crate::law::status;
+use crate::law::tangent::Measure;
+use crate::law::wave_speed;
+
+/// A block as a host passes it: null is left out.
+///
+/// The deformation gradient, the fibre direction and the stress come as one pointer a component, since some hosts keep
+/// them in arrays of their own; the other arrays are component-major with the leading dimension. `energies_old`,
+/// `invariants_old` and `failure_old` are the old state, null a fresh one; they may be the same arrays as the new ones.
+#[derive(Clone, Copy, Debug)]
+pub struct Pointers<T> {
+    pub n: usize,
+    pub leading_dimension: usize,
+    pub deformation_gradient: [*const T; 9],
+    pub fibre: [*const T; 3],
+    pub energies_old: *const T,
+    pub invariants_old: *const T,
+    pub failure_old: *const T,
+    pub density: T,
+    pub stress: [*mut T; 6],
+    pub energies: *mut T,
+    pub invariants: *mut T,
+    pub failure: *mut T,
+    pub modes: *mut T,
+    pub wave_speed: *mut T,
+    pub tangent: *mut T,
+    pub measure: Measure,
+    pub status: *mut i32,
+    /// The instructions to use, no better than the processor has; `None`: the best.
+    pub level: Option<Level>,
+}
+
+/// The pointers to the components of a component-major array; all null where the array is.
+#[inline(always)]
+pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
+    let (mut pointers, mut c) = ([array; N], 1);
+    while c < N && !array.is_null() {
+        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
+        c += 1;
+    }
+    pointers
+}
+
+/// Likewise, for writing.
+#[inline(always)]
+pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize) -> [*mut T; N] {
+    let (mut pointers, mut c) = ([array; N], 1);
+    while c < N && !array.is_null() {
+        pointers[c] = array.wrapping_add(c.wrapping_mul(leading_dimension));
+        c += 1;
+    }
+    pointers
+}
+
+impl<T> Pointers<T> {
+    /// The points from `first` ≤ n on.
+    pub(super) fn from(self, first: usize) -> Self {
+        let input = |p: *const T| if p.is_null() { p } else { p.wrapping_add(first) };
+        let output = |p: *mut T| if p.is_null() { p } else { p.wrapping_add(first) };
+        Pointers {
+            n: self.n - first,
+            deformation_gradient: self.deformation_gradient.map(input),
+            fibre: self.fibre.map(input),
+            energies_old: input(self.energies_old),
+            invariants_old: input(self.invariants_old),
+            failure_old: input(self.failure_old),
+            stress: self.stress.map(output),
+            energies: output(self.energies),
+            invariants: output(self.invariants),
+            failure: output(self.failure),
+            modes: output(self.modes),
+            wave_speed: output(self.wave_speed),
+            tangent: output(self.tangent),
+            status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
+            ..self
+        }
+    }
+}
+
+pub(super) fn leading_dimension_below(n: usize, leading_dimension: usize) -> Error {
+    Error::Count {
+        code: status::BAD_LEADING_DIMENSION,
+        what: "leading dimension",
+        found: leading_dimension as i64,
+        wanted: n as i64,
+    }
+}
+
+impl<T: Scalar> Pointers<T> {
+    /// What the block asks for, if it can be evaluated.
+    ///
+    /// # Errors
+    /// As for [`Hyperelastic::raw_block`].
+    #[inline(always)]
+    pub(super) fn check(&self) -> Result<Request, Error> {
+        if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
+            return Err(Error::Plain(status::NULL_ARGUMENT));
+        }
+        if self.leading_dimension < self.n {
+            return Err(leading_dimension_below(self.n, self.leading_dimension));
+        }
+        if self.n > 0 && !self.wave_speed.is_null() {
+            wave_speed::check_density(self.density)?;
+        }
+        Ok(Request {
+            stress: !self.stress[0].is_null(),
+            energies: !self.energies.is_null(),
+            invariants: !self.invariants.is_null(),
+            failure: !self.failure.is_null(),
+            modes: !self.modes.is_null(),
+            wave_modulus: !self.wave_speed.is_null(),
+        })
+    }
+
+    /// The instructions to use.
+    #[inline(always)]
+    pub(super) fn level(&self) -> Level {
+        self.level.unwrap_or(Level::Avx512).min(Level::best())
+    }
+
+    /// Whether the old state, as far as it is wanted, is where the new one goes.
+    pub(super) fn in_place(&self) -> bool {
+        let pairs = [
+            (self.energies_old, self.energies),
+            (self.invariants_old, self.invariants),
+            (self.failure_old, self.failure),
+        ];
+        pairs.iter().all(|&(old, new)| new.is_null() || old == new.cast_const())
+    }
+
+    /// Copies the old state, or zeros where there is none, to the arrays of the new one: the kernel works in place.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`].
+    pub(super) unsafe fn copy_old_state(&mut self) {
+        let (n, stride) = (self.n, self.leading_dimension);
+        let groups = [
+            (&mut self.energies_old, self.energies, 4),
+            (&mut self.invariants_old, self.invariants, 4),
+            (&mut self.failure_old, self.failure, 3),
+        ];
+        for (old, new, components) in groups {
+            if new.is_null() || old.cast_mut() == new {
+                continue;
+            }
+            for c in 0..components {
+                // SAFETY: the caller's promise: arrays that are not the same do not overlap. A number whose bytes are all 0 is 0.
+                unsafe {
+                    match old.is_null() {
+                        true => new.add(c * stride).write_bytes(0, n),
+                        false => new.add(c * stride).copy_from_nonoverlapping(old.add(c * stride), n),
+                    }
+                }
+            }
+            *old = new;
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! What a call about one point makes beside its stress and state: nothing, or one of the tangents.
+
+use super::hyperelastic::{Hyperelastic, Kirchhoff};
+use super::kinematics::{FibreFrame, Kinematics, Section, Stretch};
+use super::number::real::Real;
+use super::response::Request;
+use super::tangent::{Bases, Measure, may_overflow};
+
+/// What is computed of a point beside its stress and state: N numbers.
+///
+/// A trait and no closure: a closure that the compiler does not inline is compiled without the instructions (AVX2, FMA) of the
+/// function that calls it.
+pub(crate) trait Derivative<const N: usize>: Copy {
+    /// What of the tangent can be computed before the invariants are known.
+    type Early<R: Real>;
+    /// The derivative with a request known at run time only that asks for the same: the law's functions are built for these.
+    type General: Derivative<N>;
+
+    fn general(self) -> Self::General;
+
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Self::Early<R>;
+
+    /// What is wanted of the law itself.
+    fn request(self) -> Request;
+
+    /// Whether an entry may leave the range of R at a point whose strains are within it.
+    fn may_overflow<R: Real>(self, shear: bool) -> bool;
+
+    #[allow(clippy::too_many_arguments)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+        along_coordinates: bool,
+        early: &Self::Early<R>,
+        shear: bool,
+    ) -> [R; N];
+}
+
+/// No tangent.
+#[derive(Clone, Copy)]
+pub(crate) struct NoTangent(pub Request);
+
+/// No tangent, with stress and state as a request that the compiler knows.
+#[derive(Clone, Copy)]
+pub(crate) struct StressAndState;
+
+impl Derivative<0> for NoTangent {
+    type Early<R: Real> = ();
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        self.0
+    }
+
+    #[inline(always)]
+    fn may_overflow<R: Real>(self, _: bool) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        _: &Hyperelastic<R>,
+        _: Kinematics<'_, R>,
+        _: &Kirchhoff<R>,
+        _: &FibreFrame<R>,
+        _: bool,
+        (): &(),
+        _: bool,
+    ) -> [R; 0] {
+        []
+    }
+}
+
+impl Derivative<0> for StressAndState {
+    type Early<R: Real> = ();
+    type General = NoTangent;
+
+    fn general(self) -> NoTangent {
+        NoTangent(Request::STRESS_AND_STATE)
+    }
+
+    #[inline(always)]
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        Request::STRESS_AND_STATE
+    }
+
+    #[inline(always)]
+    fn may_overflow<R: Real>(self, _: bool) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        _: &Hyperelastic<R>,
+        _: Kinematics<'_, R>,
+        _: &Kirchhoff<R>,
+        _: &FibreFrame<R>,
+        _: bool,
+        (): &(),
+        _: bool,
+    ) -> [R; 0] {
+        []
+    }
+}
+
+/// A tangent of 6×6, by its upper triangle.
+#[derive(Clone, Copy)]
+pub(crate) struct SixBySix(pub Request, pub Measure);
+
+impl Derivative<21> for SixBySix {
+    type Early<R: Real> = ();
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        self.0
+    }
+
+    #[inline(always)]
+    fn may_overflow<R: Real>(self, shear: bool) -> bool {
+        may_overflow::<R>(self.1, shear)
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+        along_coordinates: bool,
+        (): &(),
+        shear: bool,
+    ) -> [R; 21] {
+        law.moduli(kinematics, k, n, along_coordinates, self.1, shear).0
+    }
+}
+
+/// The modulus of the Jaumann rate, with stress and state as a request that the compiler knows.
+#[derive(Clone, Copy)]
+pub(crate) struct JaumannModulus;
+
+impl Derivative<21> for JaumannModulus {
+    type Early<R: Real> = Bases<R>;
+    type General = SixBySix;
+
+    fn general(self) -> SixBySix {
+        SixBySix(Request::STRESS_AND_STATE, Measure::Jaumann)
+    }
+
+    #[inline(always)]
+    fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Bases<R> {
+        Bases::new(d, section, images)
+    }
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        Request::STRESS_AND_STATE
+    }
+
+    #[inline(always)]
+    fn may_overflow<R: Real>(self, shear: bool) -> bool {
+        may_overflow::<R>(Measure::Jaumann, shear)
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        _: &FibreFrame<R>,
+        _: bool,
+        bases: &Bases<R>,
+        shear: bool,
+    ) -> [R; 21] {
+        law.spatial_tangent(kinematics, bases, k, Measure::Jaumann, shear).0
+    }
+}
+
+/// dP/dF, 9×9.
+#[derive(Clone, Copy)]
+pub(crate) struct NineByNine(pub Request);
+
+impl Derivative<81> for NineByNine {
+    type Early<R: Real> = ();
+    type General = Self;
+
+    fn general(self) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
+
+    #[inline(always)]
+    fn request(self) -> Request {
+        self.0
+    }
+
+    #[inline(always)]
+    fn may_overflow<R: Real>(self, shear: bool) -> bool {
+        may_overflow::<R>(Measure::Nominal, shear)
+    }
+
+    #[inline(always)]
+    fn of<R: Real>(
+        self,
+        law: &Hyperelastic<R>,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        n: &FibreFrame<R>,
+        _: bool,
+        (): &(),
+        shear: bool,
+    ) -> [R; 81] {
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
+        law.nominal_tangent(kinematics, k, n, &stress, shear)
+    }
+}

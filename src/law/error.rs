@@ -1,0 +1,131 @@
+//! What is wrong with a call, with the values that its message needs; no allocation.
+
+use core::fmt;
+
+use super::parameters::Property;
+use super::status::{BAD_ARGUMENT, PROPERTY_DIRECTION, meaning};
+
+/// What is wrong, with the values that a message needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Error {
+    /// The number of properties or state variables is not the table's.
+    Count { code: i32, what: &'static str, found: i64, wanted: i64 },
+    /// A property is not finite or out of bounds. `index` counts from 0.
+    Property { code: i32, index: usize, property: &'static Property, value: f64 },
+    /// A direction among the properties cannot be used; `index` is that of its first component.
+    Direction { index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
+    /// A scalar argument is outside what is allowed.
+    Argument { name: &'static str, value: f64, wanted: &'static str },
+    /// Anything that its code says completely.
+    Plain(i32),
+}
+
+impl Error {
+    /// The status code.
+    pub fn code(&self) -> i32 {
+        match *self {
+            Error::Count { code, .. } | Error::Property { code, .. } | Error::Plain(code) => code,
+            Error::Direction { .. } => PROPERTY_DIRECTION,
+            Error::Argument { .. } => BAD_ARGUMENT,
+        }
+    }
+
+    /// Hands the message to `sink`, piece by piece. Formatting machinery of the standard library can panic; this cannot.
+    pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
+        match *self {
+            Error::Count { what, found, wanted, .. } => {
+                sink(what);
+                sink(": ");
+                describe_integer(found, sink);
+                sink(" given, ");
+                describe_integer(wanted, sink);
+                sink(" needed");
+            }
+            Error::Property { index, property, value, .. } => {
+                sink("property ");
+                describe_integer(index as i64 + 1, sink);
+                sink(" (");
+                sink(property.name);
+                sink(", ");
+                sink(property.meaning);
+                sink(") is ");
+                describe_number(value, sink);
+                sink("; allowed: ");
+                sink(property.allowed);
+            }
+            Error::Direction { index, name, value, wanted } => {
+                sink("properties ");
+                describe_integer(index as i64 + 1, sink);
+                sink(" to ");
+                describe_integer(index as i64 + 3, sink);
+                sink(" (");
+                sink(name);
+                sink(") are ");
+                describe_number(value[0], sink);
+                sink(", ");
+                describe_number(value[1], sink);
+                sink(", ");
+                describe_number(value[2], sink);
+                sink("; allowed: ");
+                sink(wanted);
+            }
+            Error::Argument { name, value, wanted } => {
+                sink("argument ");
+                sink(name);
+                sink(" is ");
+                describe_number(value, sink);
+                sink("; allowed: ");
+                sink(wanted);
+            }
+            Error::Plain(code) => match meaning(code) {
+                Some(text) => sink(text),
+                None => {
+                    sink("no such status code: ");
+                    describe_integer(i64::from(code), sink);
+                }
+            },
+        }
+    }
+}
+
+/// Digit by digit: the bounds checks inside `itoa` stay in the program, and with them a panic that C could reach.
+fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
+    const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
+    if value < 0 {
+        sink("-");
+    }
+    let magnitude = value.unsigned_abs();
+    let mut place = 10_u64.pow(19);
+    while place > 0 {
+        if place == 1 || place <= magnitude {
+            sink(DIGITS[(magnitude / place % 10) as usize]);
+        }
+        place /= 10;
+    }
+}
+
+fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
+    if value.is_nan() {
+        sink("NaN");
+    } else if value == f64::INFINITY {
+        sink("infinity");
+    } else if value == f64::NEG_INFINITY {
+        sink("-infinity");
+    } else {
+        sink(ryu::Buffer::new().format_finite(value));
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut result = Ok(());
+        self.describe(&mut |piece| {
+            if result.is_ok() {
+                result = f.write_str(piece);
+            }
+        });
+        result
+    }
+}
+
+impl core::error::Error for Error {}

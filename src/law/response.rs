@@ -1,0 +1,182 @@
+//! What failure and points that cannot be evaluated make of the law's answer, and what a caller asks for.
+
+use super::failure::Failure;
+use super::hyperelastic::{Hyperelastic, Kirchhoff};
+use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
+use super::number::real::Real;
+use super::status;
+
+/// What a caller wants beside the stress; what is left out is not computed and stays 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Request {
+    pub stress: bool,
+    pub energies: bool,
+    pub invariants: bool,
+    /// Failure index and latch. Left out, no point fails; a point that has failed before stays failed all the same.
+    pub failure: bool,
+    pub modes: bool,
+    pub wave_modulus: bool,
+}
+
+impl Request {
+    /// Everything there is.
+    pub const ALL: Request =
+        Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
+    /// What a solver wants at every step.
+    pub const STRESS_AND_STATE: Request = Request { modes: false, wave_modulus: false, ..Request::ALL };
+}
+
+/// What the law answers at once, for one point or for several side by side.
+#[derive(Clone, Copy)]
+pub(crate) struct Response<R: Real> {
+    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards; undefined where `latch_or_nan`
+    /// is NaN.
+    pub stress: [R; 6],
+    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
+    pub modes: [[R; 6]; 4],
+    /// ρ0 c² for a bound c of the wave speed, at least k_el.
+    pub wave_modulus: R,
+    /// The old latch, or NaN where the point cannot be evaluated: the reason is its [`status_code`](Hyperelastic::status_code).
+    pub latch_or_nan: R,
+    /// Where the state is a new one: the point has not failed before and can be evaluated.
+    pub updated: R::Mask,
+}
+
+/// The new state of a point; where the state is not updated the energies, invariants and the index are undefined and the old ones
+/// stay.
+#[derive(Clone, Copy)]
+pub(crate) struct History<R> {
+    /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index.
+    pub energies: [R; 4],
+    pub invariants: [R; 4],
+    pub failure_index: R,
+    /// The new latch, 0 or 1.
+    pub failed: R,
+}
+
+impl<R: Real> Hyperelastic<R> {
+    /// The stress of a point, given its kinematics, the factors of its modes, `nan_if_invalid` (0 where these are valid, else NaN)
+    /// and the latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be computed.
+    ///
+    /// The wave modulus is a finite number at every point, the rest wherever the point can be evaluated.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn respond(
+        &self,
+        kinematics: Kinematics<'_, R>,
+        k: &Kirchhoff<R>,
+        frame: &FibreFrame<R>,
+        nan_if_invalid: R,
+        latch: R,
+        request: Request,
+        shear: bool,
+    ) -> Response<R> {
+        let Kinematics { stretch: d, strain, .. } = kinematics;
+        let zero = R::splat(0.0);
+        // NaN does not count as intact.
+        let mut latch_or_nan = latch + nan_if_invalid;
+        let intact = Failure::intact(latch_or_nan);
+        let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
+
+        // Whether all that was asked for is a finite number: zero times that is zero. With the bounds of the properties
+        // the invariants, the index and the energies are finite wherever the kinematics are valid, but for the shear's energy.
+        // A compaction energy that does not fit shows in the stress, if that is asked for.
+        if !R::HEADROOM || shear {
+            let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
+            latch_or_nan = sum.mul_add(zero, latch_or_nan);
+            if request.energies && !request.stress {
+                latch_or_nan = k.compaction_energy.mul_add(zero, latch_or_nan);
+            }
+        }
+        if request.energies && shear {
+            latch_or_nan = self.energies(strain, d.shear_invariant(), k, shear)[3].mul_add(zero, latch_or_nan);
+        }
+        let mut modes = [[zero; 6]; 4];
+        let mut wave = self.k_el;
+        if request.modes || request.wave_modulus {
+            let decomposition = Decomposition::new(kinematics);
+            if request.modes {
+                modes = self.modes(&decomposition, k, frame);
+                for &x in modes.iter().flatten() {
+                    latch_or_nan = x.mul_add(zero, latch_or_nan);
+                }
+            }
+            if request.wave_modulus {
+                wave = self.wave_modulus(&decomposition, strain, k);
+                latch_or_nan = wave.mul_add(zero, latch_or_nan);
+            }
+        }
+        let updated = Failure::intact(latch_or_nan);
+        if request.modes {
+            for x in modes.iter_mut().flatten() {
+                *x = R::select(updated, *x, zero);
+            }
+        }
+        Response { stress, modes, wave_modulus: R::select(updated, wave, self.k_el), latch_or_nan, updated }
+    }
+
+    /// The new state, given where there is one. The latch is a finite number at every point.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    pub(crate) fn history(
+        &self,
+        strain: &Strain<R>,
+        i_ld: R,
+        k: &Kirchhoff<R>,
+        updated: R::Mask,
+        latch: R,
+        request: Request,
+        shear: bool,
+    ) -> History<R> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let index = if request.failure { self.failure.index(strain) } else { zero };
+        History {
+            energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
+            invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
+            failure_index: index,
+            failed: R::select(!Failure::intact(latch) | (updated & Failure::reached(index)), one, zero),
+        }
+    }
+
+    /// The status code of a point whose state is not updated, as a number: why it cannot be evaluated, or 0 where it has failed
+    /// before. `usable` says whether its fibre direction is.
+    #[inline(always)]
+    pub(crate) fn status_code(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: R::Mask, latch: R) -> R {
+        let zero = R::splat(0.0);
+        let code = |status: i32| R::splat(f64::from(status));
+        // A number times zero is zero unless it is NaN or infinite. Where F is too large its determinant is not meaningful.
+        let (mut finite, mut size) = (zero, zero);
+        for column in f {
+            for &entry in column {
+                finite = entry.mul_add(zero, finite);
+                size = entry.mul_add(entry, size);
+            }
+        }
+        let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
+        // Later lines take precedence: a latch that is set, F not finite, no fibre direction, F inverted, and else an overflow.
+        let error = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
+        let error = R::select(usable, error, code(status::FIBRE_DIRECTION));
+        let error = R::select(finite.le(zero), error, code(status::NOT_FINITE));
+        let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));
+        R::select(Failure::intact(latch), error, failed)
+    }
+}
+
+/// 0 where all values are finite, else NaN.
+#[inline(always)]
+pub(crate) fn nan_unless_finite<R: Real>(values: &[R]) -> R {
+    let zero = R::splat(0.0);
+    // Four sums, which need not wait for one another.
+    let [mut a, mut b, mut c, mut d] = [zero; 4];
+    let mut fours = values.chunks_exact(4);
+    for four in &mut fours {
+        if let &[x, y, z, w] = four {
+            (a, b) = (x.mul_add(zero, a), y.mul_add(zero, b));
+            (c, d) = (z.mul_add(zero, c), w.mul_add(zero, d));
+        }
+    }
+    for &x in fours.remainder() {
+        a = x.mul_add(zero, a);
+    }
+    (a + b) + (c + d)
+}

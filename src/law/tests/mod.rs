@@ -1,0 +1,4 @@
+//! Tests of what the laws are made of; the laws themselves are tested from outside.
+
+mod elementary;
+mod failure;
