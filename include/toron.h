@@ -2,7 +2,8 @@
  *
  * Generated from the library's source: do not edit. Deformation gradients are passed by columns, F11 F21 F31 F12 F22 F32
  * F13 F23 F33; stresses as 11 22 33 12 23 31 unless a host has its own order. Status codes: 0 is success, a negative
- * number an error. Every function may be called from any thread; none allocates, locks or keeps a pointer.
+ * number an error. Every function may be called from any thread; none allocates, locks or keeps a pointer. Arrays must not
+ * overlap, except that the old and the new state may be the same array. The reference placement is the undeformed one.
  */
 
 #ifndef TORON_H
@@ -22,7 +23,7 @@
 #define TORON_NULL_ARGUMENT -101
 
 /*
- A count (of components, stress entries, …) is not what the entry can serve.
+ A count (of points, components or stress entries) is not one that this function supports.
  */
 #define TORON_BAD_COUNT -102
 
@@ -42,12 +43,12 @@
 #define TORON_BAD_ARGUMENT -105
 
 /*
- The host passes no deformation gradient: a small-strain analysis, F = 0, or F elsewhere than where it is read.
+ The host passes no deformation gradient: a small-strain analysis, F = 0, or F not stored where it is read.
  */
 #define TORON_NO_DEFORMATION_GRADIENT -106
 
 /*
- The number of properties is not the table's.
+ The number of properties differs from that in the table of properties.
  */
 #define TORON_PROPERTY_COUNT -201
 
@@ -72,12 +73,13 @@
 #define TORON_FIBRE_OUT_OF_PLANE -205
 
 /*
- There are fewer state variables than the table's.
+ There are fewer state variables than the law needs.
  */
 #define TORON_STATE_COUNT -211
 
 /*
- The deformation gradient has a determinant ≤ 0 (or one too small for a number), or maps the fibre to nothing.
+ The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an inverted
+ element.
  */
 #define TORON_INVERTED -301
 
@@ -107,17 +109,17 @@
 #define TORON_INCREMENT_TOO_LARGE -306
 
 /*
- Number of the interface. It changes when a caller compiled against an older header could no longer run.
+ Version of the binary interface. It changes when a caller compiled with an older header would no longer work.
  */
 #define TORON_ABI_VERSION 1
 
 /*
- The hyperelastic yarn law, where a table or a preset is asked for.
+ Selects the hyperelastic yarn law in the functions for tables.
  */
 #define TORON_HYPERELASTIC 0
 
 /*
- The linear elastic orthotropic law.
+ Selects the linear elastic orthotropic law in these functions.
  */
 #define TORON_LINEAR_ELASTIC 1
 
@@ -136,57 +138,59 @@
 #define TORON_LINEAR_ELASTIC_STATE 10
 
 /*
- The frame of the linear elastic law follows the fibre.
+ Linear elastic law: the material frame follows the fibre.
  */
 #define TORON_ROTATION_FIBRE 0
 
 /*
- It follows the polar rotation of F.
+ Linear elastic law: the material frame follows the rotation R of F = R U.
  */
 #define TORON_ROTATION_POLAR 1
 
 /*
- It follows the spin.
+ Linear elastic law: the material frame follows the spin (Jaumann rate).
  */
 #define TORON_ROTATION_SPIN 2
 
 /*
- The linear elastic law fails by its largest principal stress.
+ Linear elastic law: failure by the largest principal stress.
  */
 #define TORON_CRITERION_PRINCIPAL 0
 
 /*
- It fails by the stress along the fibre.
+ Linear elastic law: failure by the stress along the fibre.
  */
 #define TORON_CRITERION_FIBRE 1
 
 /*
- Tangent: dS/dE, second Piola-Kirchhoff stress by Green-Lagrange strain, reference axes; 6 x 6.
+ Tangent dS/dE: derivative of the second Piola-Kirchhoff stress with respect to the Green-Lagrange strain, reference
+ axes; 6 x 6.
  */
 #define TORON_TANGENT_MATERIAL 0
 
 /*
- The Truesdell modulus of the Cauchy stress: dS/dE pushed forward, over J; 6 x 6.
+ Tangent for the Truesdell rate of the Cauchy stress: dS/dE pushed forward and divided by J; 6 x 6.
  */
 #define TORON_TANGENT_TRUESDELL 1
 
 /*
- The modulus of the Jaumann rate of the Kirchhoff stress, over J; 6 x 6.
+ Tangent for the Jaumann rate of the Kirchhoff stress, divided by J (Abaqus's DDSDDE); 6 x 6.
  */
 #define TORON_TANGENT_JAUMANN 2
 
 /*
- dP/dF, first Piola-Kirchhoff stress by deformation gradient, both 11 21 31 12 22 32 13 23 33; 9 x 9.
+ Tangent dP/dF: derivative of the first Piola-Kirchhoff stress with respect to the deformation gradient, both in the
+ order 11 21 31 12 22 32 13 23 33; 9 x 9.
  */
 #define TORON_TANGENT_NOMINAL 3
 
 /*
- Instructions of a block: the best that the processor has.
+ Instruction set for a block: the widest that the processor supports.
  */
 #define TORON_LEVEL_BEST 0
 
 /*
- None that only some processors of the architecture have.
+ Only instructions that every processor of the architecture has (SSE2 on x86-64).
  */
 #define TORON_LEVEL_BASELINE 1
 
@@ -201,34 +205,35 @@
 #define TORON_LEVEL_AVX512 3
 
 /*
- A row of the tables of properties and state variables. Texts are terminated UTF-8.
+ A row of the tables of properties and state variables. Texts are null-terminated UTF-8.
  */
 typedef struct {
   /*
-   The name in decks and messages, and the thesis's symbol.
+   The name used in decks and messages, and the symbol used in the documentation.
    */
   char name[24];
   char symbol[24];
   /*
-   The unit's dimension in words ("stress", "energy/volume", "-"), and as powers of mass, length and time.
+   The physical dimension in words ("stress", "energy/volume", "-"), and as exponents of mass, length and time.
    */
   char unit[24];
   int32_t mass;
   int32_t length;
   int32_t time;
   /*
-   Whether there is a default, and its value; for state variables the value at the start, 0.
+   1 if there is a default, else 0; and the default. For state variables the initial value, 0.
    */
   int32_t has_default;
   double default_value;
   /*
-   The least value allowed, and whether it is itself excluded, and the greatest one; infinite where there is no bound.
+   The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least value
+   itself is not allowed.
    */
   double minimum;
   double maximum;
   int32_t minimum_excluded;
   /*
-   The bounds in words, and what the quantity is.
+   The allowed values in words, and the meaning of the quantity.
    */
   char allowed[80];
   char meaning[96];
@@ -237,12 +242,13 @@ typedef struct {
 /*
  A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
 
- Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
- one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+ Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
+ same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
+ component-major state array of 11 components, starting at components 0, 4 and 8.
  */
 typedef struct {
   /*
-   Number of points, and the distance from one component to the next, at least as many.
+   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
    */
   size_t n;
   size_t leading_dimension;
@@ -251,17 +257,17 @@ typedef struct {
    */
   const double *deformation_gradient;
   /*
-   In, 3: the fibre direction of each point, any length; null: the property.
+   In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
    */
   const double *fibre;
   /*
-   In, 4, 4 and 3: the old state; null: all 0.
+   In, 4, 4 and 3 components: the old state; if null, all 0.
    */
   const double *energies_old;
   const double *invariants_old;
   const double *failure_old;
   /*
-   In: reference density; read for the wave speed only.
+   In: reference density; used only if wave_speed is not null.
    */
   double density;
   /*
@@ -277,7 +283,8 @@ typedef struct {
    */
   double *invariants;
   /*
-   Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
+   failed.
    */
   double *failure;
   /*
@@ -285,8 +292,9 @@ typedef struct {
    */
   double *modes;
   /*
-   Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
-   step and bulk viscosity may take it as it is.
+   Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
+   along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+   exact speed.
    */
   double *wave_speed;
   /*
@@ -294,8 +302,8 @@ typedef struct {
    */
   int32_t *status;
   /*
-   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-   same bits, the baseline others.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
 } toron_block_f64;
@@ -303,12 +311,13 @@ typedef struct {
 /*
  A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
 
- Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
- one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+ Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
+ same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
+ component-major state array of 11 components, starting at components 0, 4 and 8.
  */
 typedef struct {
   /*
-   Number of points, and the distance from one component to the next, at least as many.
+   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
    */
   size_t n;
   size_t leading_dimension;
@@ -317,17 +326,17 @@ typedef struct {
    */
   const float *deformation_gradient;
   /*
-   In, 3: the fibre direction of each point, any length; null: the property.
+   In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
    */
   const float *fibre;
   /*
-   In, 4, 4 and 3: the old state; null: all 0.
+   In, 4, 4 and 3 components: the old state; if null, all 0.
    */
   const float *energies_old;
   const float *invariants_old;
   const float *failure_old;
   /*
-   In: reference density; read for the wave speed only.
+   In: reference density; used only if wave_speed is not null.
    */
   float density;
   /*
@@ -343,7 +352,8 @@ typedef struct {
    */
   float *invariants;
   /*
-   Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
+   failed.
    */
   float *failure;
   /*
@@ -351,8 +361,9 @@ typedef struct {
    */
   float *modes;
   /*
-   Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
-   step and bulk viscosity may take it as it is.
+   Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
+   along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+   exact speed.
    */
   float *wave_speed;
   /*
@@ -360,8 +371,8 @@ typedef struct {
    */
   int32_t *status;
   /*
-   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-   same bits, the baseline others.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
 } toron_block_f32;
@@ -370,11 +381,12 @@ typedef struct {
  A block of points of the linear elastic law: component-major arrays, component c of point i at
  `c * leading_dimension + i`.
 
- Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+ Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
+ as that of the new state.
  */
 typedef struct {
   /*
-   Number of points, and the distance from one component to the next, at least as many.
+   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
    */
   size_t n;
   size_t leading_dimension;
@@ -384,8 +396,8 @@ typedef struct {
   const double *f_old;
   const double *f_new;
   /*
-   In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
-   nor written for the other frames.
+   In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
+   for `TORON_ROTATION_SPIN`; not used for the other frames.
    */
   double *axes;
   /*
@@ -393,11 +405,11 @@ typedef struct {
    */
   const double *state_old;
   /*
-   Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+   Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   double *state_new;
   /*
-   Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+   Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
    */
   double *stress;
   /*
@@ -405,8 +417,8 @@ typedef struct {
    */
   int32_t *status;
   /*
-   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-   same bits, the baseline others.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
 } toron_linear_block_f64;
@@ -415,11 +427,12 @@ typedef struct {
  A block of points of the linear elastic law: component-major arrays, component c of point i at
  `c * leading_dimension + i`.
 
- Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+ Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
+ as that of the new state.
  */
 typedef struct {
   /*
-   Number of points, and the distance from one component to the next, at least as many.
+   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
    */
   size_t n;
   size_t leading_dimension;
@@ -429,8 +442,8 @@ typedef struct {
   const float *f_old;
   const float *f_new;
   /*
-   In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
-   nor written for the other frames.
+   In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
+   for `TORON_ROTATION_SPIN`; not used for the other frames.
    */
   float *axes;
   /*
@@ -438,11 +451,11 @@ typedef struct {
    */
   const float *state_old;
   /*
-   Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+   Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   float *state_new;
   /*
-   Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+   Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
    */
   float *stress;
   /*
@@ -450,18 +463,19 @@ typedef struct {
    */
   int32_t *status;
   /*
-   In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-   same bits, the baseline others.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
    */
   int32_t level;
 } toron_linear_block_f32;
 
 /*
- The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+ The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
 typedef struct {
   /*
-   Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+   Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
+   (11).
    */
   int32_t nblock;
   int32_t ndir;
@@ -469,7 +483,7 @@ typedef struct {
   int32_t nstatev;
   int32_t nprops;
   /*
-   Both 0: the data check, which wants an elastic answer to `strain_inc`.
+   If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
    */
   double step_time;
   double total_time;
@@ -486,19 +500,19 @@ typedef struct {
    */
   const double *strain_inc;
   /*
-   In, 6 each: U at both ends of the step.
+   In, 6 components each: the right stretch U at the start and at the end of the increment, 11 22 33 12 23 31.
    */
   const double *stretch_old;
   const double *stretch_new;
   /*
-   In: 6, nstatev, 1 and 1.
+   In, with 6, nstatev, 1 and 1 components.
    */
   const double *stress_old;
   const double *state_old;
   const double *ener_intern_old;
   const double *ener_inelas_old;
   /*
-   Out: 6, nstatev, 1 and 1.
+   Out, with 6, nstatev, 1 and 1 components.
    */
   double *stress_new;
   double *state_new;
@@ -507,11 +521,12 @@ typedef struct {
 } toron_vumat_f64;
 
 /*
- The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+ The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
 typedef struct {
   /*
-   Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+   Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
+   (11).
    */
   int32_t nblock;
   int32_t ndir;
@@ -519,7 +534,7 @@ typedef struct {
   int32_t nstatev;
   int32_t nprops;
   /*
-   Both 0: the data check, which wants an elastic answer to `strain_inc`.
+   If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
    */
   float step_time;
   float total_time;
@@ -536,19 +551,19 @@ typedef struct {
    */
   const float *strain_inc;
   /*
-   In, 6 each: U at both ends of the step.
+   In, 6 components each: the right stretch U at the start and at the end of the increment, 11 22 33 12 23 31.
    */
   const float *stretch_old;
   const float *stretch_new;
   /*
-   In: 6, nstatev, 1 and 1.
+   In, with 6, nstatev, 1 and 1 components.
    */
   const float *stress_old;
   const float *state_old;
   const float *ener_intern_old;
   const float *ener_inelas_old;
   /*
-   Out: 6, nstatev, 1 and 1.
+   Out, with 6, nstatev, 1 and 1 components.
    */
   float *stress_new;
   float *state_new;
@@ -561,20 +576,20 @@ extern "C" {
 #endif // __cplusplus
 
 /*
- The version of the library, terminated, static: do not free.
+ The version of the library as a null-terminated static string; do not free it.
  */
 const char *toron_version(void);
 
 /*
- The number of the interface the library was built with: compare it with `TORON_ABI_VERSION` of the header.
+ The version of the binary interface with which the library was built. It must equal `TORON_ABI_VERSION`.
  */
 int32_t toron_abi_version(void);
 
 /*
- What a status code means, as a sentence.
+ Writes the meaning of a status code as a sentence.
 
- Writes at most `capacity` bytes to `buffer`, always terminated; returns the length needed without the terminator.
- `buffer` may be null and `capacity` 0.
+ Writes at most `capacity` bytes to `buffer`, always null-terminated; returns the full length without the terminating
+ null. `buffer` may be null and `capacity` 0.
  */
 size_t toron_status_message(int32_t status, char *buffer, size_t capacity);
 
@@ -584,12 +599,13 @@ size_t toron_status_message(int32_t status, char *buffer, size_t capacity);
 int32_t toron_property_count(int32_t law);
 
 /*
- Writes the property of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+ Writes the table row of property `index`, counted from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or
+ `TORON_NULL_ARGUMENT`.
  */
 int32_t toron_property(int32_t law, int32_t index, toron_table_row *row);
 
 /*
- The index, from 0, of the property of this name, or `TORON_UNKNOWN_NAME`.
+ The index, counted from 0, of the property with this name, or `TORON_UNKNOWN_NAME`.
  */
 int32_t toron_property_index(int32_t law, const char *property);
 
@@ -611,9 +627,10 @@ int32_t toron_state_index(int32_t law, const char *variable);
 /*
  The properties and the reference density of a preset, in the units of the user's model.
 
- - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: three units of length, mass and time joined by
-   "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
- - `values`: room for `count` values, the law's number of properties; `density`: one value, or null.
+ - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time, joined
+   by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+ - `values`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
+   null.
 
  Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
  */
@@ -628,11 +645,11 @@ int32_t toron_preset_f32(const char *preset, const char *units, float *values, s
  Checks the properties of the hyperelastic law.
 
  - `values`, `count`: the properties in the table's order.
- - `message`, `capacity`: where to write which property is wrong, its value and what is allowed: at most `capacity`
-   bytes, always terminated, empty where all is well. `message` may be null and `capacity` 0.
+ - `message`, `capacity`: buffer for a message that names the wrong property, its value and the allowed values: at most
+   `capacity` bytes, always null-terminated, empty if there is no error. `message` may be null and `capacity` 0.
  - `status`: 0, `TORON_NULL_ARGUMENT` or a −2xx code; may be null.
 
- Returns the length of the whole message without the terminator, 0 where all is well.
+ Returns the length of the full message without the terminating null, 0 if there is no error.
  */
 size_t toron_hyperelastic_validate_f64(const double *values,
                                        size_t count,
@@ -654,14 +671,15 @@ size_t toron_hyperelastic_validate_f32(const float *values,
 
  - `values`, `count`: the properties in the table's order.
  - `deformation_gradient`: 9 values by columns. Must not be null.
- - `fibre`: 3 values, the fibre direction, any length; null: the property.
- - `state_old`: 11 values; null: all 0. `state_new`: room for 11; null: not wanted, and the point cannot fail. They may
-   be the same array.
- - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second
-   Piola-Kirchhoff); `wave_speed`: room for 1, an upper bound at the reference density `density`, for current lengths: a
-   solver's time step and bulk viscosity may take it as it is; each may be null.
+ - `fibre`: 3 values, the fibre direction, any length; if null, the one in the properties.
+ - `state_old`: 11 values; if null, all 0. `state_new`: 11 values, out; if null, the new state is not returned and the
+   point cannot fail. They may be the same array.
+ - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second Piola-Kirchhoff);
+   `wave_speed`: room for 1, an upper bound of the wave speed for the reference density `density`, to be used with
+   current element lengths for the stable time step (a bulk viscosity computed with it damps more than with the exact
+   speed). Each of these three may be null.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
  */
 int32_t toron_hyperelastic_point_f64(const double *values,
                                      size_t count,
@@ -694,13 +712,14 @@ int32_t toron_hyperelastic_point_f32(const float *values,
  - `values`, `count`, `deformation_gradient`, `fibre`, `state_old`, `state_new`, `stress`: as for
    `toron_hyperelastic_point_f64`.
  - `measure`: which tangent, `TORON_TANGENT_MATERIAL`, `_TRUESDELL`, `_JAUMANN` or `_NOMINAL`.
- - `tangent`: room for 36 values (81 for `_NOMINAL`), a symmetric matrix; must not be null. The order of rows and columns
-   is 11 22 33 12 23 31, columns of engineering shears; for `_NOMINAL` 11 21 31 12 22 32 13 23 33.
+ - `tangent`: 36 values, out (81 for `_NOMINAL`), a symmetric matrix; must not be null. Rows and columns are in the order
+   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `_NOMINAL` in the order 11 21 31 12 22 32
+   13 23 33.
 
- The call that detects failure gives the intact tangent, later ones zeros. At a kink (I_el = 0, I_tc = 0) it is the one of
- loading.
+ The call that detects failure returns the intact tangent, later calls return zeros. At a kink (I_el = 0 or I_tc = 0) the
+ tangent is that of loading.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged).
  */
 int32_t toron_hyperelastic_point_tangent_f64(const double *values,
                                              size_t count,
@@ -726,12 +745,14 @@ int32_t toron_hyperelastic_point_tangent_f32(const float *values,
                                              float *tangent);
 
 /*
- The least stable wave: the smallest eigenvalue of the acoustic tensor times the reference density, over all directions.
+ Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
 
- Below 0 the material is not elliptic: waves of imaginary speed, results that depend on the mesh.
+ If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh. Without
+ k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
 
  - `values`, `count`, `deformation_gradient`, `fibre`: as for `toron_hyperelastic_point_f64`.
- - `least`: one value, out, a stress; `direction`: 3 values, out, the wave's normal in space, or null.
+ - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in global
+   axes, or null.
 
  Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
  */
@@ -748,9 +769,11 @@ int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const double *values,
  - `values`, `count`, `block`: as for `toron_hyperelastic_block_f64`.
  - `measure`: which tangent, as for `toron_hyperelastic_point_tangent_f64`.
  - `tangent`: 36 components (81 for `TORON_TANGENT_NOMINAL`), component-major with the block's leading dimension: entry
-   (row, column), counted from 0, is component 6 row + column (9 row + column). The whole symmetric matrix. Null: none.
+   (row, column), counted from 0, is component 6 row + column (9 row + column). The full symmetric matrix is written. If
+   null, no tangent is computed.
 
- Returns as `toron_hyperelastic_block_f64` does; a point at fault, or failed before, has a tangent of zeros.
+ Returns the same codes as `toron_hyperelastic_block_f64`; the tangent is 0 for a point that cannot be evaluated or had
+ failed before.
  */
 int32_t toron_hyperelastic_block_tangent_f64(const double *values,
                                              size_t count,
@@ -771,10 +794,10 @@ int32_t toron_hyperelastic_block_tangent_f32(const float *values,
  The hyperelastic law at a block of points.
 
  - `values`, `count`: the properties in the table's order, the same for all points.
- - `block`: the arrays, see the structure; all theirs stay the caller's.
+ - `block`: the arrays, see `toron_block_f64`; the caller owns all of them.
 
- Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+ Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state;
+ the other points are not affected); or a −1xx or −2xx code, and then nothing is written.
  */
 int32_t toron_hyperelastic_block_f64(const double *values,
                                      size_t count,
@@ -795,8 +818,8 @@ size_t toron_linear_elastic_validate_f64(const double *values,
                                          int32_t *status);
 
 /*
- The material axes of the linear elastic law in the reference placement: where the axes of
- `TORON_ROTATION_SPIN` start.
+ The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
+ `TORON_ROTATION_SPIN`.
 
  `axes`: room for 9 values, the three axes one after the other. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
  */
@@ -809,12 +832,12 @@ int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double
  - `f_old`, `f_new`: 9 values each, by columns. Must not be null.
  - `state_old`: 10 values; null: all 0. `state_new`: room for 10, or null. They may be the same array.
  - `stress`: room for 6, Cauchy stress in space 11 22 33 12 23 31, or null.
- - `rotation`: the frame that turns with the material, `TORON_ROTATION_FIBRE` (what a yarn needs), `_POLAR` or `_SPIN`.
+ - `rotation`: the frame that rotates with the material: `TORON_ROTATION_FIBRE` (right for a yarn), `_POLAR` or `_SPIN`.
  - `criterion`: `TORON_CRITERION_PRINCIPAL` or `_FIBRE`.
- - `axes`: 9 values, read and advanced for `TORON_ROTATION_SPIN`, which has to be told where the material axes are:
-   start with `toron_linear_elastic_axes_f64`. May be null for the other frames.
+ - `axes`: 9 values, in and out, the current material axes, used only for `TORON_ROTATION_SPIN`; initialise them with
+   `toron_linear_elastic_axes_f64`. May be null for the other frames.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
  */
 int32_t toron_linear_elastic_step_f64(const double *values,
                                       size_t count,
@@ -830,9 +853,9 @@ int32_t toron_linear_elastic_step_f64(const double *values,
 /*
  As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
 
- - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row, column)
-   is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` has DDSDDE's
-   entries, in the order of the stress here.
+ - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row,
+   column) is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` gives the
+   entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31.
  */
 int32_t toron_linear_elastic_step_tangent_f64(const double *values,
                                               size_t count,
@@ -848,15 +871,15 @@ int32_t toron_linear_elastic_step_tangent_f64(const double *values,
                                               double *tangent);
 
 /*
- The linear elastic law for an increment of strain in a frame that the host keeps.
+ The linear elastic law for a strain increment in material axes that the host updates.
 
  - `strain`: 6 tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be
    null.
- - `jacobian`: the volume ratio J, which weighs the work; 1 where it is not known.
+ - `jacobian`: the volume ratio J, a factor of the work per reference volume; 1 if it is not known.
  - `state_old`, `state_new`, `criterion`: as for `toron_linear_elastic_step_f64`; `stress`: in that frame.
 
- The law is as good as the frame: axes that follow the host's polar rotation or spin let the stiff direction drift off
- a sheared fibre. Returns as `toron_linear_elastic_step_f64` does.
+ The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts away
+ from a sheared fibre. Returns the same codes as `toron_linear_elastic_step_f64`.
  */
 int32_t toron_linear_elastic_increment_f64(const double *values,
                                            size_t count,
@@ -871,7 +894,7 @@ int32_t toron_linear_elastic_increment_f64(const double *values,
  The linear elastic law over a step at a block of points.
 
  - `values`, `count`: the properties in the table's order, the same for all points.
- - `block`: the arrays, see the structure; all theirs stay the caller's.
+ - `block`: the arrays, see `toron_linear_block_f64`; the caller owns all of them.
  - `rotation`, `criterion`: as for `toron_linear_elastic_step_f64`.
 
  Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
@@ -895,18 +918,18 @@ int32_t toron_linear_elastic_block_f32(const float *values,
 /*
  The hyperelastic law as a UMAT of Abaqus/Standard.
 
- Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
- `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
- and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
- solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
- pointers but `ddsdde` are the caller's and not null.
+ The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
+ out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
+ `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
+ axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
+ Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 
- DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
- one, later calls zeros.
+ DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
+ intact tangent, later calls return zeros.
 
  Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
- (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
- quarter.
+ (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: stress and tangent are 0, the state is
+ unchanged, `pnewdt` is reduced to at most 0.25.
  */
 int32_t toron_abaqus_umat_tangent_f64(double *stress,
                                       double *statev,
@@ -939,13 +962,14 @@ int32_t toron_abaqus_umat_f64(double *stress,
 /*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 
- `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
- law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
- `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
+ `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
+ null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
+ (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
+ element.
 
- Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
- nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
- and is failed and deleted.
+ Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and nothing
+ is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
+ and is marked as failed and deleted.
  */
 int32_t toron_abaqus_vumat_f64(const toron_vumat_f64 *block);
 
@@ -957,11 +981,13 @@ int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
 /*
  The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 
- `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
- `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
+ `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state variables, in
+ and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed or could not be
+ evaluated, else 0. None may be null.
 
- Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
- or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
+ Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere: check
+ IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies and
+ invariants are unchanged, and the element is marked as failed.
  */
 int32_t toron_lsdyna_umat_f64(const double *cm,
                               double *sig,
@@ -982,9 +1008,9 @@ int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t n
  `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 
  Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
- `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
- and nothing is written; or the most negative −3xx code of an element: that one
- carries no stress, keeps its energies and invariants, and is failed.
+ `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx
+ code, and nothing is written; or the most negative −3xx code of the elements: an element with such a code has zero
+ stress, keeps its energies and invariants, and is marked as failed.
  */
 int32_t toron_lsdyna_umat_vector_f64(const double *cm,
                                      double *sig1,
@@ -1018,15 +1044,14 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
                                      int *failels);
 
 /*
- The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
+ The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
 
- `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as the material routine has left
- them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
- may be null.
+ `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as written by the material
+ routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric.
+ None may be null.
 
  Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
- written; or a −3xx code, and `es` is 0,
- as it is for an element that has failed.
+ written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
  */
 int32_t toron_lsdyna_utan_f64(const double *cm,
                               const double *hsv,
@@ -1044,7 +1069,8 @@ int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, fl
  `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
  as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
 
- Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
+ Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent is 0 for an element that cannot be
+ evaluated or has failed.
  */
 int32_t toron_lsdyna_utan_vector_f64(const double *cm,
                                      const double *hsvs,
@@ -1066,12 +1092,16 @@ int32_t toron_lsdyna_utan_vector_f32(const float *cm,
                                      float *dsave);
 
 /*
- Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
+ Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
+ refer.
 
- LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
- `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+ LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre is
+ never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
  */
-int32_t toron_lsdyna_bulk_and_shear_f64(const double *values, size_t count, double *bulk, double *shear);
+int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
+                                        size_t count,
+                                        double *bulk,
+                                        double *shear);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -4,18 +4,18 @@ use toron::host::abaqus::Vumat;
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
-/// Arguments as in the UMAT of the same name: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and out),
-/// `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; null: not wanted, not computed), `sse` (out), `pnewdt` (in
-/// and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and axisymmetric
-/// solids, whose fibre lies in the plane or normal to it, and `nlgeom`, Abaqus's JSTEP(3): not 0 in an analysis of large displacements, without which there is no F. All
-/// pointers but `ddsdde` are the caller's and not null.
+/// The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
+/// out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
+/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
+/// axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
+/// Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 ///
-/// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure gives the intact
-/// one, later calls zeros.
+/// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
+/// intact tangent, later calls return zeros.
 ///
 /// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
-/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: no stress, no stiffness, the state as it was, `pnewdt` lowered to at most a
-/// quarter.
+/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: stress and tangent are 0, the state is
+/// unchanged, `pnewdt` is reduced to at most 0.25.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
@@ -64,13 +64,14 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
 
 /// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 ///
-/// `block` holds the VUMAT's arguments; the structure tells their shapes. All pointers are the caller's and not null. The
-/// law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check (`step_time` =
-/// `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the element.
+/// `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
+/// null. The law reads U, not F, so that the stress is the corotational one that Abaqus wants. In the data check
+/// (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
+/// element.
 ///
-/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and
-/// nothing is written; or the most negative −3xx code: that point carries no stress, keeps its energies and invariants,
-/// and is failed and deleted.
+/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and nothing
+/// is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
+/// and is marked as failed and deleted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
     // SAFETY: the caller's promise.

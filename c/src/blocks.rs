@@ -6,10 +6,10 @@ use toron::host::c::Block;
 /// The hyperelastic law at a block of points.
 ///
 /// - `values`, `count`: the properties in the table's order, the same for all points.
-/// - `block`: the arrays, see the structure; all theirs stay the caller's.
+/// - `block`: the arrays, see `toron_block_f64`; the caller owns all of them.
 ///
-/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
-/// its state; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+/// Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state;
+/// the other points are not affected); or a −1xx or −2xx code, and then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     values: *const f64,

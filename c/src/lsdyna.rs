@@ -4,11 +4,13 @@ use core::ffi::c_int;
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 ///
-/// `cm`: 11 properties or more; `sig`: 6, out; `hsv`: `nhv` = 11 state variables, in and out, then 9 entries of F, in;
-/// `failel`: out, 1 where the element has failed or could not be evaluated, else 0. None may be null.
+/// `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state variables, in
+/// and out, followed by the 9 entries of F by columns, in; `failel`: out, 1 where the element has failed or could not be
+/// evaluated, else 0. None may be null.
 ///
-/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0, or F stands elsewhere: IHYPER
-/// or NHV of the card) or a −2xx code, and nothing is written; or a −3xx code: no stress, energies and invariants as they were, the element failed.
+/// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (F = 0 or stored elsewhere: check
+/// IHYPER and NHV on the card) or a −2xx code, and nothing is written; or a −3xx code: the stress is 0, energies and
+/// invariants are unchanged, and the element is marked as failed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     cm: *const f64,
@@ -41,9 +43,9 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
 /// `lft` to `llt`, counted from 1, are evaluated; the others are not touched. No pointer may be null.
 ///
 /// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_BAD_LEADING_DIMENSION`,
-/// `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx code,
-/// and nothing is written; or the most negative −3xx code of an element: that one
-/// carries no stress, keeps its energies and invariants, and is failed.
+/// `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` (of the first element, as in `toron_lsdyna_umat_f64`) or a −2xx
+/// code, and nothing is written; or the most negative −3xx code of the elements: an element with such a code has zero
+/// stress, keeps its energies and invariants, and is marked as failed.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
@@ -91,15 +93,14 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
     }
 }
 
-/// The tangent of the hyperelastic law as LS-DYNA's scalar `utan` wants it, in double precision.
+/// The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
 ///
-/// `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as the material routine has left
-/// them; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric. None
-/// may be null.
+/// `cm`: 11 properties or more; `hsv`: `nhv` = 11 state variables, then 9 entries of F, in, as written by the material
+/// routine; `es`: 6 × 6, out, the Truesdell modulus of the Cauchy stress, 11 22 33 12 23 31, engineering shears, symmetric.
+/// None may be null.
 ///
 /// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
-/// written; or a −3xx code, and `es` is 0,
-/// as it is for an element that has failed.
+/// written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
@@ -118,7 +119,8 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f32(cm: *const f32, hsv: *const f32, 
 /// `cm`, `nhv`, `lft`, `llt`, `nlq` as for `toron_lsdyna_umat_vector_f64`; `hsvs`: (`nlq`, 20), in; `dsave`: (`nlq`, 6, 6), out,
 /// as `es` of `toron_lsdyna_utan_f64`. Elements `lft` to `llt`, counted from 1, are evaluated; the others are not touched.
 ///
-/// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent of an element at fault is 0.
+/// Returns the worst status, as `toron_lsdyna_umat_vector_f64` does; the tangent is 0 for an element that cannot be
+/// evaluated or has failed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     cm: *const f64,
@@ -148,10 +150,11 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     unsafe { toron::host::lsdyna::utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave) }
 }
 
-/// Bulk and shear modulus for the card's IBULK = 12 and IG = 13, to stand in cm(12) and cm(13).
+/// Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
+/// refer.
 ///
-/// LS-DYNA takes its time step from K + 4G/3, which is k_el here: the wave along a stretched fibre is never faster.
-/// `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+/// LS-DYNA computes its time step from K + 4G/3. With these values it equals k_el, and the wave along a stretched fibre is
+/// never faster than √(k_el/ρ). `bulk`, `shear`: one value each, out. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     values: *const f64,

@@ -5,11 +5,11 @@ use libc::{c_char, size_t};
 /// Checks the properties of the hyperelastic law.
 ///
 /// - `values`, `count`: the properties in the table's order.
-/// - `message`, `capacity`: where to write which property is wrong, its value and what is allowed: at most `capacity`
-///   bytes, always terminated, empty where all is well. `message` may be null and `capacity` 0.
+/// - `message`, `capacity`: buffer for a message that names the wrong property, its value and the allowed values: at most
+///   `capacity` bytes, always null-terminated, empty if there is no error. `message` may be null and `capacity` 0.
 /// - `status`: 0, `TORON_NULL_ARGUMENT` or a −2xx code; may be null.
 ///
-/// Returns the length of the whole message without the terminator, 0 where all is well.
+/// Returns the length of the full message without the terminating null, 0 if there is no error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_validate_f64(
     values: *const f64,
@@ -39,14 +39,15 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
 ///
 /// - `values`, `count`: the properties in the table's order.
 /// - `deformation_gradient`: 9 values by columns. Must not be null.
-/// - `fibre`: 3 values, the fibre direction, any length; null: the property.
-/// - `state_old`: 11 values; null: all 0. `state_new`: room for 11; null: not wanted, and the point cannot fail. They may
-///   be the same array.
-/// - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second
-///   Piola-Kirchhoff); `wave_speed`: room for 1, an upper bound at the reference density `density`, for current lengths: a
-///   solver's time step and bulk viscosity may take it as it is; each may be null.
+/// - `fibre`: 3 values, the fibre direction, any length; if null, the one in the properties.
+/// - `state_old`: 11 values; if null, all 0. `state_new`: 11 values, out; if null, the new state is not returned and the
+///   point cannot fail. They may be the same array.
+/// - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second Piola-Kirchhoff);
+///   `wave_speed`: room for 1, an upper bound of the wave speed for the reference density `density`, to be used with
+///   current element lengths for the stable time step (a bulk viscosity computed with it damps more than with the exact
+///   speed). Each of these three may be null.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, the state as it was).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_f64(

@@ -9,14 +9,15 @@ pub extern "C" fn toron_property_count(law: i32) -> i32 {
     toron::host::c::property_count(law)
 }
 
-/// Writes the property of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+/// Writes the table row of property `index`, counted from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or
+/// `TORON_NULL_ARGUMENT`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_property(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { toron::host::c::property(law, index, row) }
 }
 
-/// The index, from 0, of the property of this name, or `TORON_UNKNOWN_NAME`.
+/// The index, counted from 0, of the property with this name, or `TORON_UNKNOWN_NAME`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_property_index(law: i32, property: *const c_char) -> i32 {
     // SAFETY: the caller's promise.
@@ -45,9 +46,10 @@ pub unsafe extern "C" fn toron_state_index(law: i32, variable: *const c_char) ->
 
 /// The properties and the reference density of a preset, in the units of the user's model.
 ///
-/// - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: three units of length, mass and time joined by
-///   "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
-/// - `values`: room for `count` values, the law's number of properties; `density`: one value, or null.
+/// - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time, joined
+///   by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
+/// - `values`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
+///   null.
 ///
 /// Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
 #[unsafe(no_mangle)]

@@ -8,13 +8,14 @@ use toron::host::c::Block;
 /// - `values`, `count`, `deformation_gradient`, `fibre`, `state_old`, `state_new`, `stress`: as for
 ///   `toron_hyperelastic_point_f64`.
 /// - `measure`: which tangent, `TORON_TANGENT_MATERIAL`, `_TRUESDELL`, `_JAUMANN` or `_NOMINAL`.
-/// - `tangent`: room for 36 values (81 for `_NOMINAL`), a symmetric matrix; must not be null. The order of rows and columns
-///   is 11 22 33 12 23 31, columns of engineering shears; for `_NOMINAL` 11 21 31 12 22 32 13 23 33.
+/// - `tangent`: 36 values, out (81 for `_NOMINAL`), a symmetric matrix; must not be null. Rows and columns are in the order
+///   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `_NOMINAL` in the order 11 21 31 12 22 32
+///   13 23 33.
 ///
-/// The call that detects failure gives the intact tangent, later ones zeros. At a kink (I_el = 0, I_tc = 0) it is the one of
-/// loading.
+/// The call that detects failure returns the intact tangent, later calls return zeros. At a kink (I_el = 0 or I_tc = 0) the
+/// tangent is that of loading.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (no stress, no stiffness, the state as it was).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged).
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f64(
@@ -74,12 +75,14 @@ pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f32(
     }
 }
 
-/// The least stable wave: the smallest eigenvalue of the acoustic tensor times the reference density, over all directions.
+/// Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
 ///
-/// Below 0 the material is not elliptic: waves of imaginary speed, results that depend on the mesh.
+/// If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh. Without
+/// k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
 ///
 /// - `values`, `count`, `deformation_gradient`, `fibre`: as for `toron_hyperelastic_point_f64`.
-/// - `least`: one value, out, a stress; `direction`: 3 values, out, the wave's normal in space, or null.
+/// - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in global
+///   axes, or null.
 ///
 /// Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
 #[unsafe(no_mangle)]
@@ -109,9 +112,11 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
 /// - `values`, `count`, `block`: as for `toron_hyperelastic_block_f64`.
 /// - `measure`: which tangent, as for `toron_hyperelastic_point_tangent_f64`.
 /// - `tangent`: 36 components (81 for `TORON_TANGENT_NOMINAL`), component-major with the block's leading dimension: entry
-///   (row, column), counted from 0, is component 6 row + column (9 row + column). The whole symmetric matrix. Null: none.
+///   (row, column), counted from 0, is component 6 row + column (9 row + column). The full symmetric matrix is written. If
+///   null, no tangent is computed.
 ///
-/// Returns as `toron_hyperelastic_block_f64` does; a point at fault, or failed before, has a tangent of zeros.
+/// Returns the same codes as `toron_hyperelastic_block_f64`; the tangent is 0 for a point that cannot be evaluated or had
+/// failed before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_block_tangent_f64(
     values: *const f64,

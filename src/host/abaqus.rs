@@ -226,17 +226,18 @@ pub unsafe extern "C" fn umat_f64(
     unsafe { umat_tangent_f64(stress, statev, none, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom) }
 }
 
-/// The arguments of a VUMAT that the law has a use for, as Abaqus lays them out: (nblock, components).
+/// The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Vumat<T> {
-    /// Number of points, of direct and shear components (3, 3), of state variables (≥ 11) and of properties (11).
+    /// Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
+    /// (11).
     pub nblock: i32,
     pub ndir: i32,
     pub nshr: i32,
     pub nstatev: i32,
     pub nprops: i32,
-    /// Both 0: the data check, which wants an elastic answer to `strain_inc`.
+    /// If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
     pub step_time: T,
     pub total_time: T,
     /// In: properties, nprops.
@@ -245,15 +246,15 @@ pub struct Vumat<T> {
     pub density: *const T,
     /// In, 6: increment of strain, tensor components; read in the data check only.
     pub strain_inc: *const T,
-    /// In, 6 each: U at both ends of the step.
+    /// In, 6 components each: the right stretch U at the start and at the end of the increment, 11 22 33 12 23 31.
     pub stretch_old: *const T,
     pub stretch_new: *const T,
-    /// In: 6, nstatev, 1 and 1.
+    /// In, with 6, nstatev, 1 and 1 components.
     pub stress_old: *const T,
     pub state_old: *const T,
     pub ener_intern_old: *const T,
     pub ener_inelas_old: *const T,
-    /// Out: 6, nstatev, 1 and 1.
+    /// Out, with 6, nstatev, 1 and 1 components.
     pub stress_new: *mut T,
     pub state_new: *mut T,
     pub ener_intern_new: *mut T,

@@ -7,7 +7,7 @@
 pub const OK: i32 = 0;
 /// An argument that must not be null is null.
 pub const NULL_ARGUMENT: i32 = -101;
-/// A count (of components, stress entries, …) is not what the entry can serve.
+/// A count (of points, components or stress entries) is not one that this function supports.
 pub const BAD_COUNT: i32 = -102;
 /// The leading dimension of component-major arrays is less than the number of points.
 pub const BAD_LEADING_DIMENSION: i32 = -103;
@@ -15,9 +15,9 @@ pub const BAD_LEADING_DIMENSION: i32 = -103;
 pub const UNKNOWN_NAME: i32 = -104;
 /// A scalar argument (density, option, …) outside what is allowed.
 pub const BAD_ARGUMENT: i32 = -105;
-/// The host passes no deformation gradient: a small-strain analysis, F = 0, or F elsewhere than where it is read.
+/// The host passes no deformation gradient: a small-strain analysis, F = 0, or F not stored where it is read.
 pub const NO_DEFORMATION_GRADIENT: i32 = -106;
-/// The number of properties is not the table's.
+/// The number of properties differs from that in the table of properties.
 pub const PROPERTY_COUNT: i32 = -201;
 /// A property is NaN or infinite.
 pub const PROPERTY_NOT_FINITE: i32 = -202;
@@ -27,9 +27,10 @@ pub const PROPERTY_OUT_OF_BOUNDS: i32 = -203;
 pub const PROPERTY_DIRECTION: i32 = -204;
 /// The fibre direction is neither in the plane of a two-dimensional element nor normal to it.
 pub const FIBRE_OUT_OF_PLANE: i32 = -205;
-/// There are fewer state variables than the table's.
+/// There are fewer state variables than the law needs.
 pub const STATE_COUNT: i32 = -211;
-/// The deformation gradient has a determinant ≤ 0 (or one too small for a number), or maps the fibre to nothing.
+/// The deformation gradient has a determinant ≤ 0 (or one that underflows), or maps the fibre to zero length: an inverted
+/// element.
 pub const INVERTED: i32 = -301;
 /// The deformation gradient, or the strain increment, has an entry that is NaN or infinite.
 pub const NOT_FINITE: i32 = -302;

@@ -48,9 +48,11 @@ fn count(program: &Path, entry: &str, function: &str) -> f64 {
     let report = String::from_utf8(run(&mut valgrind, "valgrind").stderr).expect("valgrind writes UTF-8");
     let collected = report.lines().find_map(|line| line.split_once("Collected : ")).expect("a total").1;
     let profile = std::fs::read_to_string(profile).expect("a profile");
-    let runs = |level: &str| ["dispatch::", "8dispatch"].iter().any(|part| profile.contains(&format!("{part}{level}")));
-    assert_eq!(runs("avx2") || runs("4avx2"), entry.starts_with("block"), "{entry} did not run at AVX2");
-    assert!(!runs("avx512") && !runs("6avx512"), "{entry} did not run at AVX2");
+    // The names of the kernels' types, demangled or not.
+    let runs =
+        |level: &str| ["block::avx2::", "block4avx2"].iter().any(|part| profile.contains(&part.replace("avx2", level)));
+    assert_eq!(runs("avx2"), entry.starts_with("block"), "{entry} did not run at AVX2");
+    assert!(!runs("avx512") && !profile.contains("block6avx512"), "{entry} did not run at AVX2");
     collected.trim().parse::<f64>().expect("a number") / POINTS
 }
 

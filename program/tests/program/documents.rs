@@ -104,7 +104,7 @@ fn mistakes() -> String {
     });
     let plain = [
         ("`*DEPVAR` with fewer than 11 variables", status::STATE_COUNT),
-        ("shells, membranes or plane elements", status::BAD_COUNT),
+        ("Abaqus: shells, membranes or plane-stress elements", status::BAD_COUNT),
         ("UMAT without NLGEOM=YES", status::NO_DEFORMATION_GRADIENT),
         ("LS-DYNA: IHYPER left at 0", status::NO_DEFORMATION_GRADIENT),
     ];

@@ -14,23 +14,24 @@ use crate::host::border::{entry, properties};
 
 /// A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
 ///
-/// Null pointers are left out: an output that is null is not computed. The old state may be the same arrays as the new
-/// one. Energies, invariants and failure may be parts of one state array: rows 0, 4 and 8.
+/// Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
+/// same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
+/// component-major state array of 11 components, starting at components 0, 4 and 8.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Block<T> {
-    /// Number of points, and the distance from one component to the next, at least as many.
+    /// Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
     pub n: size_t,
     pub leading_dimension: size_t,
     /// In, 9 components: F by columns. Must not be null.
     pub deformation_gradient: *const T,
-    /// In, 3: the fibre direction of each point, any length; null: the property.
+    /// In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
     pub fibre: *const T,
-    /// In, 4, 4 and 3: the old state; null: all 0.
+    /// In, 4, 4 and 3 components: the old state; if null, all 0.
     pub energies_old: *const T,
     pub invariants_old: *const T,
     pub failure_old: *const T,
-    /// In: reference density; read for the wave speed only.
+    /// In: reference density; used only if wave_speed is not null.
     pub density: T,
     /// Out, 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: *mut T,
@@ -38,17 +39,19 @@ pub struct Block<T> {
     pub energies: *mut T,
     /// Out, 4: I_el I_tc I_td I_ld.
     pub invariants: *mut T,
-    /// Out, 3: failure index, failed, alive. Null: no point fails; one whose old latch is set stays failed.
+    /// Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
+    /// failed.
     pub failure: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
-    /// Out, 1: an upper bound of the wave speed for current lengths, never below that along a fibre at rest. A solver's time
-    /// step and bulk viscosity may take it as it is.
+    /// Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
+    /// along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
+    /// exact speed.
     pub wave_speed: *mut T,
     /// Out: a status code for each point.
     pub status: *mut i32,
-    /// In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-    /// same bits, the baseline others.
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+    /// is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
     pub level: i32,
 }
 

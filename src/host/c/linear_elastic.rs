@@ -244,29 +244,30 @@ pub unsafe extern "C" fn linear_elastic_increment_f64(
 /// A block of points of the linear elastic law: component-major arrays, component c of point i at
 /// `c * leading_dimension + i`.
 ///
-/// Null pointers are left out: an output that is null is not computed. The old state may be the same array as the new one.
+/// Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
+/// as that of the new state.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct LinearBlock<T> {
-    /// Number of points, and the distance from one component to the next, at least as many.
+    /// Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
     pub n: size_t,
     pub leading_dimension: size_t,
     /// In, 9 components each: F by columns at both ends of the step. Must not be null.
     pub f_old: *const T,
     pub f_new: *const T,
-    /// In and out, 9: the material axes in space, one after the other. Must not be null for `TORON_ROTATION_SPIN`; neither read
-    /// nor written for the other frames.
+    /// In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
+    /// for `TORON_ROTATION_SPIN`; not used for the other frames.
     pub axes: *mut T,
     /// In, 10: the old state; null: all 0.
     pub state_old: *const T,
-    /// Out, 10: the new state. Null: no point fails; one whose old latch is set stays failed.
+    /// Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
     pub state_new: *mut T,
-    /// Out, 6: Cauchy stress in space 11 22 33 12 23 31.
+    /// Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
     pub stress: *mut T,
     /// Out: a status code for each point.
     pub status: *mut i32,
-    /// In: the instructions to use, one of `TORON_LEVEL_...`; what the processor lacks is not used. AVX2 and AVX-512 give the
-    /// same bits, the baseline others.
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
+    /// is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
     pub level: i32,
 }
 

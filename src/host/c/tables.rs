@@ -12,25 +12,26 @@ use super::constants::{TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_
 use crate::host::border::name;
 use crate::host::border::store;
 
-/// A row of the tables of properties and state variables. Texts are terminated UTF-8.
+/// A row of the tables of properties and state variables. Texts are null-terminated UTF-8.
 #[repr(C)]
 pub struct TableRow {
-    /// The name in decks and messages, and the thesis's symbol.
+    /// The name used in decks and messages, and the symbol used in the documentation.
     pub name: [c_char; 24],
     pub symbol: [c_char; 24],
-    /// The unit's dimension in words ("stress", "energy/volume", "-"), and as powers of mass, length and time.
+    /// The physical dimension in words ("stress", "energy/volume", "-"), and as exponents of mass, length and time.
     pub unit: [c_char; 24],
     pub mass: i32,
     pub length: i32,
     pub time: i32,
-    /// Whether there is a default, and its value; for state variables the value at the start, 0.
+    /// 1 if there is a default, else 0; and the default. For state variables the initial value, 0.
     pub has_default: i32,
     pub default_value: f64,
-    /// The least value allowed, and whether it is itself excluded, and the greatest one; infinite where there is no bound.
+    /// The least and the greatest allowed value (infinite if there is no bound); minimum_excluded is 1 if the least value
+    /// itself is not allowed.
     pub minimum: f64,
     pub maximum: f64,
     pub minimum_excluded: i32,
-    /// The bounds in words, and what the quantity is.
+    /// The allowed values in words, and the meaning of the quantity.
     pub allowed: [c_char; 80],
     pub meaning: [c_char; 96],
 }
