@@ -120,6 +120,27 @@ fn shims_are_plain_fixed_form() {
     }
 }
 
+/// Each shim has a copy of its solver's `refuse`, since a solver takes one file: the copies must not drift apart.
+#[test]
+fn copies_of_refuse_are_the_same() {
+    let mut copies = std::collections::BTreeMap::<_, std::collections::BTreeSet<String>>::new();
+    for path in shims() {
+        let text = std::fs::read_to_string(&path).expect("a shim");
+        let start = text.find("      subroutine refuse\n").unwrap_or_else(|| panic!("{}: no refuse", path.display()));
+        let length = text[start..].find("      end subroutine\n").expect("an end");
+        // What precision and solver differ in: the entry's suffix, the names of the output files, the routine that ends the job.
+        let lines = text[start..start + length].lines().filter(|line| !line.starts_with('!'));
+        let copy = lines.collect::<Vec<_>>().join("\n").replace("_f32", "_f64").replace("xplb_exit", "xit");
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        let solver = name.split_once('_').expect("solver_routine").0.to_string();
+        copies.entry(solver).or_default().insert(copy);
+    }
+    assert_eq!(copies.len(), 2, "{:?}", copies.keys());
+    for (solver, copies) in copies {
+        assert_eq!(copies.len(), 1, "{solver}: {copies:#?}");
+    }
+}
+
 #[test]
 fn shims_compile_at_both_line_lengths_with_all_kinds() {
     for length in LINE_LENGTHS {
