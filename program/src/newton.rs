@@ -1,6 +1,6 @@
 //! Mixed control: the free components of F from the prescribed components of its conjugate, by Newton's method.
 
-use nalgebra::{Matrix3, SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
 use super::material::NominalTangent;
 use toron::law::status;
@@ -31,8 +31,9 @@ const LARGEST_SLACK: f64 = 0.5;
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 30;
 
-type Vector = SVector<f64, 9>;
-type Jacobian = SMatrix<f64, 9, 9>;
+// Sized at run time: with static sizes the compiler unrolls the singular value decomposition, and spends half a minute on it.
+type Vector = DVector<f64>;
+type Jacobian = DMatrix<f64>;
 
 /// The first Piola–Kirchhoff stress P of a deformation gradient and dP/dF, both by columns; or the law's status code.
 pub type Stress<'a> = dyn Fn(&Matrix3<f64>) -> Result<(Matrix3<f64>, NominalTangent), i32> + 'a;
@@ -105,37 +106,37 @@ pub fn solve(
     let mut here = residual(&f)?;
     let mut residuals = Vec::new();
     for _ in 0..ITERATIONS {
-        let Residual { off: r, jacobian } = here;
+        let Residual { off: r, jacobian } = &here;
         residuals.push(r.amax());
         if r.amax() <= TOLERANCE * scale {
             return Ok(Solution { f, residuals });
         }
-        let step = -jacobian.svd(true, true).solve(&r, NO_STIFFNESS * scale).unwrap_or_default();
-        let left = r + jacobian * step;
+        let decomposition = jacobian.clone().svd(true, true);
+        let step = -decomposition.solve(r, NO_STIFFNESS * scale).expect("both factors were asked for");
+        let left = r + jacobian * &step;
         let next = if left.amax() > 0.5 * r.amax() {
             let component = left.iamax();
-            let taut = take_up_slack(&residual, &f, &r, component, TOLERANCE * scale);
+            let taut = take_up_slack(&residual, &f, r, component, TOLERANCE * scale);
             Some(taut.ok_or(Failure::NoStiffness { component, residual: r[component] })?)
         } else {
-            line_search(&residual, &f, &r, &step)
+            line_search(&residual, &f, r, &step)
         };
         let Some(next) = next else { break };
         (f, here) = next;
     }
-    let r = here.off;
+    let r = &here.off;
     Err(Failure::NotConverged { component: r.iamax(), residual: r[r.iamax()] })
 }
 
 /// How far each prescribed stress is off; 0 where the gradient is prescribed.
 fn off(p: &Matrix3<f64>, prescribed: &[Prescribed; 9]) -> Vector {
-    Vector::from_fn(|k, _| match prescribed[k] {
+    Vector::from_fn(9, |k, _| match prescribed[k] {
         Prescribed::Gradient(_) => 0.0,
         Prescribed::Stress(value) => p[COMPONENTS[k]] - value,
     })
 }
 
 /// What Newton's method needs to know at a deformation gradient.
-#[derive(Clone, Copy)]
 struct Residual {
     off: Vector,
     jacobian: Jacobian,
@@ -145,11 +146,9 @@ struct Residual {
 fn jacobian(tangent: &NominalTangent, prescribed: &[Prescribed; 9]) -> Jacobian {
     let free = |k: usize| matches!(prescribed[k], Prescribed::Stress(_));
     let by_columns = |k: usize| COMPONENTS[k].0 + 3 * COMPONENTS[k].1;
-    Jacobian::from_fn(
-        |row, column| {
-            if free(row) && free(column) { tangent[(by_columns(row), by_columns(column))] } else { 0.0 }
-        },
-    )
+    Jacobian::from_fn(9, 9, |row, column| {
+        if free(row) && free(column) { tangent[(by_columns(row), by_columns(column))] } else { 0.0 }
+    })
 }
 
 /// The first of ever shorter steps that brings the residual down.
