@@ -7,6 +7,8 @@
 //! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
 //! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
 
+#![expect(clippy::needless_range_loop, clippy::manual_memcpy, reason = "what is inlined for certain: see Lanes")]
+
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use crate::entries::BlockPrecision;
@@ -32,6 +34,10 @@ impl Number for f64 {}
 impl Number for f32 {}
 
 /// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
+///
+/// The loops that run under [`pulp::Arch::dispatch`] use its instructions only where they are inlined there. Therefore whatever
+/// they call is `#[inline(always)]`, down to the operators here, and they loop over indices: no closures, adaptors of iterators
+/// or `copy_from_slice`, which remain calls where the compiler does not choose to inline them.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct Lanes<T>(pub [T; LANES]);
@@ -42,86 +48,110 @@ impl<T: Number> Lanes<T> {
         Lanes([value; LANES])
     }
 
+    /// The same number in all lanes.
+    #[inline(always)]
+    pub fn constant(value: f64) -> Self {
+        Lanes::splat(T::from_f64(value))
+    }
+
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Lanes::splat(T::default())
+    }
+
     #[inline(always)]
     pub fn at(array: &[T], first: usize) -> Self {
-        let mut lanes = Lanes::splat(T::default());
-        lanes.0.copy_from_slice(&array[first..][..LANES]);
+        let source = &array[first..first + LANES];
+        let mut lanes = Lanes::zero();
+        for l in 0..LANES {
+            lanes.0[l] = source[l];
+        }
         lanes
     }
 
     #[inline(always)]
-    pub fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
-        let mut result = self;
-        for (a, b) in result.0.iter_mut().zip(other.0) {
-            *a = of(*a, b);
+    pub fn store(self, array: &mut [T], first: usize) {
+        let target = &mut array[first..first + LANES];
+        for l in 0..LANES {
+            target[l] = self.0[l];
         }
-        result
     }
 
     /// These where the others are above 0, elsewhere 0.
     #[inline(always)]
-    pub fn only_where(self, others: Self) -> Self {
-        self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
+    pub fn only_where(mut self, others: Self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = if others.0[l] > T::default() { self.0[l] } else { T::default() };
+        }
+        self
     }
 
     /// The larger ones; the others' where one is NaN.
     #[inline(always)]
-    pub fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
+    pub fn max(mut self, other: Self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = if self.0[l] > other.0[l] { self.0[l] } else { other.0[l] };
+        }
+        self
+    }
+
+    /// The sum over the lanes.
+    #[inline(always)]
+    pub fn sum(self) -> f64 {
+        let mut sum = 0.0;
+        for l in 0..LANES {
+            sum += self.0[l].into();
+        }
+        sum
+    }
+
+    /// The largest of the lanes, or 0; a NaN is seen.
+    #[inline(always)]
+    pub fn largest(self) -> f64 {
+        let mut result = 0.0;
+        for l in 0..LANES {
+            result = largest(result, self.0[l].into());
+        }
+        result
     }
 }
 
-impl<T: Number> Add for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, T::add)
-    }
+/// The larger of two numbers; a NaN is seen, where `f64::max` drops it.
+#[inline(always)]
+pub fn largest(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
 }
 
-impl<T: Number> Sub for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, T::sub)
-    }
+/// An operator, lane by lane.
+macro_rules! lanewise {
+    ($operator:ident, $method:ident, $symbol:tt) => {
+        impl<T: Number> $operator for Lanes<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                let mut result = self;
+                for l in 0..LANES {
+                    result.0[l] = self.0[l] $symbol other.0[l];
+                }
+                result
+            }
+        }
+    };
 }
 
-impl<T: Number> Mul for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, T::mul)
-    }
-}
-
-impl<T: Number> Div for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, T::div)
-    }
-}
+lanewise!(Add, add, +);
+lanewise!(Sub, sub, -);
+lanewise!(Mul, mul, *);
+lanewise!(Div, div, /);
 
 /// Components that begin at `first`, of an array with this leading dimension.
 #[inline(always)]
 pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
-    let mut components = [Lanes::splat(T::default()); N];
-    for (c, lanes) in components.iter_mut().enumerate() {
-        *lanes = Lanes::at(array, c * stride + first);
+    let mut components = [Lanes::zero(); N];
+    for c in 0..N {
+        components[c] = Lanes::at(array, c * stride + first);
     }
     components
-}
-
-#[inline(always)]
-pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
-    array[first..][..LANES].copy_from_slice(&lanes.0);
-}
-
-/// Where the groups of lanes of a block begin.
-#[inline(always)]
-pub fn groups(stride: usize) -> impl Iterator<Item = usize> {
-    (0..stride).step_by(LANES)
 }
 
 /// The modes that are sums with the signs of one coordinate.
@@ -134,8 +164,10 @@ const EDGES: [(usize, [usize; 4]); 3] = [(1, [0, 2, 4, 6]), (2, [0, 1, 4, 5]), (
 /// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
 #[inline(always)]
 fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
-    for (bit, corners) in EDGES {
-        for corner in corners {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
             let (low, high) = (values[corner], values[corner | bit]);
             values[corner] = low + high;
             values[corner | bit] = high - low;
@@ -147,8 +179,10 @@ fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V;
 /// The transpose of [`modes`]: what every corner gets.
 #[inline(always)]
 fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
-    for (bit, corners) in EDGES {
-        for corner in corners {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
             let (even, odd) = (values[corner], values[corner | bit]);
             values[corner] = even - odd;
             values[corner | bit] = even + odd;
@@ -278,22 +312,23 @@ impl<T: Number> Shapes<T> {
     #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
-        for first in groups(stride) {
+        for group in 0..stride / LANES {
+            let first = group * LANES;
             let u = self.gather(displacement, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
-            for (i, u) in u.iter().enumerate() {
-                let m = modes(*u);
+            for i in 0..3 {
+                let m = modes(u[i]);
                 // The displacement's gradient, row i.
-                let mut h = [Lanes::splat(T::default()); 3];
+                let mut h = [Lanes::zero(); 3];
                 for j in 0..3 {
                     h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
-                    let identity = Lanes::splat(T::from_f64(if i == j { 1.0 } else { 0.0 }));
-                    store(identity + h[j], f, (i + 3 * j) * stride + first);
+                    let identity = Lanes::constant(if i == j { 1.0 } else { 0.0 });
+                    (identity + h[j]).store(f, (i + 3 * j) * stride + first);
                 }
-                for (mode, k) in HOURGLASS.into_iter().enumerate() {
+                for mode in 0..4 {
                     let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
-                    store(m[k] - linear, modal, (mode + 4 * i) * stride + first);
+                    (m[HOURGLASS[mode]] - linear).store(modal, (mode + 4 * i) * stride + first);
                 }
             }
         }
@@ -301,10 +336,11 @@ impl<T: Number> Shapes<T> {
 
     #[inline(always)]
     fn gather(&self, displacement: &[[T; 3]], first: usize) -> [[Lanes<T>; 8]; 3] {
-        let mut u = [[Lanes::splat(T::default()); 8]; 3];
-        for (l, nodes) in self.nodes[first..first + LANES].iter().enumerate() {
-            for (corner, &node) in nodes.iter().enumerate() {
-                let value = displacement[node as usize];
+        let mut u = [[Lanes::zero(); 8]; 3];
+        let nodes = &self.nodes[first..first + LANES];
+        for l in 0..LANES {
+            for corner in 0..8 {
+                let value = displacement[nodes[l][corner] as usize];
                 for i in 0..3 {
                     u[i][corner].0[l] = value[i];
                 }
@@ -317,14 +353,17 @@ impl<T: Number> Shapes<T> {
     #[inline(always)]
     pub fn nominal_stress(&self, point: &Points<'_, T>, nominal: &mut [T]) {
         let stride = self.stride;
-        for first in groups(stride) {
+        for group in 0..stride / LANES {
+            let first = group * LANES;
             let f = load(point.deformation_gradient, stride, first);
             let stress = load(point.stress, stride, first);
             let [along] = load(point.along, stride, first);
             let section = load(point.section, stride, first);
             let p = first_piola_kirchhoff(&f, &stress, along, &section);
-            for (component, &entry) in p.as_flattened().iter().enumerate() {
-                store(entry, nominal, component * stride + first);
+            for j in 0..3 {
+                for i in 0..3 {
+                    p[j][i].store(nominal, (i + 3 * j) * stride + first);
+                }
             }
         }
     }
@@ -334,7 +373,8 @@ impl<T: Number> Shapes<T> {
     #[inline(always)]
     pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
         let stride = self.stride;
-        for first in groups(stride) {
+        for group in 0..stride / LANES {
+            let first = group * LANES;
             let p: [Lanes<T>; 9] = load(nominal, stride, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
@@ -342,12 +382,12 @@ impl<T: Number> Shapes<T> {
             let [stiffness] = load(&self.stiffness, stride, first);
             let [intact] = load(intact, stride, first);
             let k = stiffness * intact;
-            let zero = Lanes::splat(T::default());
+            let zero = Lanes::zero();
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
                 let mut held = [zero; 4];
-                for (mode, held) in held.iter_mut().enumerate() {
-                    *held = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
+                for mode in 0..4 {
+                    held[mode] = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
                 }
                 let mut force = [zero; 3];
                 for j in 0..3 {
@@ -369,10 +409,11 @@ impl<T: Number> Shapes<T> {
     /// In the order of the elements, so that a run repeats bit by bit.
     #[inline(always)]
     fn scatter(&self, nodal: &[[Lanes<T>; 8]; 3], first: usize, forces: &mut [[T; 3]]) {
-        let count = LANES.min(self.n.saturating_sub(first));
-        for (l, nodes) in self.nodes[first..first + count].iter().enumerate() {
-            for (corner, &node) in nodes.iter().enumerate() {
-                let force = &mut forces[node as usize];
+        let last = if first + LANES < self.n { first + LANES } else { self.n };
+        let nodes = &self.nodes[first..last];
+        for l in 0..nodes.len() {
+            for corner in 0..8 {
+                let force = &mut forces[nodes[l][corner] as usize];
                 for i in 0..3 {
                     force[i] -= nodal[i][corner].0[l];
                 }
@@ -383,7 +424,8 @@ impl<T: Number> Shapes<T> {
     /// What the step's bound and viscosity need to know of F, all elements.
     #[inline(always)]
     pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
-        for first in groups(self.stride) {
+        for group in 0..self.stride / LANES {
+            let first = group * LANES;
             let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
             let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
@@ -392,13 +434,14 @@ impl<T: Number> Shapes<T> {
             let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
             let (squares, products) =
                 (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
-            let per_square = Lanes::splat(T::from_f64(1.0)) / square;
-            store(ratio, &mut to.volume_ratio, first);
-            store(square, &mut to.stretch_square, first);
-            store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
-            store(aa * per_square, &mut to.spread_along, first);
-            for (component, metric) in [second, third, Lanes::splat(T::default()) - both].into_iter().enumerate() {
-                store(metric * per_square, &mut to.metric, component * self.stride + first);
+            let per_square = Lanes::constant(1.0) / square;
+            ratio.store(&mut to.volume_ratio, first);
+            square.store(&mut to.stretch_square, first);
+            ((squares + products + products) / (ratio * ratio)).store(&mut to.spread, first);
+            (aa * per_square).store(&mut to.spread_along, first);
+            let metric = [second, third, Lanes::zero() - both];
+            for component in 0..3 {
+                (metric[component] * per_square).store(&mut to.metric, component * self.stride + first);
             }
         }
     }
@@ -442,10 +485,10 @@ impl<T: Number> Measures<T> {
         }
     }
 
-    /// J of the elements that are intact and not inverted, 0 for the others.
+    /// J of the active elements, those intact and not inverted, 0 for the others.
     #[inline(always)]
-    pub fn standing(&self, intact: &[T], first: usize) -> Lanes<T> {
-        Lanes::at(&self.volume_ratio, first).max(Lanes::splat(T::default())).only_where(Lanes::at(intact, first))
+    pub fn active(&self, intact: &[T], first: usize) -> Lanes<T> {
+        Lanes::at(&self.volume_ratio, first).max(Lanes::zero()).only_where(Lanes::at(intact, first))
     }
 }
 
@@ -469,7 +512,7 @@ pub fn first_piola_kirchhoff<T: Number>(
 ) -> [[Lanes<T>; 3]; 3] {
     let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
     let [r22, r33, r23] = *section;
-    let per_square = Lanes::splat(T::from_f64(1.0)) / dot(a, a);
+    let per_square = Lanes::constant(1.0) / dot(a, a);
     let (slant_b, slant_c) = (dot(a, b) * per_square, dot(a, c) * per_square);
     let (across_b, across_c) = (less(b, slant_b, a), less(c, slant_c, a));
     let (second, third) = (combine(r22, across_b, r23, across_c), combine(r23, across_b, r33, across_c));

@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, Lanes, Measures, Number, Points, Shapes, groups, store};
-use super::largest;
+use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes, largest};
 use super::viscosity::Viscosity;
 use crate::Error;
 use crate::entries::{self, LinearFrame, LinearSolverBlock, SolverBlock};
@@ -349,29 +348,28 @@ impl<T: Number> ElementBlock<T> {
     /// elements have collapsed.
     #[inline(always)]
     fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
-        let splat = |value: f64| Lanes::splat(T::from_f64(value));
-        let (zero, one, four) = (splat(0.0), splat(1.0), splat(4.0));
+        let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
-        let hourglass = splat(self.shapes.hourglass_frequency / medium.density);
-        let (square, twice) = (splat(shortest * shortest), splat(2.0 * shortest));
+        let hourglass = Lanes::constant(self.shapes.hourglass_frequency / medium.density);
+        let (square, twice) = (Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest));
         // A largest number drops what is NaN, a sum does not.
-        let [mut stiffest, mut most_damped, mut sum] = [hourglass, zero, zero];
-        for first in groups(self.shapes.stride) {
-            let at = |array: &[T]| Lanes::at(array, first);
-            let standing = scratch.measures.standing(&self.intact, first);
-            let speed = at(&scratch.wave_speed);
-            let stiffness = (hourglass + speed * speed * at(&scratch.measures.spread)).only_where(standing);
-            let damping = at(&scratch.measures.damping).only_where(standing);
+        let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
+        for group in 0..self.shapes.stride / LANES {
+            let first = group * LANES;
+            let active = scratch.measures.active(&self.intact, first);
+            let speed = Lanes::at(&scratch.wave_speed, first);
+            let spread = Lanes::at(&scratch.measures.spread, first);
+            let stiffness = (hourglass + speed * speed * spread).only_where(active);
+            let damping = Lanes::at(&scratch.measures.damping, first).only_where(active);
             (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
             sum = sum + stiffness + damping;
             // As in the body's stable step.
             let collapsed = one.only_where(square * stiffness + twice * damping - four);
-            store(collapsed, &mut scratch.collapsed, first);
+            collapsed.store(&mut scratch.collapsed, first);
         }
-        let greatest = |lanes: Lanes<T>| lanes.0.into_iter().map(Into::into).fold(0.0, largest);
-        sums.stiffness = largest(sums.stiffness, greatest(stiffest));
-        sums.damping = largest(sums.damping, greatest(most_damped));
-        if sum.0.into_iter().any(|value| value.into().is_nan()) {
+        sums.stiffness = largest(sums.stiffness, stiffest.largest());
+        sums.damping = largest(sums.damping, most_damped.largest());
+        if sum.sum().is_nan() {
             sums.stiffness = f64::NAN;
         }
     }

@@ -28,11 +28,6 @@ const COLLAPSED: f64 = 0.2;
 /// A step this much shorter than the first one is no step any more: elements that do not fail have collapsed.
 const SHORTEST: f64 = 1e-4;
 
-/// The larger of two numbers; a NaN is seen, where `f64::max` drops it.
-pub fn largest(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
-}
-
 /// What moves a node beside the forces on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
@@ -438,7 +433,7 @@ impl<T: Number> Solver<T> {
 mod tests {
     use super::*;
     use crate::explicit::contact::Cylinder;
-    use crate::explicit::element::Control;
+    use crate::explicit::element::{Control, largest};
     use crate::explicit::mesh::{Section, Yarn};
     use crate::material::{Law, Material};
     use toron::law::linear_elastic::{Criterion, Rotation};

@@ -6,10 +6,10 @@ use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::Error;
 use crate::explicit::contact::Contact;
-use crate::explicit::element::Number;
+use crate::explicit::element::{Number, largest};
 use crate::explicit::material::Medium;
 use crate::explicit::mesh::Mesh;
-use crate::explicit::{Cost, Energies, Projectile, Solver, Support, largest, vtu};
+use crate::explicit::{Cost, Energies, Projectile, Solver, Support, vtu};
 use crate::material::Material;
 use crate::unit_names::number;
 
