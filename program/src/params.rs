@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use super::material::alive;
-use super::unit_names::unit;
-use super::{Error, print};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::units::unit;
+use crate::material::model::alive;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
 use toron::law::hyperelastic::Hyperelastic;

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::element::Number;
+use super::lanes::Number;
 
 /// The cylinder and what it does to a surface. Its axis lies across the yarn; it moves along axis 1 alone.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,152 +7,11 @@
 //! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
 //! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
 
-#![expect(clippy::needless_range_loop, clippy::manual_memcpy, reason = "what is inlined for certain: see Lanes")]
+#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Sub};
 
-use crate::entries::BlockPrecision;
-
-/// Elements side by side in an inner loop.
-pub const LANES: usize = 8;
-
-/// The number that a run is computed in: f64 or f32.
-pub trait Number:
-    BlockPrecision
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-{
-}
-
-impl Number for f64 {}
-impl Number for f32 {}
-
-/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
-///
-/// The loops that run under [`pulp::Arch::dispatch`] use its instructions only where they are inlined there. Therefore whatever
-/// they call is `#[inline(always)]`, down to the operators here, and they loop over indices: no closures, adaptors of iterators
-/// or `copy_from_slice`, which remain calls where the compiler does not choose to inline them.
-#[derive(Clone, Copy)]
-#[repr(align(64))]
-pub struct Lanes<T>(pub [T; LANES]);
-
-impl<T: Number> Lanes<T> {
-    #[inline(always)]
-    pub fn splat(value: T) -> Self {
-        Lanes([value; LANES])
-    }
-
-    /// The same number in all lanes.
-    #[inline(always)]
-    pub fn constant(value: f64) -> Self {
-        Lanes::splat(T::from_f64(value))
-    }
-
-    #[inline(always)]
-    pub fn zero() -> Self {
-        Lanes::splat(T::default())
-    }
-
-    #[inline(always)]
-    pub fn at(array: &[T], first: usize) -> Self {
-        let source = &array[first..first + LANES];
-        let mut lanes = Lanes::zero();
-        for l in 0..LANES {
-            lanes.0[l] = source[l];
-        }
-        lanes
-    }
-
-    #[inline(always)]
-    pub fn store(self, array: &mut [T], first: usize) {
-        let target = &mut array[first..first + LANES];
-        for l in 0..LANES {
-            target[l] = self.0[l];
-        }
-    }
-
-    /// These where the others are above 0, elsewhere 0.
-    #[inline(always)]
-    pub fn only_where(mut self, others: Self) -> Self {
-        for l in 0..LANES {
-            self.0[l] = if others.0[l] > T::default() { self.0[l] } else { T::default() };
-        }
-        self
-    }
-
-    /// The larger ones; the others' where one is NaN.
-    #[inline(always)]
-    pub fn max(mut self, other: Self) -> Self {
-        for l in 0..LANES {
-            self.0[l] = if self.0[l] > other.0[l] { self.0[l] } else { other.0[l] };
-        }
-        self
-    }
-
-    /// The sum over the lanes.
-    #[inline(always)]
-    pub fn sum(self) -> f64 {
-        let mut sum = 0.0;
-        for l in 0..LANES {
-            sum += self.0[l].into();
-        }
-        sum
-    }
-
-    /// The largest of the lanes, or 0; a NaN is seen.
-    #[inline(always)]
-    pub fn largest(self) -> f64 {
-        let mut result = 0.0;
-        for l in 0..LANES {
-            result = largest(result, self.0[l].into());
-        }
-        result
-    }
-}
-
-/// The larger of two numbers; a NaN is seen, where `f64::max` drops it.
-#[inline(always)]
-pub fn largest(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
-}
-
-/// An operator, lane by lane.
-macro_rules! lanewise {
-    ($operator:ident, $method:ident, $symbol:tt) => {
-        impl<T: Number> $operator for Lanes<T> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                let mut result = self;
-                for l in 0..LANES {
-                    result.0[l] = self.0[l] $symbol other.0[l];
-                }
-                result
-            }
-        }
-    };
-}
-
-lanewise!(Add, add, +);
-lanewise!(Sub, sub, -);
-lanewise!(Mul, mul, *);
-lanewise!(Div, div, /);
-
-/// Components that begin at `first`, of an array with this leading dimension.
-#[inline(always)]
-pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
-    let mut components = [Lanes::zero(); N];
-    for c in 0..N {
-        components[c] = Lanes::at(array, c * stride + first);
-    }
-    components
-}
+use super::lanes::{LANES, Lanes, Number, cross, dot, load};
 
 /// The modes that are sums with the signs of one coordinate.
 const LINEAR: [usize; 3] = [1, 2, 4];
@@ -243,17 +102,6 @@ impl Shape {
             |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
         8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
     }
-}
-
-/// Coefficients of what holds hourglass modes and shocks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Control {
-    /// Fraction of the stiffness with which a material would resist the modes.
-    pub hourglass: f64,
-    /// Coefficients of viscosity: linear, quadratic, and against a change of the section's shape.
-    pub linear: f64,
-    pub quadratic: f64,
-    pub shape: f64,
 }
 
 impl<T: Number> Shapes<T> {
@@ -347,25 +195,6 @@ impl<T: Number> Shapes<T> {
             }
         }
         u
-    }
-
-    /// P by columns, all elements.
-    #[inline(always)]
-    pub fn nominal_stress(&self, point: &Points<'_, T>, nominal: &mut [T]) {
-        let stride = self.stride;
-        for group in 0..stride / LANES {
-            let first = group * LANES;
-            let f = load(point.deformation_gradient, stride, first);
-            let stress = load(point.stress, stride, first);
-            let [along] = load(point.along, stride, first);
-            let section = load(point.section, stride, first);
-            let p = first_piola_kirchhoff(&f, &stress, along, &section);
-            for j in 0..3 {
-                for i in 0..3 {
-                    p[j][i].store(nominal, (i + 3 * j) * stride + first);
-                }
-            }
-        }
     }
 
     /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements
@@ -492,77 +321,10 @@ impl<T: Number> Measures<T> {
     }
 }
 
-/// What P follows from, component-major.
-pub struct Points<'a, T> {
-    pub deformation_gradient: &'a [T],
-    /// Cauchy stress, and viscosity's: along the fibre, and of the section.
-    pub stress: &'a [T],
-    pub along: &'a [T],
-    pub section: &'a [T],
-}
-
-/// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
-/// without their parts along the first, which has minus as much of theirs as they slant.
-#[inline(always)]
-pub fn first_piola_kirchhoff<T: Number>(
-    f: &[Lanes<T>; 9],
-    stress: &[Lanes<T>; 6],
-    along: Lanes<T>,
-    section: &[Lanes<T>; 3],
-) -> [[Lanes<T>; 3]; 3] {
-    let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
-    let [r22, r33, r23] = *section;
-    let per_square = Lanes::constant(1.0) / dot(a, a);
-    let (slant_b, slant_c) = (dot(a, b) * per_square, dot(a, c) * per_square);
-    let (across_b, across_c) = (less(b, slant_b, a), less(c, slant_c, a));
-    let (second, third) = (combine(r22, across_b, r23, across_c), combine(r23, across_b, r33, across_c));
-    let [p1, p2, p3] = [times(stress, cross(b, c)), times(stress, cross(c, a)), times(stress, cross(a, b))];
-    let slanting = combine(slant_b, second, slant_c, third);
-    [add(less(p1, along, a), slanting), sub(p2, second), sub(p3, third)]
-}
-
-/// A symmetric matrix times a vector.
-#[inline(always)]
-fn times<T: Number>(matrix: &[Lanes<T>; 6], [x, y, z]: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    let [s11, s22, s33, s12, s23, s31] = *matrix;
-    [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z]
-}
-
-#[inline(always)]
-fn add<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn sub<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// a − k b.
-#[inline(always)]
-fn less<T: Number>(a: [Lanes<T>; 3], k: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] - k * b[0], a[1] - k * b[1], a[2] - k * b[2]]
-}
-
-/// k a + l b.
-#[inline(always)]
-fn combine<T: Number>(k: Lanes<T>, a: [Lanes<T>; 3], l: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [k * a[0] + l * b[0], k * a[1] + l * b[1], k * a[2] + l * b[2]]
-}
-
-#[inline(always)]
-fn cross<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> Lanes<T> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explicit::stress::{Points, nominal_stress};
 
     const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
@@ -599,7 +361,7 @@ mod tests {
         let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
         let mut nominal = vec![0.0; 9 * shapes.stride];
         let point = Points { deformation_gradient: &state.f, stress: &stress, along: &none, section: &none };
-        shapes.nominal_stress(&point, &mut nominal);
+        nominal_stress(shapes.stride, &point, &mut nominal);
         let mut forces = vec![[0.0; 3]; NODES.len()];
         shapes.forces(&nominal, &state.modal, &intact, &mut forces);
         forces

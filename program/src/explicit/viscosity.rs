@@ -13,8 +13,9 @@
 //! D̄ is told by the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
-use super::element::{LANES, Lanes, Measures, Number, Shapes, load};
-use super::material::Medium;
+use super::element::{Measures, Shapes};
+use super::lanes::{LANES, Lanes, Number, load};
+use super::medium::Medium;
 
 /// What viscosity keeps of the last step, by element.
 #[derive(Clone, Debug)]
@@ -140,8 +141,9 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::explicit::element::{Control, first_piola_kirchhoff};
-    use crate::material::{Law, Material};
+    use crate::explicit::medium::Control;
+    use crate::explicit::stress::first_piola_kirchhoff;
+    use crate::material::model::{Law, Material};
     use toron::law::linear_elastic::{Criterion, Rotation};
     use toron::law::parameters;
 

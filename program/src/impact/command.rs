@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget};
 use rayon::prelude::*;
 
-use super::run::{self, Observer, Outcome};
+use super::outcome::Outcome;
+use super::run::{self, Observer};
 use super::scene::{Case, Scene};
 use super::{plot, report, summary, yarn_picture};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::progress;
 use crate::explicit::vtu;
-use crate::{Error, print};
 
 /// Ticks of the progress bar for each case.
 const TICKS: u64 = 1000;
@@ -26,10 +29,8 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
     std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
-    let bar = ProgressBar::with_draw_target(Some(TICKS * scene.cases.len() as u64), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
-        bar.set_style(style);
-    }
+    let length = TICKS * scene.cases.len() as u64;
+    let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let runs: Vec<_> = scene.cases.par_iter().map(|case| run_case(&scene, case, output, &bar)).collect();
     bar.finish_and_clear();
     let (mut results, mut faults) = (Vec::new(), Vec::new());

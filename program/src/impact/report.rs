@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::run::Outcome;
+use super::outcome::Outcome;
 use super::scene::{Case, Scene, Striker, Zones};
 use super::summary::{NONE, maybe, outcome};
-use crate::fibre_wave::FibreWave;
-use crate::unit_names::{SPEED, TIME, number, unit};
+use crate::common::units::{SPEED, TIME, number, unit};
+use crate::material::fibre_wave::FibreWave;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;

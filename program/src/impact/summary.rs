@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::run::{End, Outcome};
+use super::outcome::{End, Outcome};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::Smith;
-use crate::Error;
-use crate::unit_names::number;
+use crate::common::error::Error;
+use crate::common::units::number;
 
 /// A column that has nothing to say about a case.
 pub(super) const NONE: &str = "-";

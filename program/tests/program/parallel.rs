@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use toron::law::block::{Arrays, Block, Level, Precision};
 use toron::law::hyperelastic::Hyperelastic;
 use toron::law::status::{BAD_LEADING_DIMENSION, Error, INVERTED, OK};
-use toron_program::bench::properties;
-use toron_program::parallel::parallel_block;
-use toron_program::scene::Scene;
+use toron_program::bench::command::properties;
+use toron_program::bench::parallel::parallel_block;
+use toron_program::bench::scene::Scene;
 
 /// Enough for every thread to get a part, and no multiple of any lanes.
 const POINTS: usize = 40_003;

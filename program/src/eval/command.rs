@@ -7,10 +7,10 @@ use clap::ValueEnum;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-use super::Error;
-use super::file_error::shortened;
 use super::polar::polar_decomposition;
-use crate::entries::{self, Answer};
+use crate::common::error::Error;
+use crate::common::toml_error::shortened;
+use crate::entries::evaluation::{self, Answer};
 use toron::host::{abaqus, c};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 use toron::law::status;
@@ -198,12 +198,12 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let f = point.f;
     let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
     let answer = match entry {
-        Entry::Law => entries::point(&properties, &columns, tangent),
-        Entry::LawF32 => entries::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
-        Entry::Block => entries::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
+        Entry::Law => evaluation::point(&properties, &columns, tangent),
+        Entry::LawF32 => evaluation::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
+        Entry::Block => evaluation::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
         Entry::BlockF32 => {
             let single = |x: f64| x as f32;
-            entries::block(
+            evaluation::block(
                 &properties.map(single),
                 &columns.map(single),
                 line,
@@ -211,13 +211,13 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
                 c::hyperelastic_block_tangent_f32,
             )
         }
-        Entry::Umat => entries::umat(&properties, &columns, tangent),
-        Entry::Vumat => via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
+        Entry::Umat => evaluation::umat(&properties, &columns, tangent),
+        Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
         Entry::VumatSp => {
-            via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
+            via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
         }
-        Entry::LsDyna => entries::lsdyna(&properties, &columns, tangent),
-        Entry::LsDynaVector => entries::lsdyna_vector(&properties, &columns, line, tangent),
+        Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
+        Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;
@@ -234,7 +234,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         failed: state[FAILED] == 1.0,
         sigma: order(answer.stress),
         status: answer.status,
-        message: (answer.status != status::OK).then(|| entries::message(answer.status, &properties)),
+        message: (answer.status != status::OK).then(|| evaluation::message(answer.status, &properties)),
         ddsdde: answer.ddsdde.map(|rows| order(rows.map(order))),
         s_el: mode(0),
         s_tc: mode(1),

@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 const LONGEST: usize = 40;
 
 /// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is at fault.
-pub(super) fn message(text: &str, error: &toml::de::Error) -> String {
+pub fn message(text: &str, error: &toml::de::Error) -> String {
     explained(text, error).unwrap_or_else(|| error.message().trim_end().to_string())
 }
 
@@ -64,7 +64,7 @@ fn allowed(message: &str, key: &str) -> Option<String> {
 }
 
 /// A value on one line, cut where it is long.
-pub(super) fn shortened(value: &str) -> String {
+pub fn shortened(value: &str) -> String {
     let line = value.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LONGEST { line } else { line.chars().take(LONGEST).chain(['…']).collect() }
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::fibre_wave::FibreWave;
-use super::material::{Law, Material};
 use super::path::LoadPath;
 use super::run::{End, History, Increment};
-use super::unit_names::{ENERGY, number, unit};
+use crate::common::units::{ENERGY, number, unit};
+use crate::material::fibre_wave::FibreWave;
+use crate::material::model::{Law, Material};
 use toron::law::parameters::{ENERGY_DENSITY, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
 

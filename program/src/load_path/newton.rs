@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
-use super::material::NominalTangent;
+use crate::material::model::NominalTangent;
 use toron::law::status;
 
 /// What is known of a component: of the deformation gradient, or of the first Piola–Kirchhoff stress.

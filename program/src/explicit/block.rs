@@ -4,112 +4,20 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, LANES, Lanes, Measures, Number, Points, Shapes, largest};
+use super::element::{Measures, Shapes};
+use super::lanes::{LANES, Lanes, Number, largest};
+use super::medium::{Entry, Medium};
+use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
-use crate::Error;
-use crate::entries::{self, LinearFrame, LinearSolverBlock, SolverBlock};
-use crate::material::{Law, Material};
-use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use toron::law::linear_elastic::{Criterion, Rotation};
+use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
+use toron::host::c::TORON_CRITERION_FIBRE;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
-use toron::law::state::{
-    FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
-    LINEAR_STRESS, LINEAR_WORK,
-};
+use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
 /// first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
-
-/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
-pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
-
-/// A law as a solver holds it.
-#[derive(Clone, Debug)]
-pub enum Entry<T> {
-    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
-    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
-}
-
-/// A material as the host uses it.
-#[derive(Clone, Debug)]
-pub struct Medium<T> {
-    pub entry: Entry<T>,
-    pub density: f64,
-    pub control: Control,
-    /// What hourglass modes are held by.
-    hourglass: f64,
-    /// Whether elements may fail, and the linear elastic law's stress at failure.
-    pub fails: bool,
-    strength: f64,
-    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
-    /// changes its shape; for viscosity.
-    pub wave_speed: f64,
-    pub compaction_speed: f64,
-    pub distortion_speed: f64,
-}
-
-impl<T: Number> Medium<T> {
-    /// # Errors
-    /// The frame is the spin's, which needs axes of its own.
-    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
-        let property = |name: &str| material.property(name).unwrap_or_default();
-        let (entry, along, across, shear) = match &material.law {
-            Law::Hyperelastic(_) => {
-                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
-                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
-                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
-                let p = property("p");
-                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
-                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
-            }
-            Law::LinearElastic { law, frame, criterion } => {
-                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
-                let frame = match frame {
-                    Rotation::Fibre => LinearFrame::Fibre,
-                    Rotation::Polar => LinearFrame::Polar,
-                    Rotation::Spin => {
-                        return Err(Error::Input("frame is \"spin\"; allowed here: fibre, polar".to_string()));
-                    }
-                };
-                let criterion = match criterion {
-                    Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
-                    Criterion::FibreStress => TORON_CRITERION_FIBRE,
-                };
-                let [across, shear] = [property("e_2"), property("g")];
-                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
-            }
-        };
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
-        Ok(Medium {
-            entry,
-            density,
-            control,
-            hourglass: control.hourglass * distortion,
-            fails: material.can_fail(),
-            strength: property("sigma_lim"),
-            wave_speed: (along / density).sqrt(),
-            compaction_speed: (across / density).sqrt(),
-            distortion_speed: (shear / density).sqrt(),
-        })
-    }
-
-    /// The law's number of state variables, and where the latch stands among them.
-    fn state(&self) -> (usize, usize) {
-        match self.entry {
-            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
-            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
-        }
-    }
-}
 
 /// What every block needs during its turn and none keeps.
 #[derive(Debug)]
@@ -217,7 +125,7 @@ impl<T: Number> WithSimd for Forces<'_, T> {
             along: &block.viscosity.along,
             section: &block.viscosity.section,
         };
-        block.shapes.nominal_stress(&point, &mut scratch.nominal);
+        nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
         block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);
     }
 }
@@ -319,7 +227,7 @@ impl<T: Number> ElementBlock<T> {
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             status: &mut scratch.status,
         };
-        entries::hyperelastic_block(properties, arrays)
+        hyperelastic_block(properties, arrays)
     }
 
     fn call_linear_elastic(
@@ -340,7 +248,7 @@ impl<T: Number> ElementBlock<T> {
             status: &mut scratch.status,
         };
         // The code is the worst of the points': each has its own in `status`.
-        entries::linear_elastic_block(properties, arrays, frame, criterion);
+        linear_elastic_block(properties, arrays, frame, criterion);
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
@@ -402,7 +310,7 @@ impl<T: Number> ElementBlock<T> {
         self.state[row * self.shapes.stride + i].into()
     }
 
-    /// Energy densities, as [`ENERGY_NAMES`] has them.
+    /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
         match medium.entry {
             Entry::Hyperelastic(_) => {

@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use crate::material::{Law, Material};
-use crate::unit_names::{SPEED, number};
+use super::model::{Law, Material};
+use crate::common::units::{SPEED, number};
 use toron::host::units::UnitSystem;
 
 /// What fibres have, in km/s, with room on both sides: nylon has 2, polyethylene 12, graphene would have 20.
@@ -50,14 +50,17 @@ impl FibreWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path::LoadPath;
+    use crate::common::toml_file::Source;
+    use crate::material::file::MaterialFile;
 
     /// The wave of the preset, but for these keys of its table.
     fn wave(units: &str, preset: &str, keys: &str) -> (Option<FibreWave>, UnitSystem) {
-        let text =
-            format!("units = \"{units}\"\n[material]\npreset = \"{preset}\"\n{keys}\n[[step]]\nF = {{ 11 = 1.01 }}\n");
-        let path = LoadPath::parse("path.toml", &text).expect("the path is valid");
-        (FibreWave::of(&path.points[0].material, &path.units), path.units)
+        let text = format!("preset = \"{preset}\"\n{keys}\n");
+        let source = Source { name: "material.toml", text: &text };
+        let units = UnitSystem::parse(units).expect("a unit system");
+        let file: MaterialFile = source.parse().expect("the keys exist");
+        let material = source.material(&file, &units, 0..0).expect("the material is valid");
+        (FibreWave::of(&material, &units), units)
     }
 
     #[test]

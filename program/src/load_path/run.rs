@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Rotation3, SMatrix};
 use rayon::prelude::*;
 
 use super::element::Hexahedron;
-use super::material::{Answer, Material};
 use super::newton::{self, COMPONENTS, Prescribed};
 use super::path::{LoadPath, Point, Step, Target};
+use crate::material::model::{Answer, Material};
 use toron::law::hyperelastic::Request;
 use toron::law::status;
 use toron::law::stress::first_piola_kirchhoff;
