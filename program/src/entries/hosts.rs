@@ -3,6 +3,8 @@
 use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 
+use nalgebra::Matrix3;
+
 use super::precision::BlockPrecision;
 use toron::host::{abaqus, c, calculix};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
@@ -154,11 +156,9 @@ pub struct CalculixPoint {
 impl CalculixPoint {
     /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
     pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) {
-        let strain = |i: usize, j: usize| {
-            let product = (0..3).map(|k| f[3 * i + k] * f[3 * j + k]).sum::<f64>();
-            0.5 * (product - if i == j { 1.0 } else { 0.0 })
-        };
-        let strain = [strain(0, 0), strain(1, 1), strain(2, 2), strain(0, 1), strain(0, 2), strain(1, 2)];
+        let f = Matrix3::from_column_slice(f);
+        let strain = 0.5 * (f.tr_mul(&f) - Matrix3::identity());
+        let strain = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|component| strain[component]);
         let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
         let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
         let (i, d) = (&raw const none, zeros.as_ptr());

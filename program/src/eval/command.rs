@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
 use clap::ValueEnum;
+use nalgebra::Matrix3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +14,7 @@ use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
 use toron::host::{abaqus, c};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
-use toron::law::status;
+use toron::law::{status, stress};
 
 /// The C entry that evaluates a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -195,8 +196,8 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let p = &point.params;
     let [m1, m2, m3] = point.m;
     let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
-    let f = point.f;
-    let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
+    let f = Matrix3::from(point.f).transpose();
+    let columns: [f64; 9] = std::array::from_fn(|c| f[c]);
     let answer = match entry {
         Entry::Law => evaluation::point(&properties, &columns, tangent),
         Entry::LawF32 => evaluation::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
@@ -249,15 +250,11 @@ fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
 }
 
 /// Plays Abaqus/Explicit: U goes in, the corotational stress comes out and is turned by R.
-fn via_vumat(f: &[[f64; 3]; 3], entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
+fn via_vumat(f: &Matrix3<f64>, entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
     let (r, u) = polar_decomposition(f);
-    let answer = entry([u[0][0], u[1][1], u[2][2], u[0][1], u[1][2], u[2][0]]);
-    let [s11, s22, s33, s12, s23, s31] = answer.stress;
-    let corotational = [[s11, s12, s31], [s12, s22, s23], [s31, s23, s33]];
-    let turned = |i: usize, j: usize| -> f64 {
-        (0..3).map(|k| r[i][k] * (0..3).map(|l| corotational[k][l] * r[j][l]).sum::<f64>()).sum()
-    };
-    let stress = [turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(1, 2), turned(2, 0)];
+    let answer = entry(stress::components(&u));
+    let rotated = r * (stress::matrix(&answer.stress) * r.transpose());
     // R of an F that is not finite may not be either.
-    Answer { stress: if answer.status == status::OK { stress } else { [0.0; 6] }, ..answer }
+    let stress = if answer.status == status::OK { stress::components(&rotated) } else { [0.0; 6] };
+    Answer { stress, ..answer }
 }

@@ -83,13 +83,17 @@ pub struct Sums {
     pub law: Duration,
 }
 
-/// What is done with the processor's widest instructions: before the law's turn, and after it.
+// What is done before the law is called and after it, with the widest instructions of the processor. pulp finds them at run
+// time without unsafe code: the yarn would take a quarter longer with those that every processor has.
+
+/// From displacements to deformation gradients and hourglass modes.
 struct Deform<'a, T> {
     shapes: &'a Shapes<T>,
     displacement: &'a [[T; 3]],
     scratch: &'a mut Scratch<T>,
 }
 
+/// From stresses to nodal forces.
 struct Forces<'a, T> {
     block: &'a mut ElementBlock<T>,
     medium: &'a Medium<T>,
