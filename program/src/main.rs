@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use toron_program::common::console::complain;
+use toron_program::common::console::print_error;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::{bench, eval, impact, load_path, params};
@@ -73,7 +73,7 @@ fn main() -> ExitCode {
     match answer {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&format!("toron: {error}\n"));
+            print_error(&format!("toron: {error}\n"));
             ExitCode::from(error.exit_code())
         }
     }

@@ -14,7 +14,7 @@ use toron::law::parameters::{
 };
 use toron::law::state::{self, StateVariable};
 
-/// What `toron --version` says.
+/// The text of `toron --version`.
 pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }

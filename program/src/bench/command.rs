@@ -62,10 +62,10 @@ pub fn run(output: Option<&Path>) -> Result<(), Error> {
     print(&table(&report));
     let Some(folder) = output else { return Ok(()) };
     let file = folder.join("bench.json");
-    let fault = |error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    std::fs::create_dir_all(folder).map_err(|error| fault(&error))?;
-    let text = serde_json::to_string_pretty(&report).map_err(|error| fault(&error))?;
-    std::fs::write(&file, text + "\n").map_err(|error| fault(&error))
+    let file_error = |error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
+    std::fs::create_dir_all(folder).map_err(|error| file_error(&error))?;
+    let text = serde_json::to_string_pretty(&report).map_err(|error| file_error(&error))?;
+    std::fs::write(&file, text + "\n").map_err(|error| file_error(&error))
 }
 
 /// The properties of the law that is measured.
@@ -76,8 +76,8 @@ pub fn properties() -> &'static [f64] {
 /// All rows of a precision, its hosts' and then the law's own; the copy limit is the last one.
 fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Host]) -> Result<Vec<Row>, Error> {
     let values: Vec<T> = properties().iter().map(|&value| T::splat(value)).collect();
-    let fault = |error: toron::law::status::Error| Error::Evaluation(error.to_string());
-    let law = Hyperelastic::new(&values).map_err(fault)?;
+    let law_error = |error: toron::law::status::Error| Error::Evaluation(error.to_string());
+    let law = Hyperelastic::new(&values).map_err(law_error)?;
     let values: [T; HYPERELASTIC_PROPERTIES] =
         values.try_into().map_err(|_| Error::Evaluation("the preset has other properties".to_string()))?;
     let entries = Entry::all();
@@ -94,11 +94,11 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
                         call(host, black_box(&values), scene, arrays);
                         Ok(())
                     })
-                    .map_err(fault)?;
+                    .map_err(law_error)?;
                 }
             }
             for (&entry, best) in entries.iter().zip(of_entries) {
-                faster(best, &mut scene, |scene| entry.run(black_box(&law), scene)).map_err(fault)?;
+                faster(best, &mut scene, |scene| entry.run(black_box(&law), scene)).map_err(law_error)?;
             }
         }
         for (times, best) in times.iter_mut().zip(best) {
@@ -121,7 +121,7 @@ fn faster<T: Precision>(
     scene: &mut Scene<T>,
     mut run: impl FnMut(&mut Scene<T>) -> Result<(), toron::law::status::Error>,
 ) -> Result<(), toron::law::status::Error> {
-    // What the last row left in the caches is no business of this one.
+    // One call first, so that the caches hold this row's data and not the last one's.
     run(scene)?;
     let start = Instant::now();
     let mut calls = 0;

@@ -27,7 +27,7 @@ pub enum Entry {
 }
 
 impl Entry {
-    /// What this processor can run, in either precision.
+    /// All that this processor can run, in either precision.
     pub fn all() -> Vec<Entry> {
         let best = Level::best();
         let levels = Level::ALL.into_iter().filter(|&level| level <= best).map(Entry::Block);
@@ -49,7 +49,7 @@ impl Entry {
     /// Evaluates the scene; its state goes on from where it was.
     ///
     /// # Errors
-    /// What the law says of the arrays.
+    /// The arrays do not have the sizes that the law needs.
     pub fn run<T: Precision + Scalar + Send + Sync>(
         self,
         law: &Hyperelastic<T>,

@@ -8,6 +8,6 @@ pub fn print(text: &str) {
 }
 
 /// Writes a message to the standard error, whose reader may have gone as well (`toron run 2>&1 | head`).
-pub fn complain(message: &str) {
+pub fn print_error(message: &str) {
     let _ = std::io::stderr().write_all(message.as_bytes());
 }

@@ -2,17 +2,17 @@
 
 use std::fmt;
 
-/// Why a command ends without its answer, with the message for the user.
+/// Why a command fails, with the message for the user.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Error {
     /// The evaluation failed: F inverted, Newton does not converge, a free direction has no stiffness.
     Evaluation(String),
-    /// The input or a file is at fault.
+    /// The input is invalid, or a file cannot be read or written.
     Input(String),
 }
 
 impl Error {
-    /// What the program hands to its shell: 1 for an evaluation, 2 for an input.
+    /// The exit code of the program: 1 for an evaluation, 2 for an input.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Evaluation(_) => 1,

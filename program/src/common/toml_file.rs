@@ -19,9 +19,9 @@ pub struct Source<'a> {
 impl Source<'_> {
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
-        let fault =
+        let parse_error =
             |error: toml::de::Error| self.error(error.span().unwrap_or(0..0), &toml_error::message(self.text, &error));
-        toml::from_str(self.text).map_err(fault)
+        toml::from_str(self.text).map_err(parse_error)
     }
 
     pub fn units(&self, name: &Spanned<String>) -> Result<UnitSystem, Error> {

@@ -11,7 +11,7 @@ use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INV
 use toron::law::status;
 use toron::law::stress::truesdell_of_jaumann;
 
-/// What an entry gives back: stress in the library's order, state, modes where it has them.
+/// The outputs of an entry: stress in the library's order, state, modes where it has them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Answer {
     pub status: i32,
@@ -38,8 +38,8 @@ pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String
 
 /// One point in either precision: stress and state as a solver asks for them, the modes by a call of their own, DDSDDE by a third.
 pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> Answer {
-    let mut alone = OnePoint::default();
-    let status = alone.call(properties, f, false);
+    let mut single = OnePoint::default();
+    let status = single.call(properties, f, false);
     let mut modes = [[T::default(); 6]; 4];
     let (values, count) = (properties.as_ptr(), properties.len());
     let nothing = null_mut();
@@ -50,8 +50,8 @@ pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[
     }
     let mut answer = Answer {
         status,
-        stress: alone.stress.map(Into::into),
-        state: alone.state.map(Into::into),
+        stress: single.stress.map(Into::into),
+        state: single.state.map(Into::into),
         modes: Some(modes.map(|mode| mode.map(Into::into))),
         ddsdde: None,
     };

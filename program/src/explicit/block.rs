@@ -19,7 +19,7 @@ use toron::law::status;
 /// first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
 
-/// What every block needs during its turn and none keeps.
+/// Working arrays for one block at a time; they carry nothing over to the next.
 #[derive(Debug)]
 pub struct Scratch<T> {
     deformation_gradient: Vec<T>,
@@ -50,24 +50,24 @@ impl<T: Number> Default for Scratch<T> {
     }
 }
 
-/// What a turn asks for beside the forces.
+/// What is computed in a step beside the forces, and the lengths of steps.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct StepOptions {
     /// Energies and invariants of the law.
-    pub law: bool,
-    /// What else the balance of energies needs.
-    pub balance: bool,
-    /// Length of the step that led here, and the shortest that an element which may fail is worth.
+    pub law_outputs: bool,
+    /// The hourglass energy, which only the energy balance needs.
+    pub energy_balance: bool,
+    /// Length of the last step, and the stable step below which an element that may fail has collapsed.
     pub step: f64,
     pub shortest: f64,
 }
 
-/// What a turn adds to the sums of a step.
+/// Sums over the blocks in a step.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
     /// Energy that viscosity has dissipated.
     pub viscosity: f64,
-    /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
+    /// Energy in hourglass modes, and the part of it that elements deleted in this step release.
     pub hourglass: f64,
     pub released: f64,
     /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
@@ -98,7 +98,7 @@ struct Forces<'a, T> {
     block: &'a mut ElementBlock<T>,
     medium: &'a Medium<T>,
     scratch: &'a mut Scratch<T>,
-    wanted: Wanted,
+    options: StepOptions,
     sums: &'a mut Sums,
     forces: &'a mut [[T; 3]],
 }
@@ -118,9 +118,9 @@ impl<T: Number> WithSimd for Forces<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Forces { block, medium, scratch, wanted, sums, forces } = self;
+        let Forces { block, medium, scratch, options, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
-        let Wanted { step, shortest, .. } = wanted;
+        let StepOptions { step, shortest, .. } = options;
         sums.viscosity += block.viscosity.advance(medium, &block.shapes, &mut scratch.measures, &block.intact, step);
         block.bound_step(medium, scratch, shortest, sums);
         let point = Points {
@@ -169,14 +169,14 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    /// From the nodes' displacements to their forces, the history moved on.
+    /// From the nodes' displacements to their forces; updates the history.
     pub fn advance(
         &mut self,
         medium: &Medium<T>,
         displacement: &[[T; 3]],
         forces: &mut [[T; 3]],
         scratch: &mut Scratch<T>,
-        wanted: Wanted,
+        options: StepOptions,
         sums: &mut Sums,
     ) {
         let wide = Arch::new();
@@ -184,7 +184,7 @@ impl<T: Number> ElementBlock<T> {
         let start = Instant::now();
         match &medium.entry {
             Entry::Hyperelastic(properties) => {
-                let code = self.call_hyperelastic(properties, medium, scratch, wanted);
+                let code = self.call_hyperelastic(properties, medium, scratch, options);
                 sums.refused = sums.refused.or(refused(code));
             }
             Entry::LinearElastic { properties, frame, criterion } => {
@@ -194,9 +194,10 @@ impl<T: Number> ElementBlock<T> {
             }
         }
         sums.law += start.elapsed();
-        // What cannot be evaluated goes before it weighs on its nodes; what has failed or collapsed carries its last stress.
+        // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
+        // exert their last stress.
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
-        wide.dispatch(Forces { block: self, medium, scratch, wanted, sums, forces });
+        wide.dispatch(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
             block.state[latch * stride + i] != T::default() && block.is_intact(i)
@@ -206,7 +207,7 @@ impl<T: Number> ElementBlock<T> {
             medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
         });
         sums.collapsed += sums.deleted.len() - failed;
-        if wanted.balance {
+        if options.energy_balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
         }
@@ -217,7 +218,7 @@ impl<T: Number> ElementBlock<T> {
         properties: &[T; HYPERELASTIC_PROPERTIES],
         medium: &Medium<T>,
         scratch: &mut Scratch<T>,
-        wanted: Wanted,
+        options: StepOptions,
     ) -> i32 {
         let wave_speed = &mut scratch.wave_speed[..];
         let arrays = SolverBlock {
@@ -225,7 +226,7 @@ impl<T: Number> ElementBlock<T> {
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
             state: &mut self.state,
-            energies: wanted.law,
+            energies: options.law_outputs,
             failure: medium.fails,
             stress: &mut scratch.stress,
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
@@ -286,17 +287,17 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    /// Deletes the elements that are picked, and latches those that the law has not.
+    /// Deletes the selected elements, and sets the latch where the law has not.
     fn delete(
         &mut self,
         medium: &Medium<T>,
         scratch: &Scratch<T>,
         sums: &mut Sums,
-        picked: impl Fn(&Self, &Scratch<T>, usize) -> bool,
+        selected: impl Fn(&Self, &Scratch<T>, usize) -> bool,
     ) {
         let latch = medium.state().1 * self.shapes.stride;
         for i in 0..self.shapes.n {
-            if picked(self, scratch, i) {
+            if selected(self, scratch, i) {
                 self.intact[i] = T::default();
                 self.state[latch + i] = T::from_f64(1.0);
                 self.viscosity.remove(i);

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::lanes::Number;
 
-/// The cylinder and what it does to a surface. Its axis lies across the yarn; it moves along axis 1 alone.
+/// The cylinder and its contact parameters. Its axis lies across the yarn; it moves along axis 1 alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     pub radius: f64,
@@ -36,7 +36,8 @@ pub struct Contact {
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
     pub dissipated: f64,
-    left_with: f64,
+    /// What nodes had stored that have left.
+    released: f64,
     /// The square of the highest frequency that it adds to a node's.
     pub frequency: f64,
     /// Sum of the stiffnesses of the nodes that are touched.
@@ -44,7 +45,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Nodes with a surface of their own are met.
+    /// Nodes with a share of the surface take part.
     pub fn new(cylinder: Cylinder, reference: &[[f64; 3]], surface: &[f64], mass: &[f64]) -> Self {
         let met = (0..reference.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
@@ -57,20 +58,20 @@ impl Contact {
         };
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, left_with: 0.0, frequency, touching: 0.0 }
+        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
     }
 
-    /// Nodes that belong to no element any more leave.
+    /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
     pub fn remove(&mut self, gone: impl Fn(usize) -> bool) {
         let leaving = self.nodes.iter().filter(|node| gone(node.number as usize));
-        self.left_with += leaving.map(|node| node.stored).sum::<f64>();
+        self.released += leaving.map(|node| node.stored).sum::<f64>();
         self.nodes.retain(|node| !gone(node.number as usize));
     }
 
     /// Adds the contact's forces to the nodes' and returns the force on the cylinder along axis 1. `axis` is the height of
     /// the cylinder's axis, `moved` how far it has moved in the step that led here.
     pub fn apply<T: Number>(&mut self, axis: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
-        (self.stored, self.touching) = (self.left_with, 0.0);
+        (self.stored, self.touching) = (self.released, 0.0);
         let mut total = 0.0;
         for node in &mut self.nodes {
             let [x, y, z] = displacement[node.number as usize];
@@ -110,8 +111,8 @@ impl Node {
         let [x, y] = [position.x, position.y - axis];
         let square = x * x + y * y;
         let old = self.friction;
-        let held = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
-        if square >= cylinder.radius * cylinder.radius && !held {
+        let had_friction = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
+        if square >= cylinder.radius * cylinder.radius && !had_friction {
             self.stored = 0.0;
             return (None, 0.0);
         }

@@ -50,7 +50,7 @@ fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [
     values
 }
 
-/// What does not change: nodes and reference shapes of a block of elements, component-major.
+/// The constant data of a block of elements, component-major: nodes and reference shapes.
 #[derive(Clone, Debug)]
 pub struct Shapes<T> {
     /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
@@ -214,21 +214,21 @@ impl<T: Number> Shapes<T> {
             let zero = Lanes::zero();
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
-                let mut held = [zero; 4];
+                let mut hourglass = [zero; 4];
                 for mode in 0..4 {
-                    held[mode] = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
+                    hourglass[mode] = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
                 }
                 let mut force = [zero; 3];
                 for j in 0..3 {
-                    // The linear field in the hourglass modes is none of theirs.
-                    let [xy, yz, zx, xyz] = held;
+                    // Less the forces on the linear part of the hourglass modes, which they must not resist.
+                    let [xy, yz, zx, xyz] = hourglass;
                     let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
                     let nominal = volume * p[i + 3 * j] - linear;
                     for m in 0..3 {
                         force[m] = force[m] + nominal * b[3 * j + m];
                     }
                 }
-                let ([xy, yz, zx, xyz], [x, y, z]) = (held, force);
+                let ([xy, yz, zx, xyz], [x, y, z]) = (hourglass, force);
                 nodal[i] = corners([zero, x, y, xy, z, zx, yz, xyz]);
             }
             self.scatter(&nodal, first, forces);
@@ -250,7 +250,7 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// What the step's bound and viscosity need to know of F, all elements.
+    /// The measures of F that the stable step and viscosity need, all elements.
     #[inline(always)]
     pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
         for group in 0..self.stride / LANES {
@@ -282,7 +282,7 @@ impl<T: Number> Shapes<T> {
     }
 }
 
-/// What F is measured by, one number an element where nothing else is said.
+/// Measures of F, one number per element unless stated otherwise.
 #[derive(Clone, Debug)]
 pub struct Measures<T> {
     /// J, and the square of the stretch along axis 0, where the fibres are.

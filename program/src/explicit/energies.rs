@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// The energies of the body and of what meets it.
+/// The energies of the body and of the projectile.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energies {
     pub projectile: f64,
@@ -12,25 +12,25 @@ pub struct Energies {
     pub hourglass: f64,
     pub viscosity: f64,
     pub friction: f64,
-    /// Stored in the penalty, that of nodes that have left included.
+    /// Stored in the penalty, including that of nodes that have left the contact.
     pub contact: f64,
     /// Work done from outside, through supports that move and a projectile that is held.
     pub external: f64,
 }
 
 impl Energies {
-    /// What is neither of the projectile nor kinetic nor the laws'.
+    /// All energies but the projectile's, the kinetic and the internal one.
     pub fn other(&self) -> f64 {
         self.hourglass + self.viscosity + self.friction + self.contact
     }
 
-    /// What stays as it is.
+    /// The conserved sum.
     pub fn total(&self) -> f64 {
         self.projectile + self.kinetic + self.internal + self.other() - self.external
     }
 }
 
-/// Where the time went.
+/// Computing time by part.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cost {
     pub steps: u64,

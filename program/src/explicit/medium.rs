@@ -10,7 +10,7 @@ use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
 
-/// Coefficients of what holds hourglass modes and shocks.
+/// Coefficients of hourglass control and viscosity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Control {
     /// Fraction of the stiffness with which a material would resist the modes.
@@ -21,10 +21,10 @@ pub struct Control {
     pub shape: f64,
 }
 
-/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
+/// Names of the energy densities: the hyperelastic law's modes, and the linear elastic law's work, which has no modes.
 pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
-/// A law as a solver holds it.
+/// A law's properties as its C entry takes them.
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
     Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
@@ -37,7 +37,7 @@ pub struct Medium<T> {
     pub entry: Entry<T>,
     pub density: f64,
     pub control: Control,
-    /// What hourglass modes are held by.
+    /// The modulus of hourglass control.
     pub hourglass: f64,
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,

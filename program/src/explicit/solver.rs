@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::block::{BLOCK, ElementBlock, Scratch, Sums, Wanted};
+use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::energies::{Cost, Energies};
 use super::lanes::Number;
 use super::medium::Medium;
@@ -19,7 +19,7 @@ const COLLAPSED: f64 = 0.2;
 /// A step this much shorter than the first one is no step any more: elements that do not fail have collapsed.
 const SHORTEST: f64 = 1e-4;
 
-/// What moves a node beside the forces on it.
+/// The boundary condition of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
     /// Which directions are free.
@@ -28,7 +28,7 @@ pub struct Support {
     pub velocity: [f64; 3],
 }
 
-/// A body on its way.
+/// A body with its motion, its history and its energies.
 #[derive(Debug)]
 pub struct Solver<T> {
     pub mesh: Mesh,
@@ -44,8 +44,8 @@ pub struct Solver<T> {
     mobility: Vec<[T; 3]>,
     mass: Vec<f64>,
     supports: Vec<(usize, Support)>,
-    /// Intact elements that hold a node.
-    holding: Vec<u16>,
+    /// Number of intact elements at each node.
+    intact_elements: Vec<u16>,
     scratch: Scratch<T>,
     pub time: f64,
     step: f64,
@@ -58,13 +58,13 @@ pub struct Solver<T> {
     external: f64,
     pub energies: Energies,
     pub deleted: Vec<usize>,
-    /// How many of them for their own step.
+    /// How many of them because they had collapsed.
     pub collapsed: usize,
     pub cost: Cost,
 }
 
 impl<T: Number> Solver<T> {
-    /// A body at rest. `medium_of` says which of the media an element is made of.
+    /// A body at rest. `medium_of` gives the index of an element's medium.
     pub fn new(mesh: Mesh, media: Vec<Medium<T>>, medium_of: impl Fn(usize) -> usize) -> Self {
         let count = mesh.nodes.len();
         let mut solver = Solver {
@@ -77,7 +77,7 @@ impl<T: Number> Solver<T> {
             mobility: Vec::new(),
             mass: vec![0.0; count],
             supports: Vec::new(),
-            holding: vec![0; count],
+            intact_elements: vec![0; count],
             scratch: Scratch::default(),
             time: 0.0,
             step: 0.0,
@@ -93,13 +93,13 @@ impl<T: Number> Solver<T> {
             mesh,
             media,
         };
-        solver.divide(medium_of);
-        solver.weigh();
+        solver.build_blocks(medium_of);
+        solver.lump_mass();
         solver
     }
 
-    /// Cuts the elements into blocks of one medium.
-    fn divide(&mut self, medium_of: impl Fn(usize) -> usize) {
+    /// Groups consecutive elements of one medium into blocks.
+    fn build_blocks(&mut self, medium_of: impl Fn(usize) -> usize) {
         let elements = &self.mesh.elements;
         let mut first = 0;
         while first < elements.len() {
@@ -112,13 +112,13 @@ impl<T: Number> Solver<T> {
     }
 
     /// Lumps an eighth of every element's mass at each corner.
-    fn weigh(&mut self) {
+    fn lump_mass(&mut self) {
         for block in &self.blocks {
             for i in 0..block.shapes.n {
                 let mass = self.media[block.medium].density * block.shapes.corner_volume(i);
                 for node in block.shapes.nodes[i] {
                     self.mass[node as usize] += mass;
-                    self.holding[node as usize] += 1;
+                    self.intact_elements[node as usize] += 1;
                 }
             }
         }
@@ -129,7 +129,7 @@ impl<T: Number> Solver<T> {
         &self.mass
     }
 
-    /// Holds a node, or moves it.
+    /// Fixes a node, or prescribes its velocity.
     pub fn support(&mut self, node: usize, support: Support) {
         for i in (0..3).filter(|&i| !support.free[i]) {
             self.mobility[node][i] = T::default();
@@ -148,17 +148,22 @@ impl<T: Number> Solver<T> {
     pub fn accelerate(&mut self, measured: bool, left: f64) -> Result<(), Error> {
         let started = Instant::now();
         let shortest = self.first_step.map_or(0.0, |first| COLLAPSED * first / SAFETY);
-        let wanted = Wanted { law: measured || self.all_outputs, balance: measured, step: self.step, shortest };
-        let sums = self.compute_forces(wanted)?;
+        let options = StepOptions {
+            law_outputs: measured || self.all_outputs,
+            energy_balance: measured,
+            step: self.step,
+            shortest,
+        };
+        let sums = self.compute_forces(options)?;
         let computed = Instant::now();
-        self.meet_projectile();
+        self.apply_contact();
         let met = Instant::now();
-        self.take_leave(&sums);
+        self.release_nodes(&sums);
         let stable = self.stable_step(&sums)?;
         let before = self.step;
         // Equal steps to the end, rather than a very short last one.
         self.step = left / (left / stable).ceil();
-        self.change_velocities(0.5 * (before + self.step), measured, &sums);
+        self.update_velocities(0.5 * (before + self.step), measured, &sums);
         self.cost.steps += 1;
         self.cost.law += sums.law;
         self.cost.elements += computed - started;
@@ -182,12 +187,12 @@ impl<T: Number> Solver<T> {
         )))
     }
 
-    fn compute_forces(&mut self, wanted: Wanted) -> Result<Sums, Error> {
+    fn compute_forces(&mut self, options: StepOptions) -> Result<Sums, Error> {
         self.forces.fill([T::default(); 3]);
         let mut sums = Sums::default();
         for block in &mut self.blocks {
             let medium = &self.media[block.medium];
-            block.advance(medium, &self.displacement, &mut self.forces, &mut self.scratch, wanted, &mut sums);
+            block.advance(medium, &self.displacement, &mut self.forces, &mut self.scratch, options, &mut sums);
         }
         if let Some(code) = sums.refused {
             return Err(Error::Evaluation(format!(
@@ -199,7 +204,7 @@ impl<T: Number> Solver<T> {
         Ok(sums)
     }
 
-    fn meet_projectile(&mut self) {
+    fn apply_contact(&mut self) {
         if let Some(projectile) = &mut self.projectile {
             let Projectile { position, moved, contact, .. } = projectile;
             projectile.force = contact.apply(*position, *moved, &self.displacement, &mut self.forces);
@@ -207,26 +212,26 @@ impl<T: Number> Solver<T> {
         }
     }
 
-    /// Deleted elements let their nodes go; a node without elements keeps its mass and meets nothing.
-    fn take_leave(&mut self, sums: &Sums) {
+    /// Releases the nodes of deleted elements; a node without elements keeps its mass and leaves the contact.
+    fn release_nodes(&mut self, sums: &Sums) {
         if sums.deleted.is_empty() {
             return;
         }
         for &element in &sums.deleted {
             for node in self.mesh.elements[element] {
-                self.holding[node as usize] -= 1;
+                self.intact_elements[node as usize] -= 1;
             }
         }
         self.released += sums.released;
         self.deleted.extend(&sums.deleted);
         self.collapsed += sums.collapsed;
         if let Some(projectile) = &mut self.projectile {
-            projectile.contact.remove(|node| self.holding[node] == 0);
+            projectile.contact.remove(|node| self.intact_elements[node] == 0);
         }
     }
 
     /// Velocities in the middle of the step; `interval` is the time from the middle of the last one.
-    fn change_velocities(&mut self, interval: f64, measured: bool, sums: &Sums) {
+    fn update_velocities(&mut self, interval: f64, measured: bool, sums: &Sums) {
         let dt = T::from_f64(interval);
         let mut kinetic = 0.0;
         for (((v, f), mobility), &mass) in
@@ -249,17 +254,17 @@ impl<T: Number> Solver<T> {
             }
             striking = 0.5 * projectile.mass * old * projectile.velocity;
         }
-        let work = interval * self.power_from_outside();
+        let work = interval * self.external_power();
         self.external += work;
         if measured {
-            // Half of the work belongs to what comes after the instant of the measurement.
+            // Half of this interval comes after the instant of the measurement.
             let external = self.external - 0.5 * work;
             self.energies = Energies { projectile: striking, kinetic, external, ..self.other_energies(sums) };
         }
     }
 
-    /// The power of what holds a velocity.
-    fn power_from_outside(&self) -> f64 {
+    /// The power of the reactions at prescribed velocities.
+    fn external_power(&self) -> f64 {
         let mut power = 0.0;
         for (node, support) in &self.supports {
             let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * support.velocity[i] };
@@ -289,7 +294,7 @@ impl<T: Number> Solver<T> {
         }
     }
 
-    /// Moves on to the end of the step.
+    /// Displacements at the end of the step.
     pub fn displace(&mut self) {
         let started = Instant::now();
         let dt = T::from_f64(self.step);
@@ -306,7 +311,7 @@ impl<T: Number> Solver<T> {
         self.cost.nodes += started.elapsed();
     }
 
-    /// Where a node stands.
+    /// The current position of a node.
     pub fn position(&self, node: usize) -> [f64; 3] {
         std::array::from_fn(|i| self.mesh.nodes[node][i] + self.displacement[node][i].into())
     }
@@ -317,7 +322,7 @@ impl<T: Number> Solver<T> {
         (block, number - block.first)
     }
 
-    /// Whether an element still stands.
+    /// Whether an element has not been deleted.
     pub fn is_intact(&self, number: usize) -> bool {
         let (block, i) = self.element(number);
         block.is_intact(i)

@@ -4,7 +4,7 @@
 
 use super::lanes::{LANES, Lanes, Number, add, combine, cross, dot, less, load, sub, times};
 
-/// What P follows from, component-major.
+/// The deformation gradient and the stresses that P follows from, component-major.
 pub struct Points<'a, T> {
     pub deformation_gradient: &'a [T],
     /// Cauchy stress, and viscosity's: along the fibre, and of the section.

@@ -10,14 +10,14 @@
 //! swelling, which the law leaves free, stays so. A change of shape is resisted with the speed of distortion's wave, or the
 //! section would ring long after the kink has wrenched it.
 //!
-//! D̄ is told by the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
+//! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
 use super::element::{Measures, Shapes};
 use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
 
-/// What viscosity keeps of the last step, by element.
+/// History of the viscosity, by element.
 #[derive(Clone, Debug)]
 pub struct Viscosity<T> {
     /// Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ with the square Λ of the
@@ -229,7 +229,7 @@ mod tests {
                 let ((found, _), expected) = (resist(from, to), expected(from, to));
                 // A stress of 1 Pa is rounding: these are of some thousands.
                 let scale = expected.norm().max(1.0);
-                // Rates are told from differences here, exact to their size.
+                // Rates are differences here, exact to first order.
                 let error = (found - expected).norm();
                 assert!(error < 1e-4_f64.max(10.0 * size) * scale, "{found} expected {expected}");
             }

@@ -118,7 +118,7 @@ impl CaseFile {
         self.striker.unwrap_or(StrikerName::Cylinder)
     }
 
-    /// What this table gives and none of these cases reads: its place, and what is wrong.
+    /// A key of this table that none of these cases reads: its place, and the message.
     pub fn unused(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
         self.unused_material(cases).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
     }
@@ -155,7 +155,7 @@ impl CaseFile {
         cases.iter().all(|case| case.striker() == StrikerName::Driven).then_some((span, message))
     }
 
-    /// This table completed by `base`.
+    /// This table, with the keys of `base` where it has none.
     pub fn over(&self, base: &CaseFile) -> CaseFile {
         let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
             (Some(own), Some(base)) => Some(Spanned::new(own.span(), own.get_ref().over(base.get_ref()))),

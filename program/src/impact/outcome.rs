@@ -1,4 +1,4 @@
-//! What came of a case: its history, and what is worked out from it.
+//! The result of a case: its history, and the quantities computed from it.
 
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ pub struct Sample {
     pub least: f64,
     /// The largest failure index of what stands.
     pub index: f64,
-    /// Elements deleted so far, and how many of them for their own step.
+    /// Elements deleted so far, and how many of them because they had collapsed.
     pub deleted: usize,
     pub collapsed: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.
@@ -69,7 +69,7 @@ pub struct Snapshot {
     pub projectile: Option<(f64, f64)>,
 }
 
-/// What came of a case.
+/// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub samples: Vec<Sample>,
@@ -104,7 +104,7 @@ impl Outcome {
         imbalance(&self.samples)
     }
 
-    /// What is left of the projectile's speed; none where the run has ended before that was settled, or where the speed is
+    /// The projectile's residual speed; none where the run has ended before the projectile stopped or left, or where the speed is
     /// not the projectile's own.
     pub fn residual_speed(&self) -> Option<f64> {
         match self.end {

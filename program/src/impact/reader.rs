@@ -24,7 +24,7 @@ use toron::law::linear_elastic::{Criterion, Rotation};
 const MOST_ELEMENTS: usize = 10_000_000;
 /// Files for ParaView are numbered by four digits.
 const MOST_FRAMES: usize = 9999;
-/// Lengths are told apart by this part of themselves.
+/// Lengths closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-9;
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 600.0;
@@ -88,7 +88,7 @@ impl Source<'_> {
         Ok(name.get_ref().clone())
     }
 
-    /// What a table gives and none of its cases reads would be ignored.
+    /// Refuses keys of a table that none of its cases reads.
     fn check_used(&self, table: &CaseFile, cases: &[&CaseFile]) -> Result<(), Error> {
         table.unused(cases).map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
     }
@@ -126,7 +126,7 @@ struct Reader<'a> {
     file: &'a CaseFile,
     /// The case's own table, without the scene's.
     own: &'a CaseFile,
-    /// What to blame for what is missing.
+    /// The place that errors name for keys that are missing.
     span: Range<usize>,
 }
 
@@ -239,8 +239,10 @@ impl Reader<'_> {
             let most = number(most);
             let mut message =
                 format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
-            if let Some(doubt) = FibreWave::of(material, self.units).and_then(|wave| wave.doubt(self.units)) {
-                message.push_str(&format!(";\n{doubt}"));
+            if let Some(unit_warning) =
+                FibreWave::of(material, self.units).and_then(|wave| wave.unit_warning(self.units))
+            {
+                message.push_str(&format!(";\n{unit_warning}"));
             }
             return Err(self.source.error(span, &message));
         }

@@ -24,9 +24,9 @@ const PLATEAU: [f64; 2] = [0.3, 0.7];
 const LARGEST_IMBALANCE: f64 = 0.05;
 /// The failure index of an element that has failed, but for the rounding of single precision.
 const FAILED: f64 = 1.0 - 1e-6;
-/// Times are told apart by this part of a case's time.
+/// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
-/// Who follows a run.
+/// Receives the progress and the frames of a run.
 pub trait Observer {
     /// The fraction of the case's time that has passed.
     fn progress(&mut self, _fraction: f64) {}
@@ -40,7 +40,7 @@ pub trait Observer {
     }
 }
 
-/// Nobody does.
+/// An observer that does nothing.
 impl Observer for () {}
 
 /// Runs a case.
@@ -49,8 +49,8 @@ impl Observer for () {}
 /// A material that the host cannot use, a speed beyond every yarn, a run that is not stable, or the observer's.
 pub fn run(case: &Case, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     match case.precision {
-        Precision::F64 => Run::<f64>::new(case)?.go(observer),
-        Precision::F32 => Run::<f32>::new(case)?.go(observer),
+        Precision::F64 => Run::<f64>::new(case)?.run(observer),
+        Precision::F32 => Run::<f32>::new(case)?.run(observer),
     }
 }
 
@@ -65,8 +65,8 @@ struct Run<'a, T> {
     /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
     deleted: usize,
     torn: Vec<bool>,
-    /// Since when nothing has touched the projectile.
-    untouched: f64,
+    /// When the projectile was last in contact.
+    last_contact: f64,
     start: f64,
 }
 
@@ -100,12 +100,12 @@ impl<'a, T: Number> Run<'a, T> {
             broken: None,
             deleted: 0,
             torn: vec![false; per_layer],
-            untouched: 0.0,
+            last_contact: 0.0,
             start,
         })
     }
 
-    fn go(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    fn run(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         let begun = Instant::now();
         let (mut next_sample, mut next_frame) = (0.0, 0.0);
         let frame = self.case.end / self.case.frames.max(1) as f64;
@@ -120,7 +120,7 @@ impl<'a, T: Number> Run<'a, T> {
             let drawn = pictures.last().is_some_and(|&picture| reached(picture));
             let framed = self.case.frames > 0 && reached(next_frame);
             let left = if end.is_some() { self.case.end } else { self.case.end - time };
-            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.fault(&error.to_string()))?;
+            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
             if sampled {
                 self.sample(time)?;
                 next_sample += self.case.sample;
@@ -180,20 +180,20 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.tears(time) {
+        if self.broken.is_none() && self.check_broken(time) {
             self.broken = Some((time, self.speed()));
         }
         if let Some(projectile) = &self.solver.projectile {
             if projectile.force != 0.0 {
-                self.untouched = time;
+                self.last_contact = time;
             }
             if projectile.velocity >= 0.0 {
                 return Some(End::Stopped);
             }
         }
-        // As long as a wave takes to the clamp and back: what is left of the yarn has had its say.
-        let patience = 2.0 * self.case.yarn.length / self.smith.fastest;
-        if self.broken.is_some() && time - self.untouched > patience {
+        // As long as a wave takes to the clamp and back: after that, what is left of the yarn no longer touches it.
+        let waiting_time = 2.0 * self.case.yarn.length / self.smith.fastest;
+        if self.broken.is_some() && time - self.last_contact > waiting_time {
             return Some(End::Left);
         }
         (time >= self.case.end).then_some(End::Time)
@@ -201,7 +201,7 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
     /// all, so that a torn line carries no tension, whatever its neighbours do.
-    fn tears(&mut self, time: f64) -> bool {
+    fn check_broken(&mut self, time: f64) -> bool {
         for &element in &self.solver.deleted[self.deleted..] {
             self.torn[element % self.solver.mesh.elements_per_layer] = true;
             // The index of what has failed stays as it was then; what has collapsed has a lower one.
@@ -213,8 +213,8 @@ impl<'a, T: Number> Run<'a, T> {
         self.torn.iter().all(|&torn| torn)
     }
 
-    /// Why the case has no result.
-    fn fault(&self, reason: &str) -> Error {
+    /// The error of a case without a result.
+    fn error(&self, reason: &str) -> Error {
         Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
     }
 
@@ -240,7 +240,7 @@ impl<'a, T: Number> Run<'a, T> {
         }
         let energy = number(sample.energies.total());
         let bound = 100.0 * LARGEST_IMBALANCE;
-        Err(self.fault(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
+        Err(self.error(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
     }
 
     fn measure_densities(&self, sample: &mut Sample) {
@@ -255,9 +255,9 @@ impl<'a, T: Number> Run<'a, T> {
                 continue;
             }
             let place = (self.solver.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
-            larger(&mut sample.largest, densities);
+            update_maxima(&mut sample.largest, densities);
             if place > radius && place < length - radius {
-                larger(&mut sample.free, densities);
+                update_maxima(&mut sample.free, densities);
             }
             sample.least = sample.least.min(densities[0] + densities[4]);
             sample.index = largest(sample.index, self.solver.failure_index(i));
@@ -321,7 +321,7 @@ fn front(values: &[f64], threshold: f64) -> Option<f64> {
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))
 }
 
-fn larger(all: &mut [f64; 5], values: [f64; 5]) {
+fn update_maxima(all: &mut [f64; 5], values: [f64; 5]) {
     for (most, value) in all.iter_mut().zip(values) {
         *most = largest(*most, value);
     }

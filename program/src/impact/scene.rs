@@ -8,7 +8,7 @@ use crate::explicit::mesh::Yarn;
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 
-/// What is run.
+/// The cases of a file, and what they have in common.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub title: String,
@@ -18,7 +18,7 @@ pub struct Scene {
     pub abscissa: Option<Abscissa>,
 }
 
-/// A quantity that cases are told apart by.
+/// A quantity in which cases differ.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Abscissa {
@@ -80,7 +80,7 @@ pub enum Precision {
     F32,
 }
 
-/// What the law is asked for in every step.
+/// The outputs of the law in every step.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outputs {

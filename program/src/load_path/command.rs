@@ -15,7 +15,7 @@ use crate::common::progress;
 
 const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
 /// A run that is over before this needs no progress bar.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
 /// Runs the load path of a file, or the demonstration, and writes what came of it to the directory `output`.
 ///
@@ -55,7 +55,7 @@ fn run_with_progress(path: &LoadPath) -> Vec<History<'_>> {
     let (start, shown) = (Instant::now(), Once::new());
     let histories = run::run(path, &|| {
         bar.inc(1);
-        if !shown.is_completed() && start.elapsed() > PATIENCE {
+        if !shown.is_completed() && start.elapsed() > PROGRESS_DELAY {
             shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
         }
     });

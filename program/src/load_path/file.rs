@@ -208,13 +208,13 @@ impl Source<'_> {
 
     /// How often a group repeats its steps; a group has nothing else of its own.
     fn cycles(&self, group: &StepFile, span: Range<usize>) -> Result<usize, Error> {
-        let alone = group.gradient.is_empty()
+        let nothing_else = group.gradient.is_empty()
             && group.stress.is_empty()
             && group.increments.is_none()
             && group.duration.is_none()
             && group.rotation.is_none();
         match &group.cycles {
-            Some(cycles) if *cycles.get_ref() > 0 && alone && !group.step.is_empty() => Ok(*cycles.get_ref()),
+            Some(cycles) if *cycles.get_ref() > 0 && nothing_else && !group.step.is_empty() => Ok(*cycles.get_ref()),
             cycles => {
                 let wanted = "cycles >= 1 and one [[step.step]] at least, and beside them a name";
                 let span = cycles.as_ref().map_or(span, Spanned::span);

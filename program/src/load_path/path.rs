@@ -8,7 +8,7 @@ use super::element::Hexahedron;
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 
-/// What runs: an element, the materials it is tried with, and its steps.
+/// An element, the materials it is run with, and its steps.
 #[derive(Clone, Debug)]
 pub struct LoadPath {
     pub title: String,
@@ -45,7 +45,7 @@ pub struct Step {
     pub rotation: Option<(Unit<Vector3<f64>>, f64)>,
 }
 
-/// Where a component goes.
+/// The prescribed value of a component at the end of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// Component of F at the end of the step.

@@ -47,18 +47,18 @@ pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) 
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, path: &LoadPath, history: &History) -> Result<(), Error> {
-    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
     let material = &history.point.material;
-    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
     writer
         .write_record(
             PLACE.map(String::from).into_iter().chain(columns(material).into_iter().map(|column| column.name)),
         )
-        .map_err(fault)?;
+        .map_err(file_error)?;
     for increment in &history.increments {
         let step = &path.steps[increment.step];
         let place = if increment.number == 0 { [0; 3] } else { [step.number, step.cycle, increment.number] };
-        writer.serialize((place, values(increment, material, &path.element))).map_err(fault)?;
+        writer.serialize((place, values(increment, material, &path.element))).map_err(file_error)?;
     }
-    writer.flush().map_err(|error| fault(error.into()))
+    writer.flush().map_err(|error| file_error(error.into()))
 }

@@ -6,13 +6,13 @@ use super::model::{Law, Material};
 use crate::common::units::{SPEED, number};
 use toron::host::units::UnitSystem;
 
-/// What fibres have, in km/s, with room on both sides: nylon has 2, polyethylene 12, graphene would have 20.
+/// Speeds in fibres, in km/s, with a margin on both sides: nylon has 2, polyethylene 12, graphene would have 20.
 const KNOWN: RangeInclusive<f64> = 1.0..=20.0;
 
 /// A wave along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FibreWave {
-    /// What its speed follows from.
+    /// The formula of its speed.
     pub formula: &'static str,
     /// The stiffness that it takes.
     stiffness: &'static str,
@@ -31,8 +31,8 @@ impl FibreWave {
         (speed > 0.0).then(|| FibreWave { formula, stiffness, speed: speed / units.from_si(1000.0, SPEED) })
     }
 
-    /// That the speed is no fibre's, and why that may be.
-    pub fn doubt(&self, units: &UnitSystem) -> Option<String> {
+    /// A warning where no fibre has this speed: the units are likely wrong.
+    pub fn unit_warning(&self, units: &UnitSystem) -> Option<String> {
         (!KNOWN.contains(&self.speed)).then(|| {
             format!(
                 "the wave along the fibre has {} km/s, and fibres have {} to {}:\n\
@@ -70,7 +70,7 @@ mod tests {
                 let (wave, units) = wave(units, preset, "");
                 let wave = wave.expect("there is a density");
                 assert!((wave.speed - speed).abs() < 1e-5, "{wave:?}");
-                assert_eq!(wave.doubt(&units), None);
+                assert_eq!(wave.unit_warning(&units), None);
             }
         }
     }
@@ -84,12 +84,12 @@ mod tests {
             ("properties = { k_el = 82341e3 }", "246.8"),
         ] {
             let (wave, units) = wave("mm-tonne-s", "kevlar-km2-600", keys);
-            let doubt = wave.and_then(|wave| wave.doubt(&units)).expect(keys);
+            let unit_warning = wave.and_then(|wave| wave.unit_warning(&units)).expect(keys);
             let expected = format!(
                 "the wave along the fibre has {speed} km/s, and fibres have 1 to 20:\n\
                  density or k_el is most likely not in the units of the file, mm-tonne-s"
             );
-            assert_eq!(doubt, expected);
+            assert_eq!(unit_warning, expected);
         }
         assert_eq!(wave("si", "kevlar-km2-600", "properties = { k_el = 0 }").0, None);
     }

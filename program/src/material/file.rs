@@ -77,7 +77,7 @@ impl MaterialFile {
 }
 
 impl Source<'_> {
-    /// The material of a table; `span` is what to blame for what is missing from it.
+    /// The material of a table; `span` is the place that errors name for keys that are missing.
     pub fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
         let preset = file.preset.as_ref().map(|name| self.preset(name)).transpose()?;
         let table = self.property_table(file, preset, span.clone())?;
@@ -141,7 +141,7 @@ impl Source<'_> {
         }
     }
 
-    /// The values of all properties, and for each what to blame: preset or default, then fibre, then properties.
+    /// The values of all properties, and for each the place that errors name: preset or default, then fibre, then properties.
     fn values(
         &self,
         file: &MaterialFile,

@@ -16,11 +16,11 @@ pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Result<(), Error> {
-    let fault = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    let sheet = draw(size, paint).map_err(|error| fault(svg, &error))?;
-    std::fs::write(svg, sheet.svg()).map_err(|error| fault(svg, &error))?;
-    let pixels = sheet.png().map_err(|error| fault(png, &error))?;
-    std::fs::write(png, pixels).map_err(|error| fault(png, &error))
+    let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
+    let sheet = draw(size, paint).map_err(|error| file_error(svg, &error))?;
+    std::fs::write(svg, sheet.svg()).map_err(|error| file_error(svg, &error))?;
+    let pixels = sheet.png().map_err(|error| file_error(png, &error))?;
+    std::fs::write(png, pixels).map_err(|error| file_error(png, &error))
 }
 
 pub(super) fn draw(size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Drawn<Sheet> {

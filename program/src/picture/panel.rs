@@ -7,7 +7,7 @@ use super::page::{Area, Drawn};
 use super::sheet::Sheet;
 use super::style::{GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, text};
 
-/// What the labels of an ordinate need.
+/// The width of an ordinate's labels.
 const MARGIN: i32 = 70;
 /// A line with more points than this is thinned.
 const MOST_POINTS: usize = 4000;
@@ -27,7 +27,7 @@ pub struct Panel {
     pub limit: Option<f64>,
 }
 
-/// What the panels have in common.
+/// The abscissa that panels share.
 pub struct Abscissa {
     pub label: String,
     pub values: Vec<f64>,

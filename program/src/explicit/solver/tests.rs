@@ -7,13 +7,13 @@ use crate::material::model::{Law, Material};
 use toron::law::linear_elastic::{Criterion, Rotation};
 use toron::law::parameters;
 
-/// A cube of 1 mm whose nodes move as they are told; it may fail.
-fn cube(told: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
+/// A cube of 1 mm with these boundary conditions; it may fail.
+fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
-    cube_of(preset.values.to_vec(), told)
+    cube_of(preset.values.to_vec(), support_of)
 }
 
-fn cube_of(values: Vec<f64>, told: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
+fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
     let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
@@ -24,12 +24,12 @@ fn cube_of(values: Vec<f64>, told: impl Fn([f64; 3]) -> Support) -> Solver<f64> 
     let medium = Medium::new(&material, density, control).expect("valid");
     let mut solver = Solver::new(yarn.mesh(), vec![medium], |_| 0);
     for node in 0..solver.mesh.nodes.len() {
-        solver.support(node, told(solver.mesh.nodes[node]));
+        solver.support(node, support_of(solver.mesh.nodes[node]));
     }
     solver
 }
 
-/// A node that has no choice.
+/// A node with a prescribed velocity.
 fn driven(velocity: [f64; 3]) -> Support {
     Support { free: [false; 3], velocity }
 }
