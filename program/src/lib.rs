@@ -5,7 +5,7 @@
 //!
 //! - one element along a load path (`toron run`): [`load_path`];
 //! - single points through any C entry (`toron eval`): [`eval`];
-//! - what a point costs (`toron bench`): [`bench`];
+//! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties, presets and decks (`toron params`): [`params`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
 //! - what they share: materials and how files describe them in [`material`], the calls of the C interface in [`entries`],

@@ -249,7 +249,7 @@ fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
     [s[0], s[1], s[2], s[3], s[5], s[4]]
 }
 
-/// Plays Abaqus/Explicit: U goes in, the corotational stress comes out and is turned by R.
+/// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.
 fn via_vumat(f: &Matrix3<f64>, entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
     let (r, u) = polar_decomposition(f);
     let answer = entry(stress::components(&u));

@@ -13,10 +13,10 @@ use toron::law::status;
 
 /// A step is this fraction of the longest one that the bounds of frequency and damping allow.
 const SAFETY: f64 = 0.9;
-/// An element that may fail and whose own step is this much shorter than the body's first one has collapsed, and goes: a torn
-/// shred, which nothing holds any more. Before the break steps fall to 0.67 of the first, shreds go down to 0.02.
+/// An element that may fail has collapsed, and is deleted, when its own stable step is this fraction of the body's first one: it
+/// is a torn shred, which no neighbours hold any more. Before the break steps fall to 0.67 of the first, shreds go down to 0.02.
 const COLLAPSED: f64 = 0.2;
-/// A step this much shorter than the first one is no step any more: elements that do not fail have collapsed.
+/// The run ends with an error when the step is this fraction of the first one: elements that do not fail have collapsed.
 const SHORTEST: f64 = 1e-4;
 
 /// The boundary condition of a node.
@@ -49,7 +49,7 @@ pub struct Solver<T> {
     scratch: Scratch<T>,
     pub time: f64,
     step: f64,
-    /// The first step, and what a step is without end.
+    /// The first stable step.
     first_step: Option<f64>,
     friction: f64,
     viscosity: f64,

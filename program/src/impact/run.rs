@@ -26,6 +26,7 @@ const LARGEST_IMBALANCE: f64 = 0.05;
 const FAILED: f64 = 1.0 - 1e-6;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
+
 /// Receives the progress and the frames of a run.
 pub trait Observer {
     /// The fraction of the case's time that has passed.

@@ -217,7 +217,7 @@ impl Material {
 }
 
 /// Which state variable, counted from 0, tells a host to delete the element, for a law of so many properties' table.
-pub fn alive(table: &[Property]) -> usize {
+pub fn deletion_variable(table: &[Property]) -> usize {
     if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) { LINEAR_ALIVE } else { ALIVE }
 }
 
