@@ -20,8 +20,9 @@ use toron::Hyperelastic;
 use toron::Level;
 use toron::law::block::Precision;
 use toron::law::state::HYPERELASTIC_STATE;
-use toron_program::bench::{Answer, Entry, SIZES, each_point, processor, properties};
-use toron_program::scene::Scene;
+use toron_program::bench::command::{SIZES, processor, properties};
+use toron_program::bench::entries::{Answer, Entry, each_point};
+use toron_program::bench::scene::Scene;
 
 /// Every row is measured this often, in turn with the others, so that what disturbs one moment disturbs all.
 const ROUNDS: usize = 6;

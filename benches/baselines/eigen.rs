@@ -4,7 +4,7 @@
 use nalgebra::{Matrix3, Matrix3x2, SymmetricEigen, Vector3};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron_program::bench::Answer;
+use toron_program::bench::entries::Answer;
 
 use super::{Properties, components};
 

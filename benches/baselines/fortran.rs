@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use libloading::Library;
-use toron_program::bench::{Answer, each_point};
-use toron_program::scene::Scene;
+use toron_program::bench::entries::{Answer, each_point};
+use toron_program::bench::scene::Scene;
 
 const SOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/baselines");
 const BUILD: &str = env!("CARGO_TARGET_TMPDIR");

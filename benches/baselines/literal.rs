@@ -7,7 +7,7 @@
 use nalgebra::Matrix3;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron_program::bench::Answer;
+use toron_program::bench::entries::Answer;
 
 use super::{Properties, components};
 

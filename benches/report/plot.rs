@@ -7,9 +7,8 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use serde::{Deserialize, Serialize};
-use toron_program::picture::{
-    self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text,
-};
+use toron_program::picture::page::{self, Area, Drawn};
+use toron_program::picture::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, superscript, text};
 
 /// Points a call of the times that are drawn: a batch in the cache.
 pub const CACHED: usize = 4096;
@@ -90,7 +89,7 @@ struct Mark<'a, P> {
 pub fn write(json: &str, folder: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let report: Report = serde_json::from_str(json)?;
     let size = report.sizes.iter().position(|&size| size == CACHED).ok_or("no times of a batch in the cache")?;
-    picture::write(&folder.join("speed.svg"), &folder.join("speed.png"), SIZE, |root| draw(root, &report, size))?;
+    page::write(&folder.join("speed.svg"), &folder.join("speed.png"), SIZE, |root| draw(root, &report, size))?;
     Ok(())
 }
 

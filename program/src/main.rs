@@ -4,8 +4,10 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use toron_program::eval::Entry;
-use toron_program::{Error, bench, command, eval, impact, params};
+use toron_program::common::console::print_error;
+use toron_program::common::error::Error;
+use toron_program::eval::command::Entry;
+use toron_program::{bench, eval, impact, load_path, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -62,16 +64,16 @@ enum Command {
 
 fn main() -> ExitCode {
     let answer: Result<(), Error> = match Arguments::parse().command {
-        Command::Run { path, output } => command::run(path.as_deref(), &output),
+        Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
-        Command::Eval { via, tangent } => eval::lines(via, tangent),
+        Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
-        Command::Bench { output } => bench::run(output.as_deref()),
+        Command::Bench { output } => bench::command::run(output.as_deref()),
     };
     match answer {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            toron_program::complain(&format!("toron: {error}\n"));
+            print_error(&format!("toron: {error}\n"));
             ExitCode::from(error.exit_code())
         }
     }

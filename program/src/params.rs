@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use super::material::alive;
-use super::unit_names::unit;
-use super::{Error, print};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::units::unit;
+use crate::material::model::deletion_variable;
 use toron::Hyperelastic;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
@@ -13,7 +14,7 @@ use toron::law::parameters::{
 };
 use toron::law::state::{self, StateVariable};
 
-/// What `toron --version` says.
+/// The text of `toron --version`.
 pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }
@@ -130,7 +131,7 @@ fn deck(preset: &Preset, units: &UnitSystem) -> String {
 fn ls_dyna(preset: &Preset, heading: &str, density: f64, values: &[f64], moduli: [f64; 2]) -> String {
     let constants: Vec<f64> = values.iter().copied().chain(moduli).collect();
     let (count, bulk, shear) = (constants.len(), values.len() + 1, values.len() + 2);
-    let history = alive(preset.table) + 1;
+    let history = deletion_variable(preset.table) + 1;
     let field = |text: &dyn std::fmt::Display| format!("{text:>10}");
     let card = |fields: &[String]| fields.iter().map(|text| field(text)).collect::<String>();
     let head = |names: &str| {
@@ -163,7 +164,7 @@ fn abaqus(preset: &Preset, heading: &str, density: f64, values: &[f64]) -> Strin
     }
     let variables: &[StateVariable] =
         if std::ptr::eq(preset.table, &HYPERELASTIC[..]) { &state::HYPERELASTIC } else { &state::LINEAR_ELASTIC };
-    let _ = writeln!(deck, "*DEPVAR, DELETE={}\n{},", alive(preset.table) + 1, variables.len());
+    let _ = writeln!(deck, "*DEPVAR, DELETE={}\n{},", deletion_variable(preset.table) + 1, variables.len());
     for (i, variable) in variables.iter().enumerate() {
         let _ = writeln!(deck, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
     }

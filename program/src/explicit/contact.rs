@@ -1,8 +1,10 @@
 //! A rigid cylinder across the yarn, against the nodes of its surface: penalty and Coulomb friction.
 
-use super::element::Number;
+use nalgebra::Vector3;
 
-/// The cylinder and what it does to a surface. Its axis lies across the yarn; it moves along axis 1 alone.
+use super::lanes::Number;
+
+/// The cylinder and its contact parameters. Its axis lies across the yarn; it moves along axis 1 alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cylinder {
     pub radius: f64,
@@ -18,10 +20,10 @@ struct Node {
     number: u32,
     /// Force by depth: the stiffness times the surface that belongs to it.
     stiffness: f64,
-    reference: [f64; 3],
+    reference: Vector3<f64>,
     /// The friction force on it, at the end of the last step.
-    friction: [f64; 3],
-    displacement: [f64; 3],
+    friction: Vector3<f64>,
+    displacement: Vector3<f64>,
     /// Energy in its penetration and its sticking.
     stored: f64,
 }
@@ -34,7 +36,8 @@ pub struct Contact {
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
     pub dissipated: f64,
-    left_with: f64,
+    /// What nodes had stored that have left.
+    released: f64,
     /// The square of the highest frequency that it adds to a node's.
     pub frequency: f64,
     /// Sum of the stiffnesses of the nodes that are touched.
@@ -42,91 +45,97 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// Nodes with a surface of their own are met.
+    /// Nodes with a share of the surface take part.
     pub fn new(cylinder: Cylinder, reference: &[[f64; 3]], surface: &[f64], mass: &[f64]) -> Self {
         let met = (0..reference.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
             number: i as u32,
             stiffness: cylinder.stiffness * surface[i],
-            reference: reference[i],
-            friction: [0.0; 3],
-            displacement: [0.0; 3],
+            reference: reference[i].into(),
+            friction: Vector3::zeros(),
+            displacement: Vector3::zeros(),
             stored: 0.0,
         };
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, left_with: 0.0, frequency, touching: 0.0 }
+        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
     }
 
-    /// Nodes that belong to no element any more leave.
+    /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
     pub fn remove(&mut self, gone: impl Fn(usize) -> bool) {
         let leaving = self.nodes.iter().filter(|node| gone(node.number as usize));
-        self.left_with += leaving.map(|node| node.stored).sum::<f64>();
+        self.released += leaving.map(|node| node.stored).sum::<f64>();
         self.nodes.retain(|node| !gone(node.number as usize));
     }
 
     /// Adds the contact's forces to the nodes' and returns the force on the cylinder along axis 1. `axis` is the height of
     /// the cylinder's axis, `moved` how far it has moved in the step that led here.
     pub fn apply<T: Number>(&mut self, axis: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
-        (self.stored, self.touching) = (self.left_with, 0.0);
+        (self.stored, self.touching) = (self.released, 0.0);
         let mut total = 0.0;
         for node in &mut self.nodes {
-            let u = displacement[node.number as usize].map(Into::into);
-            let (pressing, dissipated) = node.meet(&self.cylinder, axis, moved, u);
+            let [x, y, z] = displacement[node.number as usize];
+            let displacement = Vector3::new(x.into(), y.into(), z.into());
+            let (pressing, dissipated) = node.update(&self.cylinder, axis, moved, displacement);
             self.dissipated += dissipated;
-            if pressing == [0.0; 3] {
-                continue;
-            }
+            let Some(pressing) = pressing else { continue };
             self.stored += node.stored;
             self.touching += node.stiffness;
-            let force: [f64; 3] = std::array::from_fn(|i| pressing[i] + node.friction[i]);
-            for (to, from) in forces[node.number as usize].iter_mut().zip(force) {
-                *to += T::from_f64(from);
+            let force = pressing + node.friction;
+            let nodal = &mut forces[node.number as usize];
+            for i in 0..3 {
+                nodal[i] += T::from_f64(force[i]);
             }
-            total -= force[1];
+            total -= force.y;
         }
         total
     }
 }
 
 impl Node {
-    /// Moves the node to its new displacement; returns the force that presses it outwards and what slipping has dissipated.
+    /// Moves the node to its new displacement; returns the force that presses it outwards, if it is inside the cylinder, and
+    /// what slipping has dissipated.
     ///
     /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
     /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
-    fn meet(&mut self, cylinder: &Cylinder, axis: f64, moved: f64, u: [f64; 3]) -> ([f64; 3], f64) {
-        let step: [f64; 3] = std::array::from_fn(|i| u[i] - self.displacement[i] - [0.0, moved, 0.0][i]);
-        self.displacement = u;
-        let [x, y] = [self.reference[0] + u[0], self.reference[1] + u[1] - axis];
+    fn update(
+        &mut self,
+        cylinder: &Cylinder,
+        axis: f64,
+        moved: f64,
+        displacement: Vector3<f64>,
+    ) -> (Option<Vector3<f64>>, f64) {
+        let step = displacement - self.displacement - Vector3::new(0.0, moved, 0.0);
+        self.displacement = displacement;
+        let position = self.reference + displacement;
+        let [x, y] = [position.x, position.y - axis];
         let square = x * x + y * y;
-        if square >= cylinder.radius * cylinder.radius && self.friction == [0.0; 3] {
+        let old = self.friction;
+        let had_friction = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
+        if square >= cylinder.radius * cylinder.radius && !had_friction {
             self.stored = 0.0;
-            return ([0.0; 3], 0.0);
+            return (None, 0.0);
         }
         let distance = square.sqrt();
         // A node on the axis itself is pressed down.
-        let normal = if distance > 0.0 { [x / distance, y / distance, 0.0] } else { [0.0, -1.0, 0.0] };
+        let normal =
+            if distance > 0.0 { Vector3::new(x / distance, y / distance, 0.0) } else { Vector3::new(0.0, -1.0, 0.0) };
         let depth = (cylinder.radius - distance).max(0.0);
         let force = self.stiffness * depth;
-        let old = self.friction;
-        let trial = tangential(std::array::from_fn(|i| old[i] - self.stiffness * step[i]), normal);
-        let size = dot(trial, trial).sqrt();
+        let trial = tangential(old - self.stiffness * step, normal);
+        let size = trial.dot(&trial).sqrt();
         let limit = cylinder.friction * force;
-        self.friction = if size > limit { trial.map(|t| t * (limit / size)) } else { trial };
-        let [before, after] = [old, self.friction].map(|f| 0.5 * dot(f, f) / self.stiffness);
-        let work = -0.5 * (dot(old, step) + dot(self.friction, step));
+        self.friction = if size > limit { trial * (limit / size) } else { trial };
+        let elastic_energy = |friction: Vector3<f64>| 0.5 * friction.dot(&friction) / self.stiffness;
+        let (before, after) = (elastic_energy(old), elastic_energy(self.friction));
+        let work = -0.5 * (old.dot(&step) + self.friction.dot(&step));
         self.stored = 0.5 * force * depth + after;
-        (normal.map(|n| n * force), work - (after - before))
+        ((depth > 0.0).then_some(normal * force), work - (after - before))
     }
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn tangential(v: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
-    let along = dot(v, normal);
-    std::array::from_fn(|i| v[i] - along * normal[i])
+fn tangential(v: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
+    v - v.dot(&normal) * normal
 }
 
 #[cfg(test)]

@@ -7,122 +7,11 @@
 //! the signs of ξη, ηζ, ζξ and ξηζ, less what a linear field has in them; the elastic force against them is theirs, with
 //! reference shapes: it vanishes in every rigid motion and uniform deformation, and has an energy.
 
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
-use crate::entries::BlockPrecision;
+use std::ops::{Add, Sub};
 
-/// Elements side by side in an inner loop.
-pub const LANES: usize = 8;
-
-/// The number that a run is computed in: f64 or f32.
-pub trait Number:
-    BlockPrecision
-    + PartialOrd
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + AddAssign
-    + SubAssign
-{
-}
-
-impl Number for f64 {}
-impl Number for f32 {}
-
-/// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
-#[derive(Clone, Copy)]
-#[repr(align(64))]
-pub struct Lanes<T>(pub [T; LANES]);
-
-impl<T: Number> Lanes<T> {
-    #[inline(always)]
-    pub fn splat(value: T) -> Self {
-        Lanes([value; LANES])
-    }
-
-    #[inline(always)]
-    pub fn at(array: &[T], first: usize) -> Self {
-        let mut lanes = Lanes::splat(T::default());
-        lanes.0.copy_from_slice(&array[first..][..LANES]);
-        lanes
-    }
-
-    #[inline(always)]
-    pub fn zip(self, other: Self, of: impl Fn(T, T) -> T) -> Self {
-        let mut result = self;
-        for (a, b) in result.0.iter_mut().zip(other.0) {
-            *a = of(*a, b);
-        }
-        result
-    }
-
-    /// These where the others are above 0, elsewhere 0.
-    #[inline(always)]
-    pub fn only_where(self, others: Self) -> Self {
-        self.zip(others, |value, other| if other > T::default() { value } else { T::default() })
-    }
-
-    /// The larger ones; the others' where one is NaN.
-    #[inline(always)]
-    pub fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-}
-
-impl<T: Number> Add for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        self.zip(other, T::add)
-    }
-}
-
-impl<T: Number> Sub for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        self.zip(other, T::sub)
-    }
-}
-
-impl<T: Number> Mul for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        self.zip(other, T::mul)
-    }
-}
-
-impl<T: Number> Div for Lanes<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        self.zip(other, T::div)
-    }
-}
-
-/// Components that begin at `first`, of an array with this leading dimension.
-#[inline(always)]
-pub fn load<T: Number, const N: usize>(array: &[T], stride: usize, first: usize) -> [Lanes<T>; N] {
-    let mut components = [Lanes::splat(T::default()); N];
-    for (c, lanes) in components.iter_mut().enumerate() {
-        *lanes = Lanes::at(array, c * stride + first);
-    }
-    components
-}
-
-#[inline(always)]
-pub fn store<T: Number>(lanes: Lanes<T>, array: &mut [T], first: usize) {
-    array[first..][..LANES].copy_from_slice(&lanes.0);
-}
-
-/// Where the groups of lanes of a block begin.
-#[inline(always)]
-pub fn groups(stride: usize) -> impl Iterator<Item = usize> {
-    (0..stride).step_by(LANES)
-}
+use super::lanes::{LANES, Lanes, Number, cross, dot, load};
 
 /// The modes that are sums with the signs of one coordinate.
 const LINEAR: [usize; 3] = [1, 2, 4];
@@ -134,8 +23,10 @@ const EDGES: [(usize, [usize; 4]); 3] = [(1, [0, 2, 4, 6]), (2, [0, 1, 4, 5]), (
 /// Sums over the corners: entry k has the product of the signs of the coordinates that are the bits of k.
 #[inline(always)]
 fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
-    for (bit, corners) in EDGES {
-        for corner in corners {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
             let (low, high) = (values[corner], values[corner | bit]);
             values[corner] = low + high;
             values[corner | bit] = high - low;
@@ -147,8 +38,10 @@ fn modes<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V;
 /// The transpose of [`modes`]: what every corner gets.
 #[inline(always)]
 fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [V; 8] {
-    for (bit, corners) in EDGES {
-        for corner in corners {
+    for axis in 0..3 {
+        let (bit, lower) = EDGES[axis];
+        for edge in 0..4 {
+            let corner = lower[edge];
             let (even, odd) = (values[corner], values[corner | bit]);
             values[corner] = even - odd;
             values[corner | bit] = even + odd;
@@ -157,7 +50,7 @@ fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [
     values
 }
 
-/// What does not change: nodes and reference shapes of a block of elements, component-major.
+/// The constant data of a block of elements, component-major: nodes and reference shapes.
 #[derive(Clone, Debug)]
 pub struct Shapes<T> {
     /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
@@ -209,17 +102,6 @@ impl Shape {
             |mode: usize, k: usize| -> f64 { (0..3).map(|j| self.hourglass[j][mode] * self.inverse[j][k]).sum() };
         8.0 + 8.0 * (0..4).flat_map(|mode| (0..3).map(move |k| shed(mode, k).powi(2))).sum::<f64>()
     }
-}
-
-/// Coefficients of what holds hourglass modes and shocks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Control {
-    /// Fraction of the stiffness with which a material would resist the modes.
-    pub hourglass: f64,
-    /// Coefficients of viscosity: linear, quadratic, and against a change of the section's shape.
-    pub linear: f64,
-    pub quadratic: f64,
-    pub shape: f64,
 }
 
 impl<T: Number> Shapes<T> {
@@ -278,22 +160,23 @@ impl<T: Number> Shapes<T> {
     #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
-        for first in groups(stride) {
+        for group in 0..stride / LANES {
+            let first = group * LANES;
             let u = self.gather(displacement, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
-            for (i, u) in u.iter().enumerate() {
-                let m = modes(*u);
+            for i in 0..3 {
+                let m = modes(u[i]);
                 // The displacement's gradient, row i.
-                let mut h = [Lanes::splat(T::default()); 3];
+                let mut h = [Lanes::zero(); 3];
                 for j in 0..3 {
                     h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
-                    let identity = Lanes::splat(T::from_f64(if i == j { 1.0 } else { 0.0 }));
-                    store(identity + h[j], f, (i + 3 * j) * stride + first);
+                    let identity = Lanes::constant(if i == j { 1.0 } else { 0.0 });
+                    (identity + h[j]).store(f, (i + 3 * j) * stride + first);
                 }
-                for (mode, k) in HOURGLASS.into_iter().enumerate() {
+                for mode in 0..4 {
                     let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
-                    store(m[k] - linear, modal, (mode + 4 * i) * stride + first);
+                    (m[HOURGLASS[mode]] - linear).store(modal, (mode + 4 * i) * stride + first);
                 }
             }
         }
@@ -301,10 +184,11 @@ impl<T: Number> Shapes<T> {
 
     #[inline(always)]
     fn gather(&self, displacement: &[[T; 3]], first: usize) -> [[Lanes<T>; 8]; 3] {
-        let mut u = [[Lanes::splat(T::default()); 8]; 3];
-        for (l, nodes) in self.nodes[first..first + LANES].iter().enumerate() {
-            for (corner, &node) in nodes.iter().enumerate() {
-                let value = displacement[node as usize];
+        let mut u = [[Lanes::zero(); 8]; 3];
+        let nodes = &self.nodes[first..first + LANES];
+        for l in 0..LANES {
+            for corner in 0..8 {
+                let value = displacement[nodes[l][corner] as usize];
                 for i in 0..3 {
                     u[i][corner].0[l] = value[i];
                 }
@@ -313,28 +197,13 @@ impl<T: Number> Shapes<T> {
         u
     }
 
-    /// P by columns, all elements.
-    #[inline(always)]
-    pub fn nominal_stress(&self, point: &Points<'_, T>, nominal: &mut [T]) {
-        let stride = self.stride;
-        for first in groups(stride) {
-            let f = load(point.deformation_gradient, stride, first);
-            let stress = load(point.stress, stride, first);
-            let [along] = load(point.along, stride, first);
-            let section = load(point.section, stride, first);
-            let p = first_piola_kirchhoff(&f, &stress, along, &section);
-            for (component, &entry) in p.as_flattened().iter().enumerate() {
-                store(entry, nominal, component * stride + first);
-            }
-        }
-    }
-
     /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements
     /// (1, others 0) hold.
     #[inline(always)]
     pub fn forces(&self, nominal: &[T], modal: &[T], intact: &[T], forces: &mut [[T; 3]]) {
         let stride = self.stride;
-        for first in groups(stride) {
+        for group in 0..stride / LANES {
+            let first = group * LANES;
             let p: [Lanes<T>; 9] = load(nominal, stride, first);
             let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
             let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
@@ -342,24 +211,24 @@ impl<T: Number> Shapes<T> {
             let [stiffness] = load(&self.stiffness, stride, first);
             let [intact] = load(intact, stride, first);
             let k = stiffness * intact;
-            let zero = Lanes::splat(T::default());
+            let zero = Lanes::zero();
             let mut nodal = [[zero; 8]; 3];
             for i in 0..3 {
-                let mut held = [zero; 4];
-                for (mode, held) in held.iter_mut().enumerate() {
-                    *held = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
+                let mut hourglass = [zero; 4];
+                for mode in 0..4 {
+                    hourglass[mode] = k * Lanes::at(modal, (mode + 4 * i) * stride + first);
                 }
                 let mut force = [zero; 3];
                 for j in 0..3 {
-                    // The linear field in the hourglass modes is none of theirs.
-                    let [xy, yz, zx, xyz] = held;
+                    // Less the forces on the linear part of the hourglass modes, which they must not resist.
+                    let [xy, yz, zx, xyz] = hourglass;
                     let linear = xy * r[4 * j] + yz * r[4 * j + 1] + zx * r[4 * j + 2] + xyz * r[4 * j + 3];
                     let nominal = volume * p[i + 3 * j] - linear;
                     for m in 0..3 {
                         force[m] = force[m] + nominal * b[3 * j + m];
                     }
                 }
-                let ([xy, yz, zx, xyz], [x, y, z]) = (held, force);
+                let ([xy, yz, zx, xyz], [x, y, z]) = (hourglass, force);
                 nodal[i] = corners([zero, x, y, xy, z, zx, yz, xyz]);
             }
             self.scatter(&nodal, first, forces);
@@ -369,10 +238,11 @@ impl<T: Number> Shapes<T> {
     /// In the order of the elements, so that a run repeats bit by bit.
     #[inline(always)]
     fn scatter(&self, nodal: &[[Lanes<T>; 8]; 3], first: usize, forces: &mut [[T; 3]]) {
-        let count = LANES.min(self.n.saturating_sub(first));
-        for (l, nodes) in self.nodes[first..first + count].iter().enumerate() {
-            for (corner, &node) in nodes.iter().enumerate() {
-                let force = &mut forces[node as usize];
+        let last = if first + LANES < self.n { first + LANES } else { self.n };
+        let nodes = &self.nodes[first..last];
+        for l in 0..nodes.len() {
+            for corner in 0..8 {
+                let force = &mut forces[nodes[l][corner] as usize];
                 for i in 0..3 {
                     force[i] -= nodal[i][corner].0[l];
                 }
@@ -380,10 +250,11 @@ impl<T: Number> Shapes<T> {
         }
     }
 
-    /// What the step's bound and viscosity need to know of F, all elements.
+    /// The measures of F that the stable step and viscosity need, all elements.
     #[inline(always)]
     pub fn measure(&self, f: &[T], to: &mut Measures<T>) {
-        for first in groups(self.stride) {
+        for group in 0..self.stride / LANES {
+            let first = group * LANES;
             let [f0, f1, f2, f3, f4, f5, f6, f7, f8] = load(f, self.stride, first);
             let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
@@ -392,13 +263,14 @@ impl<T: Number> Shapes<T> {
             let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
             let (squares, products) =
                 (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
-            let per_square = Lanes::splat(T::from_f64(1.0)) / square;
-            store(ratio, &mut to.volume_ratio, first);
-            store(square, &mut to.stretch_square, first);
-            store((squares + products + products) / (ratio * ratio), &mut to.spread, first);
-            store(aa * per_square, &mut to.spread_along, first);
-            for (component, metric) in [second, third, Lanes::splat(T::default()) - both].into_iter().enumerate() {
-                store(metric * per_square, &mut to.metric, component * self.stride + first);
+            let per_square = Lanes::constant(1.0) / square;
+            ratio.store(&mut to.volume_ratio, first);
+            square.store(&mut to.stretch_square, first);
+            ((squares + products + products) / (ratio * ratio)).store(&mut to.spread, first);
+            (aa * per_square).store(&mut to.spread_along, first);
+            let metric = [second, third, Lanes::zero() - both];
+            for component in 0..3 {
+                (metric[component] * per_square).store(&mut to.metric, component * self.stride + first);
             }
         }
     }
@@ -410,7 +282,7 @@ impl<T: Number> Shapes<T> {
     }
 }
 
-/// What F is measured by, one number an element where nothing else is said.
+/// Measures of F, one number per element unless stated otherwise.
 #[derive(Clone, Debug)]
 pub struct Measures<T> {
     /// J, and the square of the stretch along axis 0, where the fibres are.
@@ -442,84 +314,17 @@ impl<T: Number> Measures<T> {
         }
     }
 
-    /// J of the elements that are intact and not inverted, 0 for the others.
+    /// J of the active elements, those intact and not inverted, 0 for the others.
     #[inline(always)]
-    pub fn standing(&self, intact: &[T], first: usize) -> Lanes<T> {
-        Lanes::at(&self.volume_ratio, first).max(Lanes::splat(T::default())).only_where(Lanes::at(intact, first))
+    pub fn active(&self, intact: &[T], first: usize) -> Lanes<T> {
+        Lanes::at(&self.volume_ratio, first).max(Lanes::zero()).only_where(Lanes::at(intact, first))
     }
-}
-
-/// What P follows from, component-major.
-pub struct Points<'a, T> {
-    pub deformation_gradient: &'a [T],
-    /// Cauchy stress, and viscosity's: along the fibre, and of the section.
-    pub stress: &'a [T],
-    pub along: &'a [T],
-    pub section: &'a [T],
-}
-
-/// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
-/// without their parts along the first, which has minus as much of theirs as they slant.
-#[inline(always)]
-pub fn first_piola_kirchhoff<T: Number>(
-    f: &[Lanes<T>; 9],
-    stress: &[Lanes<T>; 6],
-    along: Lanes<T>,
-    section: &[Lanes<T>; 3],
-) -> [[Lanes<T>; 3]; 3] {
-    let (a, b, c) = ([f[0], f[1], f[2]], [f[3], f[4], f[5]], [f[6], f[7], f[8]]);
-    let [r22, r33, r23] = *section;
-    let per_square = Lanes::splat(T::from_f64(1.0)) / dot(a, a);
-    let (slant_b, slant_c) = (dot(a, b) * per_square, dot(a, c) * per_square);
-    let (across_b, across_c) = (less(b, slant_b, a), less(c, slant_c, a));
-    let (second, third) = (combine(r22, across_b, r23, across_c), combine(r23, across_b, r33, across_c));
-    let [p1, p2, p3] = [times(stress, cross(b, c)), times(stress, cross(c, a)), times(stress, cross(a, b))];
-    let slanting = combine(slant_b, second, slant_c, third);
-    [add(less(p1, along, a), slanting), sub(p2, second), sub(p3, third)]
-}
-
-/// A symmetric matrix times a vector.
-#[inline(always)]
-fn times<T: Number>(matrix: &[Lanes<T>; 6], [x, y, z]: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    let [s11, s22, s33, s12, s23, s31] = *matrix;
-    [s11 * x + s12 * y + s31 * z, s12 * x + s22 * y + s23 * z, s31 * x + s23 * y + s33 * z]
-}
-
-#[inline(always)]
-fn add<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
-#[inline(always)]
-fn sub<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-/// a − k b.
-#[inline(always)]
-fn less<T: Number>(a: [Lanes<T>; 3], k: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[0] - k * b[0], a[1] - k * b[1], a[2] - k * b[2]]
-}
-
-/// k a + l b.
-#[inline(always)]
-fn combine<T: Number>(k: Lanes<T>, a: [Lanes<T>; 3], l: Lanes<T>, b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [k * a[0] + l * b[0], k * a[1] + l * b[1], k * a[2] + l * b[2]]
-}
-
-#[inline(always)]
-fn cross<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> [Lanes<T>; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-#[inline(always)]
-fn dot<T: Number>(a: [Lanes<T>; 3], b: [Lanes<T>; 3]) -> Lanes<T> {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explicit::stress::{Points, nominal_stress};
 
     const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
@@ -556,7 +361,7 @@ mod tests {
         let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
         let mut nominal = vec![0.0; 9 * shapes.stride];
         let point = Points { deformation_gradient: &state.f, stress: &stress, along: &none, section: &none };
-        shapes.nominal_stress(&point, &mut nominal);
+        nominal_stress(shapes.stride, &point, &mut nominal);
         let mut forces = vec![[0.0; 3]; NODES.len()];
         shapes.forces(&nominal, &state.modal, &intact, &mut forces);
         forces

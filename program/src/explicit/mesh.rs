@@ -12,7 +12,7 @@ pub enum Section {
     Rectangle,
 }
 
-/// What the mesh is made from.
+/// Dimensions of a yarn and the number of its elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Yarn {
     pub section: Section,

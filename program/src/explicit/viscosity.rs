@@ -10,13 +10,14 @@
 //! swelling, which the law leaves free, stays so. A change of shape is resisted with the speed of distortion's wave, or the
 //! section would ring long after the kink has wrenched it.
 //!
-//! D̄ is told by the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
+//! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
-use super::element::{Lanes, Measures, Number, Shapes, groups, load, store};
-use super::material::Medium;
+use super::element::{Measures, Shapes};
+use super::lanes::{LANES, Lanes, Number, load};
+use super::medium::Medium;
 
-/// What viscosity keeps of the last step, by element.
+/// History of the viscosity, by element.
 #[derive(Clone, Debug)]
 pub struct Viscosity<T> {
     /// Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ with the square Λ of the
@@ -42,7 +43,7 @@ impl<T: Number> Direction<T> {
     /// q/ρ, and its slope: the kinematic viscosity.
     #[inline(always)]
     fn resist(self, rate: Lanes<T>) -> (Lanes<T>, Lanes<T>) {
-        let closing = self.quadratic * self.length * rate.max(Lanes::splat(T::default()));
+        let closing = self.quadratic * self.length * rate.max(Lanes::zero());
         (self.length * (closing + self.linear) * rate, self.length * (closing + closing + self.linear))
     }
 }
@@ -80,19 +81,20 @@ impl<T: Number> Viscosity<T> {
         intact: &[T],
         step: f64,
     ) -> f64 {
-        let splat = |value: f64| Lanes::splat(T::from_f64(value));
-        let (zero, half, two) = (splat(0.0), splat(0.5), splat(2.0));
-        let per_step = splat(if step > 0.0 { 1.0 / step } else { 0.0 });
+        let (zero, half, two) = (Lanes::zero(), Lanes::constant(0.5), Lanes::constant(2.0));
+        let per_step = Lanes::constant(if step > 0.0 { 1.0 / step } else { 0.0 });
         let control = medium.control;
-        let (density, quadratic) = (splat(medium.density), splat(control.quadratic));
-        let linear = [medium.wave_speed, medium.compaction_speed].map(|speed| splat(control.linear * speed));
-        let shape = splat(control.shape * medium.distortion_speed);
+        let (density, quadratic) = (Lanes::constant(medium.density), Lanes::constant(control.quadratic));
+        let linear_along = Lanes::constant(control.linear * medium.wave_speed);
+        let linear_across = Lanes::constant(control.linear * medium.compaction_speed);
+        let shape = Lanes::constant(control.shape * medium.distortion_speed);
         let (mut dissipated, stride) = (zero, shapes.stride);
-        for first in groups(stride) {
-            let at = |array: &[T]| Lanes::at(array, first);
-            let standing = measures.standing(intact, first);
-            let (ratio, square, square_old) =
-                (at(&measures.volume_ratio), at(&measures.stretch_square), at(&self.stretch_square));
+        for group in 0..stride / LANES {
+            let first = group * LANES;
+            let active = measures.active(intact, first);
+            let ratio = Lanes::at(&measures.volume_ratio, first);
+            let square = Lanes::at(&measures.stretch_square, first);
+            let square_old = Lanes::at(&self.stretch_square, first);
             let [c22, c33, c23] = load(&measures.metric, stride, first);
             let [old22, old33, old23] = load(&self.metric, stride, first);
             let [d22, d33, d23] = [c22 - old22, c33 - old33, c23 - old23];
@@ -100,35 +102,37 @@ impl<T: Number> Viscosity<T> {
             let per_area = square / (ratio * ratio);
             let growth = half * (c33 * d22 + c22 * d33 - two * c23 * d23) * per_area;
             let [e22, e33, e23] = [d22 - growth * c22, d33 - growth * c33, d23 - growth * c23];
-            let along = Direction { length: at(&self.length), linear: linear[0], quadratic };
-            let across = Direction { length: at(&self.breadth), linear: linear[1], quadratic };
+            let along = Direction { length: Lanes::at(&self.length, first), linear: linear_along, quadratic };
+            let across = Direction { length: Lanes::at(&self.breadth, first), linear: linear_across, quadratic };
             let (q_m, damping_along) = along.resist((square_old - square) / (square_old + square) * per_step);
-            let (q_t, damping) = across.resist((zero - growth * per_step).max(zero));
+            let (q_t, damping_across) = across.resist((zero - growth * per_step).max(zero));
             let eta = across.length * shape;
             // R̄ = q_t J C̄⁻¹ − η J C̄⁻¹ Ē C̄⁻¹, where C̄⁻¹ Ē C̄⁻¹ det C̄ is less the adjugate of Ē, whose trace with C̄⁻¹ is 0.
             let (scale, turning) = (density * per_area, eta * per_step);
-            let r22 = (scale * (q_t * c33 + turning * e33)).only_where(standing);
-            let r33 = (scale * (q_t * c22 + turning * e22)).only_where(standing);
-            let r23 = (zero - scale * (q_t * c23 + turning * e23)).only_where(standing);
-            let t = (density / square * q_m).only_where(standing);
+            let r22 = (scale * (q_t * c33 + turning * e33)).only_where(active);
+            let r33 = (scale * (q_t * c22 + turning * e22)).only_where(active);
+            let r23 = (zero - scale * (q_t * c23 + turning * e23)).only_where(active);
+            let t = (density / square * q_m).only_where(active);
             // Stress power ½ (t Λ̇ + R̄ : C̄̇).
             let [old_r22, old_r33, old_r23] = load(&self.section, stride, first);
-            let work = (t + at(&self.along)) * (square_old - square)
+            let work = (t + Lanes::at(&self.along, first)) * (square_old - square)
                 - (r22 + old_r22) * d22
                 - (r33 + old_r33) * d33
                 - two * (r23 + old_r23) * d23;
-            dissipated = dissipated + half * half * work * at(&shapes.volume);
-            let spread_along = at(&measures.spread_along);
-            let damping = damping_along * spread_along + (damping + eta) * (at(&measures.spread) - spread_along);
-            store(damping, &mut measures.damping, first);
-            store(t, &mut self.along, first);
-            store(square, &mut self.stretch_square, first);
-            for (component, (stress, metric)) in [(r22, c22), (r33, c33), (r23, c23)].into_iter().enumerate() {
-                store(stress, &mut self.section, component * stride + first);
-                store(metric, &mut self.metric, component * stride + first);
+            dissipated = dissipated + half * half * work * Lanes::at(&shapes.volume, first);
+            let spread = Lanes::at(&measures.spread, first);
+            let spread_along = Lanes::at(&measures.spread_along, first);
+            let damping = damping_along * spread_along + (damping_across + eta) * (spread - spread_along);
+            damping.store(&mut measures.damping, first);
+            t.store(&mut self.along, first);
+            square.store(&mut self.stretch_square, first);
+            let (stress, metric) = ([r22, r33, r23], [c22, c33, c23]);
+            for component in 0..3 {
+                stress[component].store(&mut self.section, component * stride + first);
+                metric[component].store(&mut self.metric, component * stride + first);
             }
         }
-        dissipated.0.into_iter().map(Into::into).sum()
+        dissipated.sum()
     }
 }
 
@@ -137,8 +141,9 @@ mod tests {
     use nalgebra::Matrix3;
 
     use super::*;
-    use crate::explicit::element::{Control, first_piola_kirchhoff};
-    use crate::material::{Law, Material};
+    use crate::explicit::medium::Control;
+    use crate::explicit::stress::first_piola_kirchhoff;
+    use crate::material::model::{Law, Material};
     use toron::law::parameters;
     use toron::{Criterion, Rotation};
 
@@ -224,7 +229,7 @@ mod tests {
                 let ((found, _), expected) = (resist(from, to), expected(from, to));
                 // A stress of 1 Pa is rounding: these are of some thousands.
                 let scale = expected.norm().max(1.0);
-                // Rates are told from differences here, exact to their size.
+                // Rates are differences here, exact to first order.
                 let error = (found - expected).norm();
                 assert!(error < 1e-4_f64.max(10.0 * size) * scale, "{found} expected {expected}");
             }

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::Solver;
-use super::element::Number;
-use super::material::ENERGY_NAMES;
+use super::lanes::Number;
+use super::medium::ENERGY_NAMES;
+use super::solver::Solver;
 
 /// The corners in the order of a VTK hexahedron.
 const VTK_ORDER: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];

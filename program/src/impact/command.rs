@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget};
 use rayon::prelude::*;
 
-use super::run::{self, Observer, Outcome};
+use super::outcome::Outcome;
+use super::run::{self, Observer};
 use super::scene::{Case, Scene};
 use super::{plot, report, summary, yarn_picture};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::progress;
 use crate::explicit::vtu;
-use crate::{Error, print};
 
 /// Ticks of the progress bar for each case.
 const TICKS: u64 = 1000;
@@ -26,23 +29,21 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
     std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
-    let bar = ProgressBar::with_draw_target(Some(TICKS * scene.cases.len() as u64), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent} %, {eta} left") {
-        bar.set_style(style);
-    }
+    let length = TICKS * scene.cases.len() as u64;
+    let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let runs: Vec<_> = scene.cases.par_iter().map(|case| run_case(&scene, case, output, &bar)).collect();
     bar.finish_and_clear();
-    let (mut results, mut faults) = (Vec::new(), Vec::new());
+    let (mut results, mut errors) = (Vec::new(), Vec::new());
     for (case, run) in scene.cases.iter().zip(runs) {
         match run {
             Ok(outcome) => results.push((case, outcome)),
-            Err(error) => faults.push(error),
+            Err(error) => errors.push(error),
         }
     }
     if !results.is_empty() {
         write_comparison(&scene, &results, output)?;
     }
-    all(faults)
+    combine(errors)
 }
 
 /// What the cases that have a result have in common.
@@ -57,9 +58,9 @@ fn write_comparison(scene: &Scene, results: &[(&Case, Outcome)], output: &Path) 
 }
 
 /// The errors of the cases that have no result as one.
-fn all(faults: Vec<Error>) -> Result<(), Error> {
-    let messages: Vec<String> = faults.iter().map(Error::to_string).collect();
-    match faults.first() {
+fn combine(errors: Vec<Error>) -> Result<(), Error> {
+    let messages: Vec<String> = errors.iter().map(Error::to_string).collect();
+    match errors.first() {
         None => Ok(()),
         Some(Error::Input(_)) => Err(Error::Input(messages.join("\n"))),
         Some(Error::Evaluation(_)) => Err(Error::Evaluation(messages.join("\n"))),
@@ -68,17 +69,17 @@ fn all(faults: Vec<Error>) -> Result<(), Error> {
 
 /// Runs a case and writes its files.
 fn run_case(scene: &Scene, case: &Case, output: &Path, bar: &ProgressBar) -> Result<Outcome, Error> {
-    let mut follower = Follower { case, output, bar, ticks: 0, frames: Vec::new() };
-    let result = run::run(case, &mut follower);
+    let mut observer = CaseObserver { case, output, bar, ticks: 0, frames: Vec::new() };
+    let result = run::run(case, &mut observer);
     // A case that ends early has not used its ticks.
-    follower.progress(1.0);
+    observer.progress(1.0);
     let result = result?;
     write_case(scene, case, &result, output)?;
     Ok(result)
 }
 
 /// Moves the bar, and writes ParaView's files as they come.
-struct Follower<'a> {
+struct CaseObserver<'a> {
     case: &'a Case,
     output: &'a Path,
     bar: &'a ProgressBar,
@@ -86,7 +87,7 @@ struct Follower<'a> {
     frames: Vec<(f64, String)>,
 }
 
-impl Observer for Follower<'_> {
+impl Observer for CaseObserver<'_> {
     fn progress(&mut self, fraction: f64) {
         let ticks = (fraction.clamp(0.0, 1.0) * TICKS as f64) as u64;
         self.bar.inc(ticks - self.ticks);

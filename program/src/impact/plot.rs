@@ -4,12 +4,13 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::run::{Outcome, STATIONS, Sample};
+use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
-use crate::Error;
-use crate::picture::{self, COLOURS, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
-use crate::plot::{self, Panel, Series, tidy};
-use crate::unit_names::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
+use crate::common::error::Error;
+use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
+use crate::picture::page::{self, Area, Drawn};
+use crate::picture::panel::{self, Panel, Series, tidy};
+use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
 
 /// Width of a history, height of its titles and of a row of panels, and the panels of a row.
@@ -28,11 +29,11 @@ const COMPARISON: [u32; 2] = [760, 480];
 pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
     let panels: Vec<Panel> = panels(scene, case, result).into_iter().filter(moves).collect();
     let rows = panels.len().div_ceil(PER_ROW).max(1);
-    picture::write(svg, png, [WIDTH, HEAD + ROW * rows as u32], |root| {
+    page::write(svg, png, [WIDTH, HEAD + ROW * rows as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
         root.draw_text(&case.name, &text(TEXT, &GREY), (fine(24), fine(50)))?;
         let (_, body) = root.split_vertically(fine(HEAD as i32));
-        let abscissa = plot::Abscissa {
+        let abscissa = panel::Abscissa {
             label: format!("time ({})", unit(&scene.units, TIME)),
             values: result.samples.iter().map(|sample| sample.time).collect(),
             failure: result.broken.map(|(time, _)| time),
@@ -113,7 +114,7 @@ pub fn write_comparison(
         Abscissa::Elements => "elements".to_string(),
         Abscissa::ContactStiffness => format!("contact stiffness ({})", unit(&scene.units, CONTACT_STIFFNESS)),
     };
-    picture::write(svg, png, COMPARISON, |root| draw_comparison(root, scene, &label, &points))
+    page::write(svg, png, COMPARISON, |root| draw_comparison(root, scene, &label, &points))
 }
 
 /// A case in the comparison.
@@ -133,7 +134,7 @@ fn point<'a>(abscissa: Abscissa, case: &'a Case, result: &Outcome) -> Point<'a> 
     Point { name: &case.name, place: (x, residual.unwrap_or(result.last().speed)), residual: residual.is_some() }
 }
 
-fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[Point]) -> Drawn<()> {
+fn draw_comparison(root: &Area, scene: &Scene, label: &str, points: &[Point]) -> Drawn<()> {
     root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
     let hollow = if points.iter().all(|point| point.residual) { "" } else { "; hollow: at the end of the run" };
     let ordinate = format!("Residual speed ({}){hollow}", unit(&scene.units, SPEED));
@@ -144,7 +145,7 @@ fn draw_comparison(root: &picture::Area, scene: &Scene, label: &str, points: &[P
     let top = points.iter().map(|point| point.place.1).fold(0.0, f64::max);
     let (x, y) = ((left / 1.5..right * 1.5).log_scale(), 0.0..1.25 * top.max(1.0));
     let x_label = |x: &f64| if right < 1e5 { format!("{x:.0}") } else { format!("{x:.0e}") };
-    let mut chart = plot::chart(&body, x, y, label, [&x_label, &|y| format!("{y:.0}")])?;
+    let mut chart = panel::chart(&body, x, y, label, [&x_label, &|y| format!("{y:.0}")])?;
     for point in points {
         chart.draw_series([Circle::new(
             point.place,

@@ -1,22 +1,22 @@
-//! What the program says of a scene when it has run: a table that a terminal has room for, warnings, and where the files are.
+//! The report of a scene: a table that a terminal has room for, warnings, and where the files are.
 
 use std::path::Path;
 
-use super::run::Outcome;
+use super::outcome::Outcome;
 use super::scene::{Case, Scene, Striker, Zones};
-use super::summary::{NONE, maybe, outcome};
-use crate::fibre_wave::FibreWave;
-use crate::unit_names::{SPEED, TIME, number, unit};
+use super::summary::{NONE, or_dash, outcome};
+use crate::common::units::{SPEED, TIME, number, unit};
+use crate::material::fibre_wave::FibreWave;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 30;
-/// What stands between two columns of the table.
+/// The gap between two columns of the table.
 const GAP: &str = "  ";
 /// The columns of every table, which are never left out: the case, and one thing about it.
 const FEWEST: usize = 2;
-/// Hourglass modes that hold more than this part of the internal energy are no longer beside the point.
+/// Hourglass modes that hold more than this part of the internal energy are no longer negligible.
 const LARGEST_HOURGLASS: f64 = 0.1;
 /// A contact that stores more than this part of the energy is a spring between projectile and yarn.
 const LARGEST_CONTACT: f64 = 0.05;
@@ -75,13 +75,13 @@ fn wave_line(waves: &[FibreWave]) -> String {
     if parts.is_empty() { String::new() } else { format!("Wave along the fibre: {}\n", parts.join(", ")) }
 }
 
-/// What a wave says of the units, once for all cases that have it.
+/// Warnings of likely wrong units, once for all cases with the same wave.
 fn unit_warnings(scene: &Scene, waves: &[FibreWave]) -> Vec<String> {
-    let doubts = waves.iter().filter_map(|wave| wave.doubt(&scene.units));
-    doubts.map(|doubt| format!("warning: {}\n", doubt.replace('\n', "\n  "))).collect()
+    let unit_warnings = waves.iter().filter_map(|wave| wave.unit_warning(&scene.units));
+    unit_warnings.map(|unit_warning| format!("warning: {}\n", unit_warning.replace('\n', "\n  "))).collect()
 }
 
-/// What to do about a contact that stores too much.
+/// A warning where the contact stores too much energy.
 pub fn contact_warning(case: &Case, result: &Outcome) -> Option<String> {
     let Striker::Cylinder { cylinder, .. } = case.striker else { return None };
     let share = result.contact_share();
@@ -97,7 +97,7 @@ pub fn contact_warning(case: &Case, result: &Outcome) -> Option<String> {
     })
 }
 
-/// What to do about hourglass modes that hold too much.
+/// A warning where hourglass modes hold too much energy.
 ///
 /// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held against.
 pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
@@ -127,7 +127,7 @@ impl Column {
         self.heading.iter().chain(&self.entries).map(|text| text.chars().count()).fold(0, usize::max)
     }
 
-    fn says_something(&self) -> bool {
+    fn applies(&self) -> bool {
         self.entries.iter().any(|entry| entry != NONE)
     }
 }
@@ -148,7 +148,7 @@ fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn
 }
 
 fn broken_at(_: &Case, result: &Outcome) -> String {
-    maybe(result.broken.map(|(time, _)| time), number)
+    or_dash(result.broken.map(|(time, _)| time), number)
 }
 
 /// The columns for what a projectile has struck, the most important first.
@@ -166,8 +166,8 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
         column(&cases, ["case", ""], |case, _| shortened(&case.name)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
         column(&cases, ["broken at", &time], broken_at),
-        column(&cases, ["residual", &speed], |_, result| maybe(result.residual_speed(), number)),
-        column(&cases, ["at end", &speed], |_, result| maybe(at_end(result), number)),
+        column(&cases, ["residual", &speed], |_, result| or_dash(result.residual_speed(), number)),
+        column(&cases, ["at end", &speed], |_, result| or_dash(at_end(result), number)),
         column(&cases, ["failure", "index"], |_, result| index(result)),
         column(&cases, ["elements", "deleted"], |_, result| result.last().deleted.to_string()),
     ];
@@ -188,11 +188,11 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let waves = |result: &Outcome| format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest));
     let mut columns = vec![
         column(&cases, ["case", ""], |case, _| shortened(&case.name)),
-        column(&cases, ["longitudinal", &speed], |case, result| maybe(wave(case, result), number)),
+        column(&cases, ["longitudinal", &speed], |case, result| or_dash(wave(case, result), number)),
         column(&cases, ["theory", &speed], |case, result| beside(wave(case, result), waves(result))),
-        column(&cases, ["strain", "%"], |case, result| maybe(strain(case, result), percent)),
+        column(&cases, ["strain", "%"], |case, result| or_dash(strain(case, result), percent)),
         column(&cases, ["theory", "%"], |case, result| beside(strain(case, result), percent(result.smith.strain))),
-        column(&cases, ["transverse", &speed], |case, result| maybe(kink(case, result), number)),
+        column(&cases, ["transverse", &speed], |case, result| or_dash(kink(case, result), number)),
         column(&cases, ["theory", &speed], |case, result| beside(kink(case, result), number(result.smith.transverse))),
         column(&cases, ["broken at", &unit(&scene.units, TIME)], broken_at),
     ];
@@ -200,7 +200,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     columns
 }
 
-/// What the balance of energy has lost, and the time that a run took.
+/// The error of the energy balance, and the time that a run took.
 fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
     [
         column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.imbalance())),
@@ -208,10 +208,10 @@ fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
     ]
 }
 
-/// The table without columns that say nothing and, where it is too wide, without the last ones. Words stand on the left of
+/// The table without columns that apply to no case and, where it is too wide, without the last ones. Words stand on the left of
 /// their column, numbers on the right.
 fn table(columns: Vec<Column>) -> String {
-    let mut columns: Vec<Column> = columns.into_iter().filter(Column::says_something).collect();
+    let mut columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
     let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
     while columns.len() > FEWEST && width(&columns) > WIDTH {
         columns.pop();

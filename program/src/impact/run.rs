@@ -1,22 +1,21 @@
 //! A case from its first step to its last, and what is measured on the way.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
+use super::outcome::{End, Outcome, STATIONS, Sample, Snapshot, imbalance};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Smith, Tension};
-use crate::Error;
+use crate::common::error::Error;
+use crate::common::units::number;
 use crate::explicit::contact::Contact;
-use crate::explicit::element::Number;
-use crate::explicit::material::Medium;
-use crate::explicit::mesh::Mesh;
-use crate::explicit::{Cost, Energies, Projectile, Solver, Support, largest, vtu};
-use crate::material::Material;
-use crate::unit_names::number;
+use crate::explicit::energies::Energies;
+use crate::explicit::lanes::{Number, largest};
+use crate::explicit::medium::Medium;
+use crate::explicit::projectile::Projectile;
+use crate::explicit::solver::{Solver, Support};
+use crate::explicit::vtu;
+use crate::material::model::Material;
 
-/// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
-pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
-const FITTED: [f64; 2] = [0.4, 0.85];
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
 const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
@@ -25,85 +24,10 @@ const PLATEAU: [f64; 2] = [0.3, 0.7];
 const LARGEST_IMBALANCE: f64 = 0.05;
 /// The failure index of an element that has failed, but for the rounding of single precision.
 const FAILED: f64 = 1.0 - 1e-6;
-/// Times are told apart by this part of a case's time.
+/// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
-/// A transverse front this near the clamp has reached it but for what its own length adds.
-const AT_CLAMP: [f64; 2] = [0.75, 0.95];
 
-/// A line of the history.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sample {
-    pub time: f64,
-    /// Of the projectile, along its way; and how far it has come.
-    pub speed: f64,
-    pub travel: f64,
-    /// Contact force of the half model.
-    pub force: f64,
-    /// Of the whole yarn: twice the half model's.
-    pub energies: Energies,
-    /// The parts of the internal energy, as `ENERGY_NAMES` has them.
-    pub parts: [f64; 5],
-    /// Largest energy densities: in the yarn, and further than a radius from mid-span and from the clamp, where neither
-    /// touches the yarn.
-    pub largest: [f64; 5],
-    pub free: [f64; 5],
-    /// Least energy density of elongation, or of the linear law's work.
-    pub least: f64,
-    /// The largest failure index of what stands.
-    pub index: f64,
-    /// Elements deleted so far, and how many of them for their own step.
-    pub deleted: usize,
-    pub collapsed: usize,
-    /// The front of the elongation, by reference length, and of the kink, in space.
-    pub longitudinal: f64,
-    pub transverse: f64,
-    /// Of the section, at the stations.
-    pub widths: [f64; 4],
-    /// Mean strain behind the front of the elongation.
-    pub strain: f64,
-}
-
-/// How a case ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
-    /// At the end of the time asked for.
-    Time,
-    /// The projectile has stopped.
-    Stopped,
-    /// It has left the broken yarn behind.
-    Left,
-}
-
-/// The yarn at an instant, to be drawn.
-#[derive(Clone, Debug)]
-pub struct Snapshot {
-    pub time: f64,
-    pub positions: Vec<[f64; 3]>,
-    pub intact: Vec<bool>,
-    pub densities: Vec<[f64; 5]>,
-    /// Height of the projectile's axis, and its radius.
-    pub projectile: Option<(f64, f64)>,
-}
-
-/// What came of a case.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    pub samples: Vec<Sample>,
-    pub snapshots: Vec<Snapshot>,
-    pub mesh: Mesh,
-    pub end: End,
-    /// Whether a projectile strikes whose speed is its own, neither held nor driven.
-    pub own_speed: bool,
-    /// When the first element reached a failure index of 1.
-    pub failed: Option<f64>,
-    /// When the last line of elements along the fibre tore, and the projectile's speed then.
-    pub broken: Option<(f64, f64)>,
-    pub cost: Cost,
-    pub wall: Duration,
-    pub smith: Smith,
-}
-
-/// Who follows a run.
+/// Receives the progress and the frames of a run.
 pub trait Observer {
     /// The fraction of the case's time that has passed.
     fn progress(&mut self, _fraction: f64) {}
@@ -117,7 +41,7 @@ pub trait Observer {
     }
 }
 
-/// Nobody does.
+/// An observer that does nothing.
 impl Observer for () {}
 
 /// Runs a case.
@@ -126,8 +50,8 @@ impl Observer for () {}
 /// A material that the host cannot use, a speed beyond every yarn, a run that is not stable, or the observer's.
 pub fn run(case: &Case, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     match case.precision {
-        Precision::F64 => Run::<f64>::new(case)?.go(observer),
-        Precision::F32 => Run::<f32>::new(case)?.go(observer),
+        Precision::F64 => Run::<f64>::new(case)?.run(observer),
+        Precision::F32 => Run::<f32>::new(case)?.run(observer),
     }
 }
 
@@ -142,8 +66,8 @@ struct Run<'a, T> {
     /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
     deleted: usize,
     torn: Vec<bool>,
-    /// Since when nothing has touched the projectile.
-    untouched: f64,
+    /// When the projectile was last in contact.
+    last_contact: f64,
     start: f64,
 }
 
@@ -177,12 +101,12 @@ impl<'a, T: Number> Run<'a, T> {
             broken: None,
             deleted: 0,
             torn: vec![false; per_layer],
-            untouched: 0.0,
+            last_contact: 0.0,
             start,
         })
     }
 
-    fn go(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    fn run(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
         let begun = Instant::now();
         let (mut next_sample, mut next_frame) = (0.0, 0.0);
         let frame = self.case.end / self.case.frames.max(1) as f64;
@@ -197,7 +121,7 @@ impl<'a, T: Number> Run<'a, T> {
             let drawn = pictures.last().is_some_and(|&picture| reached(picture));
             let framed = self.case.frames > 0 && reached(next_frame);
             let left = if end.is_some() { self.case.end } else { self.case.end - time };
-            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.fault(&error.to_string()))?;
+            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
             if sampled {
                 self.sample(time)?;
                 next_sample += self.case.sample;
@@ -257,20 +181,20 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.tears(time) {
+        if self.broken.is_none() && self.check_broken(time) {
             self.broken = Some((time, self.speed()));
         }
         if let Some(projectile) = &self.solver.projectile {
             if projectile.force != 0.0 {
-                self.untouched = time;
+                self.last_contact = time;
             }
             if projectile.velocity >= 0.0 {
                 return Some(End::Stopped);
             }
         }
-        // As long as a wave takes to the clamp and back: what is left of the yarn has had its say.
-        let patience = 2.0 * self.case.yarn.length / self.smith.fastest;
-        if self.broken.is_some() && time - self.untouched > patience {
+        // As long as a wave takes to the clamp and back: after that, what is left of the yarn no longer touches it.
+        let waiting_time = 2.0 * self.case.yarn.length / self.smith.fastest;
+        if self.broken.is_some() && time - self.last_contact > waiting_time {
             return Some(End::Left);
         }
         (time >= self.case.end).then_some(End::Time)
@@ -278,7 +202,7 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
     /// all, so that a torn line carries no tension, whatever its neighbours do.
-    fn tears(&mut self, time: f64) -> bool {
+    fn check_broken(&mut self, time: f64) -> bool {
         for &element in &self.solver.deleted[self.deleted..] {
             self.torn[element % self.solver.mesh.elements_per_layer] = true;
             // The index of what has failed stays as it was then; what has collapsed has a lower one.
@@ -290,8 +214,8 @@ impl<'a, T: Number> Run<'a, T> {
         self.torn.iter().all(|&torn| torn)
     }
 
-    /// Why the case has no result.
-    fn fault(&self, reason: &str) -> Error {
+    /// The error of a case without a result.
+    fn error(&self, reason: &str) -> Error {
         Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
     }
 
@@ -317,7 +241,7 @@ impl<'a, T: Number> Run<'a, T> {
         }
         let energy = number(sample.energies.total());
         let bound = 100.0 * LARGEST_IMBALANCE;
-        Err(self.fault(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
+        Err(self.error(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
     }
 
     fn measure_densities(&self, sample: &mut Sample) {
@@ -332,9 +256,9 @@ impl<'a, T: Number> Run<'a, T> {
                 continue;
             }
             let place = (self.solver.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
-            larger(&mut sample.largest, densities);
+            update_maxima(&mut sample.largest, densities);
             if place > radius && place < length - radius {
-                larger(&mut sample.free, densities);
+                update_maxima(&mut sample.free, densities);
             }
             sample.least = sample.least.min(densities[0] + densities[4]);
             sample.index = largest(sample.index, self.solver.failure_index(i));
@@ -398,22 +322,7 @@ fn front(values: &[f64], threshold: f64) -> Option<f64> {
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))
 }
 
-/// The largest difference of the total energy from what it was, over the largest of: the energy that was there, the work
-/// from outside.
-fn imbalance(samples: &[Sample]) -> f64 {
-    let Some((first, scale)) = energy(samples) else { return 0.0 };
-    let difference = samples.iter().map(|sample| (sample.energies.total() - first).abs()).fold(0.0, largest);
-    if difference > 0.0 || difference.is_nan() { difference / scale } else { 0.0 }
-}
-
-/// The energy at the start, and the largest of it and of the work from outside.
-fn energy(samples: &[Sample]) -> Option<(f64, f64)> {
-    let first = samples.first()?.energies.total();
-    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
-    Some((first, scale))
-}
-
-fn larger(all: &mut [f64; 5], values: [f64; 5]) {
+fn update_maxima(all: &mut [f64; 5], values: [f64; 5]) {
     for (most, value) in all.iter_mut().zip(values) {
         *most = largest(*most, value);
     }
@@ -453,97 +362,4 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
     // Half of it strikes the half model.
     solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, contact));
     start
-}
-
-impl Outcome {
-    /// The last sample.
-    pub fn last(&self) -> Sample {
-        self.samples.last().copied().unwrap_or_default()
-    }
-
-    /// The sample at a time or the first one after.
-    pub fn at(&self, time: f64) -> Sample {
-        let found = self.samples.iter().find(|sample| sample.time >= time);
-        found.copied().unwrap_or_else(|| self.last())
-    }
-
-    /// The largest difference of the total energy from what it was, over the work from outside or the energy that was there.
-    pub fn imbalance(&self) -> f64 {
-        imbalance(&self.samples)
-    }
-
-    /// What is left of the projectile's speed; none where the run has ended before that was settled, or where the speed is
-    /// not the projectile's own.
-    pub fn residual_speed(&self) -> Option<f64> {
-        match self.end {
-            End::Stopped if self.own_speed => Some(0.0),
-            End::Left if self.own_speed => Some(self.last().speed),
-            _ => None,
-        }
-    }
-
-    /// The largest of a quantity in the samples up to the break.
-    fn largest_before_break(&self, of: impl Fn(&Sample) -> f64) -> f64 {
-        let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
-        self.samples.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
-    }
-
-    /// The largest failure index of the samples up to the break.
-    pub fn largest_index(&self) -> f64 {
-        self.largest_before_break(|sample| sample.index)
-    }
-
-    /// The largest hourglass energy up to the break, over the largest internal energy.
-    pub fn hourglass_share(&self) -> f64 {
-        let internal = self.largest_before_break(|sample| sample.energies.internal);
-        let hourglass = self.largest_before_break(|sample| sample.energies.hourglass);
-        if internal == 0.0 { 0.0 } else { hourglass / internal }
-    }
-
-    /// The largest energy in the contact up to the break, over the energy that was there or the work from outside.
-    pub fn contact_share(&self) -> f64 {
-        let contact = self.largest_before_break(|sample| sample.energies.contact);
-        energy(&self.samples).filter(|_| contact > 0.0).map_or(0.0, |(_, scale)| contact / scale)
-    }
-
-    /// The samples in which the wave of elongation passes the middle of half the span.
-    fn passing(&self, half_length: f64) -> &[Sample] {
-        let [from, to] = FITTED.map(|fraction| fraction * half_length);
-        let Some(end) = self.samples.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
-        let start = self.samples[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
-        &self.samples[start..end]
-    }
-
-    /// Speed of a front while the wave of elongation passes the middle of half the span: the slope of a fitted line.
-    pub fn front_speed(&self, half_length: f64, place: impl Fn(&Sample) -> f64) -> Option<f64> {
-        let passing = self.passing(half_length);
-        let n = passing.len() as f64;
-        let mean = |of: &dyn Fn(&Sample) -> f64| passing.iter().map(of).sum::<f64>() / n;
-        let (t, x) = (mean(&|sample| sample.time), mean(&|sample| place(sample)));
-        let above = mean(&|sample| (sample.time - t) * (place(sample) - x));
-        let below = mean(&|sample| (sample.time - t).powi(2));
-        (below > 0.0).then(|| above / below)
-    }
-
-    /// Mean strain behind the wave of elongation meanwhile.
-    pub fn plateau(&self, half_length: f64) -> Option<f64> {
-        let passing = self.passing(half_length);
-        let sum: f64 = passing.iter().map(|sample| sample.strain).sum();
-        (!passing.is_empty()).then(|| sum / passing.len() as f64)
-    }
-
-    /// When the transverse wave is at the clamp: from its last stretch before it.
-    pub fn transverse_at_clamp(&self, half_length: f64) -> Option<f64> {
-        let [a, b] = AT_CLAMP.map(|fraction| {
-            let place = fraction * half_length;
-            self.samples.iter().find(|sample| sample.transverse >= place).map(|sample| sample.time)
-        });
-        let (a, b) = (a?, b?);
-        Some(b + (b - a) * (1.0 - AT_CLAMP[1]) / (AT_CLAMP[1] - AT_CLAMP[0]))
-    }
-
-    /// Number of steps times elements.
-    pub fn zone_cycles(&self) -> f64 {
-        self.cost.steps as f64 * self.mesh.elements.len() as f64
-    }
 }

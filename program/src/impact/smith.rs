@@ -5,7 +5,7 @@
 //! yarn stands between mid-span and the kink; w of it has come from outside, so that the kink is at U = √(Pλ/ρ0) − w, and
 //! Pythagoras gives V² = Pλ/ρ0 − U². With P = E ε that is V = c √(ε(2√(ε(1+ε)) − ε)) and U = c(√(ε(1+ε)) − ε).
 
-use crate::material::{Law, Material};
+use crate::material::model::{Law, Material};
 
 /// Steps of the integral, and of the bisection for the strain.
 const STEPS: usize = 1000;

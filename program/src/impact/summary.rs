@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::run::{End, Outcome};
+use super::outcome::{End, Outcome};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::Smith;
-use crate::Error;
-use crate::unit_names::number;
+use crate::common::error::Error;
+use crate::common::units::number;
 
-/// A column that has nothing to say about a case.
+/// The entry of a column that does not apply to a case.
 pub(super) const NONE: &str = "-";
 
 /// How a case ended, in words.
@@ -47,7 +47,7 @@ fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
         ("law", law(case)),
         ("elements", result.mesh.elements.len().to_string()),
         ("speed", number(case.speed)),
-        ("longitudinal_speed", maybe(result.front_speed(length, |sample| sample.longitudinal), number)),
+        ("longitudinal_speed", or_dash(result.front_speed(length, |sample| sample.longitudinal), number)),
     ];
     match case.striker {
         Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
@@ -68,21 +68,21 @@ fn decimals(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
 }
 
-pub(super) fn maybe(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+pub(super) fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
     value.map_or(NONE.to_string(), text)
 }
 
-/// What a projectile's case has to say.
+/// The entries of a case with a projectile.
 fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
     let last = result.last();
-    let broken = |of: fn((f64, f64)) -> f64| maybe(result.broken.map(of), number);
+    let broken = |of: fn((f64, f64)) -> f64| or_dash(result.broken.map(of), number);
     cells.extend([
         ("contact_stiffness", format!("{stiffness:e}")),
-        ("transverse_at_clamp", maybe(result.transverse_at_clamp(case.yarn.length), number)),
+        ("transverse_at_clamp", or_dash(result.transverse_at_clamp(case.yarn.length), number)),
         ("outcome", outcome(result).to_string()),
-        ("residual_speed", maybe(result.residual_speed(), number)),
+        ("residual_speed", or_dash(result.residual_speed(), number)),
         ("speed_at_end", number(last.speed)),
-        ("first_failure_at", maybe(result.failed, number)),
+        ("first_failure_at", or_dash(result.failed, number)),
         ("broken_at", broken(|(time, _)| time)),
         ("speed_then", broken(|(_, speed)| speed)),
         ("deleted", last.deleted.to_string()),
@@ -98,18 +98,18 @@ fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(
     ]);
 }
 
-/// What Smith's theory can be held against.
+/// The entries that Smith's theory is compared with.
 fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, String)>) {
     let Smith { strain, fastest, slowest, transverse } = result.smith;
     cells.extend([
         ("longitudinal_theory", format!("{}-{}", number(fastest), number(slowest))),
-        ("strain_percent", maybe(result.plateau(length), |strain| number(100.0 * strain))),
+        ("strain_percent", or_dash(result.plateau(length), |strain| number(100.0 * strain))),
         ("strain_theory", number(100.0 * strain)),
-        ("transverse_speed", maybe(result.front_speed(length, |sample| sample.transverse), number)),
+        ("transverse_speed", or_dash(result.front_speed(length, |sample| sample.transverse), number)),
         ("transverse_theory", number(transverse)),
         ("outcome", outcome(result).to_string()),
-        ("first_failure_at", maybe(result.failed, number)),
-        ("broken_at", maybe(result.broken.map(|(time, _)| time), number)),
+        ("first_failure_at", or_dash(result.failed, number)),
+        ("broken_at", or_dash(result.broken.map(|(time, _)| time), number)),
         ("deleted", result.last().deleted.to_string()),
         ("collapsed", result.last().collapsed.to_string()),
         ("end", number(result.last().time)),
@@ -137,14 +137,14 @@ fn lines(results: &[(&Case, Outcome)]) -> (Vec<&'static str>, Vec<Vec<String>>) 
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
-    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
     let (titles, lines) = lines(results);
-    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
-    writer.write_record(titles).map_err(fault)?;
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
+    writer.write_record(titles).map_err(file_error)?;
     for line in lines {
-        writer.write_record(line).map_err(fault)?;
+        writer.write_record(line).map_err(file_error)?;
     }
-    writer.flush().map_err(|error| fault(error.into()))
+    writer.flush().map_err(|error| file_error(error.into()))
 }
 
 /// Writes the history of a case.
@@ -152,8 +152,8 @@ pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
 /// # Errors
 /// The file cannot be written.
 pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
-    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
-    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
     writer
         .write_record([
             "time",
@@ -193,7 +193,7 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             "width_3",
             "width_4",
         ])
-        .map_err(fault)?;
+        .map_err(file_error)?;
     for sample in &result.samples {
         let e = sample.energies;
         let line = (
@@ -208,7 +208,7 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             [sample.longitudinal, sample.transverse, sample.strain],
             sample.widths,
         );
-        writer.serialize(line).map_err(fault)?;
+        writer.serialize(line).map_err(file_error)?;
     }
-    writer.flush().map_err(|error| fault(error.into()))
+    writer.flush().map_err(|error| file_error(error.into()))
 }

@@ -5,13 +5,14 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::run::{Outcome, Snapshot};
+use super::outcome::{Outcome, Snapshot};
 use super::scene::{Case, Scene, Zones};
-use crate::Error;
+use crate::common::error::Error;
+use crate::common::units::{number, time, unit};
 use crate::explicit::mesh::Mesh;
-use crate::material::Law;
-use crate::picture::{self, Area, Drawn, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
-use crate::unit_names::{number, time, unit};
+use crate::material::model::Law;
+use crate::picture::page::{self, Area, Drawn};
+use crate::picture::style::{GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
 
 const WIDTH: i32 = 1280;
@@ -84,7 +85,7 @@ pub fn write(
     let names = rows(case);
     let drawing = Drawing::new(&result.mesh, case, snapshot);
     let height = TOP + names.len() as i32 * drawing.row_height() + FOOT;
-    picture::write(svg, png, [WIDTH as u32, height as u32], |root| {
+    page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         let title = format!("{}: {}", scene.title, case.name);
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let laws = if matches!(case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };

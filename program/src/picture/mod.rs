@@ -1,83 +1,11 @@
-//! Pictures: one font, one set of colours, and the way from a drawing to SVG and PNG.
+//! Pictures: one font, one set of colours, panels of lines, and the way from a drawing to SVG and PNG.
 //!
-//! plotters lays a drawing out; a [`Sheet`] takes it down for both files. Text is drawn as the outlines of an embedded
-//! font, so that a picture looks alike wherever it is made and wherever it is seen.
+//! plotters lays a drawing out; a [`Sheet`](sheet::Sheet) takes it down for both files. Text is drawn as the outlines of an
+//! embedded font, so that a picture looks alike wherever it is made and wherever it is seen.
 
 mod font;
-mod sheet;
+pub mod page;
+pub mod panel;
+pub mod sheet;
+pub mod style;
 mod svg;
-
-use std::path::Path;
-
-use plotters::coord::Shift;
-use plotters::prelude::*;
-
-pub use self::sheet::Sheet;
-use super::Error;
-
-/// plotters knows whole coordinates only: a unit of the picture has this many of them, so that lines are smooth.
-const FINE: u32 = 10;
-/// Sizes of text, in units of the picture.
-pub const TITLE: f64 = 19.4;
-pub const HEADING: f64 = 15.4;
-pub const TEXT: f64 = 12.9;
-
-pub const INK: RGBColor = RGBColor(40, 40, 40);
-pub const GREY: RGBColor = RGBColor(110, 110, 110);
-pub const RULE: RGBColor = RGBColor(222, 222, 222);
-/// Okabe and Ito's colours, which the colour-blind can tell apart.
-pub const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-    RGBColor(86, 180, 233),
-];
-
-pub type Area<'a> = DrawingArea<&'a mut Sheet, Shift>;
-pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
-
-/// A length of the picture in plotters' coordinates.
-pub const fn fine(length: i32) -> i32 {
-    length * FINE as i32
-}
-
-/// Text of this size and colour. The sheet has one font, whatever name is given here.
-pub fn text(size: f64, colour: &RGBColor) -> TextStyle<'static> {
-    (FontFamily::SansSerif, size * f64::from(FINE)).into_font().color(colour)
-}
-
-/// A line of this colour and width.
-pub fn stroke(colour: RGBColor, width: u32) -> ShapeStyle {
-    colour.stroke_width(width * FINE)
-}
-
-/// A power of ten's exponent.
-pub fn superscript(power: i32) -> String {
-    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = |c: char| c.to_digit(10).map_or('⁻', |d| digits[d as usize]);
-    power.to_string().chars().map(digit).collect()
-}
-
-/// Draws a picture of this width and height and writes it to two files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write(svg: &Path, png: &Path, size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Result<(), Error> {
-    let fault = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    let sheet = draw(size, paint).map_err(|error| fault(svg, &error))?;
-    std::fs::write(svg, sheet.svg()).map_err(|error| fault(svg, &error))?;
-    let pixels = sheet.png().map_err(|error| fault(png, &error))?;
-    std::fs::write(png, pixels).map_err(|error| fault(png, &error))
-}
-
-fn draw(size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Drawn<Sheet> {
-    let mut sheet = Sheet::new(size)?;
-    let root = sheet.into_drawing_area();
-    root.fill(&WHITE)?;
-    paint(&root)?;
-    root.present()?;
-    drop(root);
-    Ok(sheet)
-}

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use toron::law::state::{ENERGIES, INVARIANTS};
-use toron_program::material::Law;
-use toron_program::path::LoadPath;
-use toron_program::run::{self, End, History, Increment};
+use toron_program::load_path::path::LoadPath;
+use toron_program::load_path::run::{self, End, History, Increment};
+use toron_program::material::model::Law;
 
 /// Kevlar KM2 600 in MPa: Tab. 4.3 and 4.5.
 const K_EL: f64 = 82341.0;

@@ -16,10 +16,11 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
+use toron_program::impact::outcome::{End, Outcome, Sample};
 use toron_program::impact::report::{contact_warning, hourglass_warning};
-use toron_program::impact::run::{self, End, Outcome, Sample};
+use toron_program::impact::run;
 use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
-use toron_program::material::Law;
+use toron_program::material::model::Law;
 
 fn folder() -> PathBuf {
     Path::new(crate::library::ROOT).join("examples/yarn_impact")

@@ -3,13 +3,14 @@
 use std::fmt::Debug;
 
 use proptest::prelude::*;
+use toron::Error;
 use toron::Hyperelastic;
 use toron::Level;
 use toron::law::block::{Arrays, Block, Precision};
-use toron::law::status::{BAD_LEADING_DIMENSION, Error, INVERTED, OK};
-use toron_program::bench::properties;
-use toron_program::parallel::parallel_block;
-use toron_program::scene::Scene;
+use toron::law::status::{BAD_LEADING_DIMENSION, INVERTED, OK};
+use toron_program::bench::command::properties;
+use toron_program::bench::parallel::parallel_block;
+use toron_program::bench::scene::Scene;
 
 /// Enough for every thread to get a part, and no multiple of any lanes.
 const POINTS: usize = 40_003;

@@ -11,7 +11,8 @@ use plotters::prelude::*;
 use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::stress::first_piola_kirchhoff;
 use toron::{Hyperelastic, Request};
-use toron_program::picture::{self, Area, COLOURS, Drawn, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
+use toron_program::picture::page::{self, Area, Drawn};
+use toron_program::picture::style::{COLOURS, GREY, INK, RULE, TEXT, TITLE, fine, stroke, text};
 
 /// Half axes of the section and thickness of the slice, in µm.
 const AXES: [f64; 2] = [266.85, 57.5];
@@ -101,7 +102,7 @@ fn a_yarn_between_plates() {
         crate::library::folder("pictures")
     };
     let file = |extension: &str| folder.join(format!("yarn-between-plates.{extension}"));
-    picture::write(&file("svg"), &file("png"), SIZE, |root| draw(root, &mesh, &increments)).expect("a picture");
+    page::write(&file("svg"), &file("png"), SIZE, |root| draw(root, &mesh, &increments)).expect("a picture");
 }
 
 /// The energy of a point's state.

@@ -1,11 +1,11 @@
 //! Mixed control: the free components of F from the prescribed components of its conjugate, by Newton's method.
 
-use nalgebra::{Matrix3, SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Matrix3};
 
-use super::material::NominalTangent;
+use crate::material::model::NominalTangent;
 use toron::law::status;
 
-/// What is known of a component: of the deformation gradient, or of the first Piola–Kirchhoff stress.
+/// The prescribed value of a component: of the deformation gradient, or of the first Piola–Kirchhoff stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Prescribed {
     Gradient(f64),
@@ -24,20 +24,21 @@ const TOLERANCE: f64 = 1e-11;
 const NO_STIFFNESS: f64 = 1e-9;
 /// Largest change of a component in one iteration.
 const LARGEST_STEP: f64 = 0.1;
-/// How far a component without stiffness is moved in search of some, at first and at most: a slack yarn is drawn taut, a
+/// How far a component without stiffness is moved to find some, at first and at most: a slack yarn is drawn taut, a
 /// loose one compacted.
 const LEAST_SLACK: f64 = 1e-6;
 const LARGEST_SLACK: f64 = 0.5;
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 30;
 
-type Vector = SVector<f64, 9>;
-type Jacobian = SMatrix<f64, 9, 9>;
+// Sized at run time: with static sizes the compiler unrolls the singular value decomposition, and spends half a minute on it.
+type Vector = DVector<f64>;
+type Jacobian = DMatrix<f64>;
 
 /// The first Piola–Kirchhoff stress P of a deformation gradient and dP/dF, both by columns; or the law's status code.
 pub type Stress<'a> = dyn Fn(&Matrix3<f64>) -> Result<(Matrix3<f64>, NominalTangent), i32> + 'a;
 
-/// Where Newton's method has come to, and how.
+/// The solution, and the residuals on the way to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     pub f: Matrix3<f64>,
@@ -100,44 +101,44 @@ pub fn solve(
     }
     let residual = |f: &Matrix3<f64>| {
         let (p, tangent) = stress(f).map_err(Failure::Law)?;
-        Ok(Residual { off: off(&p, prescribed), jacobian: jacobian(&tangent, prescribed) })
+        Ok(Residual { deviation: stress_deviation(&p, prescribed), jacobian: jacobian(&tangent, prescribed) })
     };
-    let mut here = residual(&f)?;
+    let mut current = residual(&f)?;
     let mut residuals = Vec::new();
     for _ in 0..ITERATIONS {
-        let Residual { off: r, jacobian } = here;
+        let Residual { deviation: r, jacobian } = &current;
         residuals.push(r.amax());
         if r.amax() <= TOLERANCE * scale {
             return Ok(Solution { f, residuals });
         }
-        let step = -jacobian.svd(true, true).solve(&r, NO_STIFFNESS * scale).unwrap_or_default();
-        let left = r + jacobian * step;
-        let next = if left.amax() > 0.5 * r.amax() {
-            let component = left.iamax();
-            let taut = take_up_slack(&residual, &f, &r, component, TOLERANCE * scale);
-            Some(taut.ok_or(Failure::NoStiffness { component, residual: r[component] })?)
+        let decomposition = jacobian.clone().svd(true, true);
+        let step = -decomposition.solve(r, NO_STIFFNESS * scale).expect("both factors were asked for");
+        let remaining = r + jacobian * &step;
+        let next = if remaining.amax() > 0.5 * r.amax() {
+            let component = remaining.iamax();
+            let moved = take_up_slack(&residual, &f, r, component, TOLERANCE * scale);
+            Some(moved.ok_or(Failure::NoStiffness { component, residual: r[component] })?)
         } else {
-            line_search(&residual, &f, &r, &step)
+            line_search(&residual, &f, r, &step)
         };
         let Some(next) = next else { break };
-        (f, here) = next;
+        (f, current) = next;
     }
-    let r = here.off;
+    let r = &current.deviation;
     Err(Failure::NotConverged { component: r.iamax(), residual: r[r.iamax()] })
 }
 
-/// How far each prescribed stress is off; 0 where the gradient is prescribed.
-fn off(p: &Matrix3<f64>, prescribed: &[Prescribed; 9]) -> Vector {
-    Vector::from_fn(|k, _| match prescribed[k] {
+/// Deviation of each component from its prescribed stress; 0 where the gradient is prescribed.
+fn stress_deviation(p: &Matrix3<f64>, prescribed: &[Prescribed; 9]) -> Vector {
+    Vector::from_fn(9, |k, _| match prescribed[k] {
         Prescribed::Gradient(_) => 0.0,
         Prescribed::Stress(value) => p[COMPONENTS[k]] - value,
     })
 }
 
-/// What Newton's method needs to know at a deformation gradient.
-#[derive(Clone, Copy)]
+/// Deviation from the prescribed stresses and its derivative, at a deformation gradient.
 struct Residual {
-    off: Vector,
+    deviation: Vector,
     jacobian: Jacobian,
 }
 
@@ -145,11 +146,9 @@ struct Residual {
 fn jacobian(tangent: &NominalTangent, prescribed: &[Prescribed; 9]) -> Jacobian {
     let free = |k: usize| matches!(prescribed[k], Prescribed::Stress(_));
     let by_columns = |k: usize| COMPONENTS[k].0 + 3 * COMPONENTS[k].1;
-    Jacobian::from_fn(
-        |row, column| {
-            if free(row) && free(column) { tangent[(by_columns(row), by_columns(column))] } else { 0.0 }
-        },
-    )
+    Jacobian::from_fn(9, 9, |row, column| {
+        if free(row) && free(column) { tangent[(by_columns(row), by_columns(column))] } else { 0.0 }
+    })
 }
 
 /// The first of ever shorter steps that brings the residual down.
@@ -166,7 +165,7 @@ fn line_search(
             trial[component] += length * step[k];
         }
         if let Ok(new) = residual(&trial)
-            && new.off.norm() < r.norm()
+            && new.deviation.norm() < r.norm()
         {
             return Some((trial, new));
         }
@@ -189,7 +188,7 @@ fn take_up_slack(
         let mut trial = *f;
         trial[COMPONENTS[component]] += towards * reach;
         let new = residual(&trial).ok()?;
-        if (new.off[component] - r[component]) * towards > least {
+        if (new.deviation[component] - r[component]) * towards > least {
             return Some((trial, new));
         }
         reach *= 2.0;

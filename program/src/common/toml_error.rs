@@ -8,8 +8,8 @@ use toml::de::{DeTable, DeValue};
 /// A value of more characters is cut.
 const LONGEST: usize = 40;
 
-/// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is at fault.
-pub(super) fn message(text: &str, error: &toml::de::Error) -> String {
+/// The message for an error: `layers is "many"; allowed: a whole number`, or the parser's own where no value is wrong.
+pub fn message(text: &str, error: &toml::de::Error) -> String {
     explained(text, error).unwrap_or_else(|| error.message().trim_end().to_string())
 }
 
@@ -41,7 +41,7 @@ fn key_of(key: &str, value: &Spanned<DeValue>, span: &Range<usize>) -> Option<St
     }
 }
 
-/// What a message expects, without the names that only Rust knows.
+/// The expected value that a message names, in words instead of Rust's types.
 fn allowed(message: &str, key: &str) -> Option<String> {
     if message == "wanted string or table" {
         return Some("a word in quotes".to_string());
@@ -64,7 +64,7 @@ fn allowed(message: &str, key: &str) -> Option<String> {
 }
 
 /// A value on one line, cut where it is long.
-pub(super) fn shortened(value: &str) -> String {
+pub fn shortened(value: &str) -> String {
     let line = value.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LONGEST { line } else { line.chars().take(LONGEST).chain(['…']).collect() }
 }

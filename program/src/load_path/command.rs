@@ -4,15 +4,18 @@ use std::path::Path;
 use std::sync::Once;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressDrawTarget;
 
 use super::path::LoadPath;
 use super::run::{self, End, History};
-use super::{Error, plot, print, report, table};
+use super::{plot, report, table};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::progress;
 
-const DEMONSTRATION: &str = include_str!("../assets/compaction-then-tension.toml");
+const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
 /// A run that is over before this needs no progress bar.
-const PATIENCE: Duration = Duration::from_secs(1);
+const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
 /// Runs the load path of a file, or the demonstration, and writes what came of it to the directory `output`.
 ///
@@ -47,14 +50,12 @@ pub fn run(path: Option<&Path>, output: &Path) -> Result<(), Error> {
 
 /// Runs the path; a progress bar shows up where that takes long and someone is looking.
 fn run_with_progress(path: &LoadPath) -> Vec<History<'_>> {
-    let bar = ProgressBar::with_draw_target(Some(path.increments() as u64), ProgressDrawTarget::hidden());
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} increments, {eta} left") {
-        bar.set_style(style);
-    }
+    let template = "{wide_bar} {pos}/{len} increments, {eta} left";
+    let bar = progress::bar(path.increments() as u64, template, ProgressDrawTarget::hidden());
     let (start, shown) = (Instant::now(), Once::new());
     let histories = run::run(path, &|| {
         bar.inc(1);
-        if !shown.is_completed() && start.elapsed() > PATIENCE {
+        if !shown.is_completed() && start.elapsed() > PROGRESS_DELAY {
             shown.call_once(|| bar.set_draw_target(ProgressDrawTarget::stderr()));
         }
     });

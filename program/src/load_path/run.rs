@@ -1,22 +1,22 @@
-//! The loop: a load path's points, step by step and increment by increment.
+//! Runs a load path: its points, step by step and increment by increment.
 
 use nalgebra::{Matrix3, Rotation3, SMatrix};
 use rayon::prelude::*;
 
 use super::element::Hexahedron;
-use super::material::{Answer, Material};
 use super::newton::{self, COMPONENTS, Prescribed};
 use super::path::{LoadPath, Point, Step, Target};
+use crate::material::model::{Answer, Material};
 use toron::Request;
 use toron::law::status;
 use toron::law::stress::first_piola_kirchhoff;
 
 /// How often an increment may be halved where it cannot be solved in one go.
 const HALVINGS: usize = 8;
-/// Stress above this fraction of the stiffness cannot be carried by a failed point.
+/// A failed point carries no stress above this fraction of the stiffness.
 const CARRIED: f64 = 1e-9;
 
-/// All there is to know at the end of an increment.
+/// The results at the end of an increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Increment {
     /// Index of the step among [`LoadPath::steps`]; the increment within it, from 1 (0: the start of the path).
@@ -59,7 +59,7 @@ pub enum End {
     Failed(String),
 }
 
-/// A point's way along the path.
+/// A point's history along the path.
 #[derive(Clone, Debug)]
 pub struct History<'a> {
     pub point: &'a Point,
@@ -79,34 +79,34 @@ pub fn run<'a>(path: &'a LoadPath, progress: &(dyn Fn() + Sync)) -> Vec<History<
 /// Runs one point.
 pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) -> History<'a> {
     let mut history = History { point, increments: Vec::new(), failure: None, end: End::Completed };
-    let mut walk = match Walk::at_rest(&point.material, path.element) {
-        Ok(walk) => walk,
+    let mut state = match PointState::at_rest(&point.material, path.element) {
+        Ok(state) => state,
         Err(failure) => {
             history.end = End::Failed(format!("at the start: {failure}"));
             return history;
         }
     };
-    history.increments.push(walk.increment(0, 0, 0.0));
+    history.increments.push(state.increment(0, 0, 0.0));
     let mut control = [Control::Gradient; 9];
     let mut start_of_step = 0.0;
     for (index, step) in path.steps.iter().enumerate() {
-        let ramp = Ramp::new(step, &walk, &mut control);
+        let ramp = Ramp::new(step, &state, &mut control);
         for number in 1..=step.increments {
             let [from, to] = [number - 1, number].map(|i| i as f64 / step.increments as f64);
             let place = || format!("{step}, increment {number}");
-            if walk.cannot_carry(&ramp, to) {
+            if state.cannot_carry(&ramp, to) {
                 history.end = End::Stopped(place());
                 return history;
             }
-            if let Err(failure) = walk.advance(&ramp, from, to, HALVINGS) {
+            if let Err(failure) = state.advance(&ramp, from, to, HALVINGS) {
                 history.end = End::Failed(format!("{}: {failure}", place()));
                 return history;
             }
-            if history.failure.is_none() && walk.failed() {
+            if history.failure.is_none() && state.failed() {
                 history.failure = Some(history.increments.len());
             }
-            history.increments.push(walk.increment(index, number, start_of_step + to * step.duration));
-            walk.iterations = 0;
+            history.increments.push(state.increment(index, number, start_of_step + to * step.duration));
+            state.iterations = 0;
             progress();
         }
         start_of_step += step.duration;
@@ -121,7 +121,7 @@ enum Control {
     Stress,
 }
 
-/// What a step prescribes, from its start to its end.
+/// The prescribed values of a step, at its start and its end.
 struct Ramp<'a> {
     step: &'a Step,
     start: [Prescribed; 9],
@@ -130,15 +130,15 @@ struct Ramp<'a> {
 }
 
 impl<'a> Ramp<'a> {
-    /// The ramp from where the walk stands; what the step does not name is held, in the conjugate that `control` names.
-    fn new(step: &'a Step, walk: &Walk, control: &mut [Control; 9]) -> Self {
+    /// The ramp from the current state; what the step does not name is held, in the conjugate that `control` names.
+    fn new(step: &'a Step, state: &PointState, control: &mut [Control; 9]) -> Self {
         let mut start = [Prescribed::Gradient(0.0); 9];
         let mut end = start;
         for (k, &component) in COMPONENTS.iter().enumerate() {
-            let (f, p) = (walk.f[component], walk.held[k]);
+            let (f, p) = (state.f[component], state.held[k]);
             let (from, to) = match step.targets[k] {
                 Some(Target::Gradient(value)) => (Prescribed::Gradient(f), Prescribed::Gradient(value)),
-                Some(Target::Stress(value)) => (Prescribed::Stress(walk.p[component]), Prescribed::Stress(value)),
+                Some(Target::Stress(value)) => (Prescribed::Stress(state.p[component]), Prescribed::Stress(value)),
                 Some(Target::Hold) => (Prescribed::Gradient(f), Prescribed::Gradient(f)),
                 None => match control[k] {
                     Control::Gradient => (Prescribed::Gradient(f), Prescribed::Gradient(f)),
@@ -151,7 +151,7 @@ impl<'a> Ramp<'a> {
             };
             (start[k], end[k]) = (from, to);
         }
-        Ramp { step, start, end, rotation: walk.q }
+        Ramp { step, start, end, rotation: state.q }
     }
 
     /// What is prescribed at the fraction `s` of the step, and the rotation on top; exact at the end of the step.
@@ -170,8 +170,8 @@ impl<'a> Ramp<'a> {
     }
 }
 
-/// Where a point stands on its path.
-struct Walk<'a> {
+/// The current state of a point on its path.
+struct PointState<'a> {
     material: &'a Material,
     element: Hexahedron,
     scale: f64,
@@ -186,13 +186,13 @@ struct Walk<'a> {
     iterations: usize,
 }
 
-impl<'a> Walk<'a> {
+impl<'a> PointState<'a> {
     fn at_rest(material: &'a Material, element: Hexahedron) -> Result<Self, newton::Failure> {
         let f = Matrix3::identity();
         let answer = material.evaluate(&f, &material.at_rest(), Request::ALL).map_err(newton::Failure::Law)?;
         let p = first_piola_kirchhoff(&answer.cauchy, &f);
         let scale = material.stress_scale();
-        Ok(Walk { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0, iterations: 0 })
+        Ok(PointState { material, element, scale, answer, f, p, q: f, held: [0.0; 9], work: 0.0, iterations: 0 })
     }
 
     fn failed(&self) -> bool {
@@ -205,7 +205,7 @@ impl<'a> Walk<'a> {
         self.failed() && ramp.at(s).0.iter().any(asks)
     }
 
-    /// Goes along the ramp, in halves where the whole cannot be solved.
+    /// Advances along the ramp, in halves where the whole cannot be solved.
     fn advance(&mut self, ramp: &Ramp, from: f64, to: f64, halvings: usize) -> Result<(), newton::Failure> {
         let (prescribed, q) = ramp.at(to);
         let failure = match self.solve(&prescribed, &q) {
@@ -215,9 +215,9 @@ impl<'a> Walk<'a> {
             }
             Err(failure) => failure,
         };
-        let hopeless =
+        let halving_is_useless =
             matches!(failure, newton::Failure::NoStiffness { .. } | newton::Failure::Law(status::NOT_FINITE));
-        if halvings == 0 || hopeless {
+        if halvings == 0 || halving_is_useless {
             return Err(failure);
         }
         let middle = 0.5 * (from + to);
@@ -228,18 +228,18 @@ impl<'a> Walk<'a> {
 
     /// The deformation gradient, before the rotation, that meets what is prescribed.
     fn solve(&self, prescribed: &[Prescribed; 9], q: &Matrix3<f64>) -> Result<newton::Solution, newton::Failure> {
-        // The rotation turns the first legs of P and F.
-        let turn = SMatrix::<f64, 3, 3>::identity().kronecker(q);
+        // The rotation acts on the first index of P and F.
+        let rotation = SMatrix::<f64, 3, 3>::identity().kronecker(q);
         let stress = |f: &Matrix3<f64>| {
             let rotated = q * f;
             let (cauchy, tangent) = self.material.tangent(&rotated, &self.answer.memory)?;
             let p = q.transpose() * first_piola_kirchhoff(&cauchy, &rotated);
-            Ok((p, turn.transpose() * tangent * turn))
+            Ok((p, rotation.transpose() * tangent * rotation))
         };
         newton::solve(&stress, &self.f, prescribed, self.scale)
     }
 
-    /// Takes the deformation gradient as the new end of the path.
+    /// Makes the deformation gradient the current state.
     fn accept(
         &mut self,
         f: &Matrix3<f64>,
@@ -266,7 +266,7 @@ impl<'a> Walk<'a> {
     fn increment(&self, step: usize, number: usize, time: f64) -> Increment {
         let e = (self.q * self.f * self.material.fibre()).normalize();
         let fibre_stress = e.dot(&(toron::law::stress::matrix(&self.answer.cauchy) * e));
-        let Walk { f, p, q, answer, work, iterations, .. } = *self;
+        let PointState { f, p, q, answer, work, iterations, .. } = *self;
         Increment { step, number, time, f, p, q, fibre_stress, answer, work, iterations }
     }
 }

@@ -1,4 +1,4 @@
-//! Either law behind one face: properties, memory, evaluation from the deformation gradient.
+//! Both laws behind one interface: properties, memory, evaluation from the deformation gradient.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
@@ -18,7 +18,7 @@ pub enum Law {
     LinearElastic { law: LinearElastic, frame: Rotation, criterion: Criterion },
 }
 
-/// What a point is made of.
+/// A law with its properties.
 #[derive(Clone, Debug)]
 pub struct Material {
     pub law: Law,
@@ -30,7 +30,7 @@ pub struct Material {
     pub label: String,
 }
 
-/// What a point remembers from one increment to the next.
+/// The history of a point: what it keeps from one increment to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Memory {
     /// Deformation gradient of the last increment.
@@ -44,7 +44,7 @@ pub struct Memory {
 /// dP/dF, both by columns 11 21 31 12 22 32 13 23 33.
 pub type NominalTangent = SMatrix<f64, 9, 9>;
 
-/// What the material answers to a deformation gradient.
+/// The material's response to a deformation gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// Cauchy stress 11 22 33 12 23 31.
@@ -217,7 +217,7 @@ impl Material {
 }
 
 /// Which state variable, counted from 0, tells a host to delete the element, for a law of so many properties' table.
-pub fn alive(table: &[Property]) -> usize {
+pub fn deletion_variable(table: &[Property]) -> usize {
     if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) { LINEAR_ALIVE } else { ALIVE }
 }
 

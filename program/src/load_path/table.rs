@@ -4,62 +4,17 @@ use std::path::Path;
 
 use nalgebra::Matrix3;
 
-use super::Error;
+use super::columns::columns;
 use super::element::Hexahedron;
-use super::material::{Law, Material};
-use super::newton::{COMPONENT_NAMES, COMPONENTS};
+use super::newton::COMPONENTS;
 use super::path::LoadPath;
 use super::run::{History, Increment};
-use super::unit_names::{ENERGY, FORCE, SPEED, TIME};
-use toron::law::parameters::{Dimension, NUMBER, STRESS};
+use crate::common::error::Error;
+use crate::material::model::{Law, Material};
 use toron::law::wave_speed::wave_speed;
-
-/// The order of the six components of a symmetric tensor.
-pub const SYMMETRIC_NAMES: [&str; 6] = ["11", "22", "33", "12", "23", "31"];
-
-const MODES: [&str; 4] = ["el", "tc", "td", "ld"];
 
 /// The columns that say where on the path the line stands; they are whole numbers.
 const PLACE: [&str; 3] = ["step", "cycle", "increment"];
-
-/// A column: what it holds and in what unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Column {
-    pub name: String,
-    pub dimension: Dimension,
-}
-
-/// The columns, less the three of the place on the path.
-pub fn columns(material: &Material) -> Vec<Column> {
-    let mut columns = Vec::new();
-    let mut group = |prefix: &str, parts: &[&str], dimension: Dimension| {
-        columns.extend(parts.iter().map(|part| Column { name: format!("{prefix}{part}"), dimension }));
-    };
-    group("", &["time"], TIME);
-    group("F", &COMPONENT_NAMES, NUMBER);
-    group("cauchy_", &SYMMETRIC_NAMES, STRESS);
-    group("P", &COMPONENT_NAMES, STRESS);
-    if let Law::Hyperelastic(_) = material.law {
-        for mode in MODES {
-            group(&format!("S_{mode}_"), &SYMMETRIC_NAMES, STRESS);
-        }
-    }
-    for variable in material.state_table() {
-        group("", &[variable.name], variable.dimension);
-    }
-    if let Law::LinearElastic { .. } = material.law {
-        group("", &["failure_index"], NUMBER);
-    }
-    group("", &["fibre_stress"], STRESS);
-    for face in ["x", "y", "z"] {
-        group(&format!("force_{face}_"), &["x", "y", "z"], FORCE);
-    }
-    group("", &["external_work", "stored_energy"], ENERGY);
-    if material.density.is_some() {
-        group("", &["wave_speed"], SPEED);
-    }
-    columns
-}
 
 /// The values of an increment, in the order of [`columns`].
 pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) -> Vec<f64> {
@@ -92,18 +47,18 @@ pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) 
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, path: &LoadPath, history: &History) -> Result<(), Error> {
-    let fault = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
     let material = &history.point.material;
-    let mut writer = csv::Writer::from_path(file).map_err(fault)?;
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
     writer
         .write_record(
             PLACE.map(String::from).into_iter().chain(columns(material).into_iter().map(|column| column.name)),
         )
-        .map_err(fault)?;
+        .map_err(file_error)?;
     for increment in &history.increments {
         let step = &path.steps[increment.step];
         let place = if increment.number == 0 { [0; 3] } else { [step.number, step.cycle, increment.number] };
-        writer.serialize((place, values(increment, material, &path.element))).map_err(fault)?;
+        writer.serialize((place, values(increment, material, &path.element))).map_err(file_error)?;
     }
-    writer.flush().map_err(|error| fault(error.into()))
+    writer.flush().map_err(|error| file_error(error.into()))
 }

@@ -2,17 +2,17 @@
 
 use std::ops::RangeInclusive;
 
-use crate::material::{Law, Material};
-use crate::unit_names::{SPEED, number};
+use super::model::{Law, Material};
+use crate::common::units::{SPEED, number};
 use toron::host::units::UnitSystem;
 
-/// What fibres have, in km/s, with room on both sides: nylon has 2, polyethylene 12, graphene would have 20.
+/// Speeds in fibres, in km/s, with a margin on both sides: nylon has 2, polyethylene 12, graphene would have 20.
 const KNOWN: RangeInclusive<f64> = 1.0..=20.0;
 
 /// A wave along the fibre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FibreWave {
-    /// What its speed follows from.
+    /// The formula of its speed.
     pub formula: &'static str,
     /// The stiffness that it takes.
     stiffness: &'static str,
@@ -31,8 +31,8 @@ impl FibreWave {
         (speed > 0.0).then(|| FibreWave { formula, stiffness, speed: speed / units.from_si(1000.0, SPEED) })
     }
 
-    /// That the speed is no fibre's, and why that may be.
-    pub fn doubt(&self, units: &UnitSystem) -> Option<String> {
+    /// A warning where no fibre has this speed: the units are likely wrong.
+    pub fn unit_warning(&self, units: &UnitSystem) -> Option<String> {
         (!KNOWN.contains(&self.speed)).then(|| {
             format!(
                 "the wave along the fibre has {} km/s, and fibres have {} to {}:\n\
@@ -50,14 +50,17 @@ impl FibreWave {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::path::LoadPath;
+    use crate::common::toml_file::Source;
+    use crate::material::file::MaterialFile;
 
     /// The wave of the preset, but for these keys of its table.
     fn wave(units: &str, preset: &str, keys: &str) -> (Option<FibreWave>, UnitSystem) {
-        let text =
-            format!("units = \"{units}\"\n[material]\npreset = \"{preset}\"\n{keys}\n[[step]]\nF = {{ 11 = 1.01 }}\n");
-        let path = LoadPath::parse("path.toml", &text).expect("the path is valid");
-        (FibreWave::of(&path.points[0].material, &path.units), path.units)
+        let text = format!("preset = \"{preset}\"\n{keys}\n");
+        let source = Source { name: "material.toml", text: &text };
+        let units = UnitSystem::parse(units).expect("a unit system");
+        let file: MaterialFile = source.parse().expect("the keys exist");
+        let material = source.material(&file, &units, 0..0).expect("the material is valid");
+        (FibreWave::of(&material, &units), units)
     }
 
     #[test]
@@ -67,7 +70,7 @@ mod tests {
                 let (wave, units) = wave(units, preset, "");
                 let wave = wave.expect("there is a density");
                 assert!((wave.speed - speed).abs() < 1e-5, "{wave:?}");
-                assert_eq!(wave.doubt(&units), None);
+                assert_eq!(wave.unit_warning(&units), None);
             }
         }
     }
@@ -81,12 +84,12 @@ mod tests {
             ("properties = { k_el = 82341e3 }", "246.8"),
         ] {
             let (wave, units) = wave("mm-tonne-s", "kevlar-km2-600", keys);
-            let doubt = wave.and_then(|wave| wave.doubt(&units)).expect(keys);
+            let unit_warning = wave.and_then(|wave| wave.unit_warning(&units)).expect(keys);
             let expected = format!(
                 "the wave along the fibre has {speed} km/s, and fibres have 1 to 20:\n\
                  density or k_el is most likely not in the units of the file, mm-tonne-s"
             );
-            assert_eq!(doubt, expected);
+            assert_eq!(unit_warning, expected);
         }
         assert_eq!(wave("si", "kevlar-km2-600", "properties = { k_el = 0 }").0, None);
     }

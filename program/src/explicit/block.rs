@@ -4,115 +4,22 @@ use std::time::{Duration, Instant};
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::element::{Control, Lanes, Measures, Number, Points, Shapes, groups, store};
-use super::largest;
+use super::element::{Measures, Shapes};
+use super::lanes::{LANES, Lanes, Number, largest};
+use super::medium::{Entry, Medium};
+use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
-use crate::Error;
-use crate::entries::{self, LinearFrame, LinearSolverBlock, SolverBlock};
-use crate::material::{Law, Material};
-use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
+use toron::host::c::TORON_CRITERION_FIBRE;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
-use toron::law::state::{
-    FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST,
-    LINEAR_STRESS, LINEAR_WORK,
-};
+use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
-use toron::{Criterion, Rotation};
 
 /// Elements a block: large enough for the entry's preparation to cost nothing, small enough for its arrays to stay in the
 /// first cache (vector lengths of explicit solvers are of this order).
 pub const BLOCK: usize = 128;
 
-/// What energy densities are told apart by: the hyperelastic law's modes, and the linear elastic law's work, which has none.
-pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
-
-/// A law as a solver holds it.
-#[derive(Clone, Debug)]
-pub enum Entry<T> {
-    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
-    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
-}
-
-/// A material as the host uses it.
-#[derive(Clone, Debug)]
-pub struct Medium<T> {
-    pub entry: Entry<T>,
-    pub density: f64,
-    pub control: Control,
-    /// What hourglass modes are held by.
-    hourglass: f64,
-    /// Whether elements may fail, and the linear elastic law's stress at failure.
-    pub fails: bool,
-    strength: f64,
-    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
-    /// changes its shape; for viscosity.
-    pub wave_speed: f64,
-    pub compaction_speed: f64,
-    pub distortion_speed: f64,
-}
-
-impl<T: Number> Medium<T> {
-    /// # Errors
-    /// The frame is the spin's, which needs axes of its own.
-    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
-        let property = |name: &str| material.property(name).unwrap_or_default();
-        let (entry, along, across, shear) = match &material.law {
-            Law::Hyperelastic(_) => {
-                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
-                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
-                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
-                let p = property("p");
-                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
-                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
-            }
-            Law::LinearElastic { law, frame, criterion } => {
-                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
-                let frame = match frame {
-                    Rotation::Fibre => LinearFrame::Fibre,
-                    Rotation::Polar => LinearFrame::Polar,
-                    Rotation::Spin => {
-                        return Err(Error::Input("frame is \"spin\"; allowed here: fibre, polar".to_string()));
-                    }
-                };
-                let criterion = match criterion {
-                    Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
-                    Criterion::FibreStress => TORON_CRITERION_FIBRE,
-                };
-                let [across, shear] = [property("e_2"), property("g")];
-                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
-            }
-        };
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
-        Ok(Medium {
-            entry,
-            density,
-            control,
-            hourglass: control.hourglass * distortion,
-            fails: material.can_fail(),
-            strength: property("sigma_lim"),
-            wave_speed: (along / density).sqrt(),
-            compaction_speed: (across / density).sqrt(),
-            distortion_speed: (shear / density).sqrt(),
-        })
-    }
-
-    /// The law's number of state variables, and where the latch stands among them.
-    fn state(&self) -> (usize, usize) {
-        match self.entry {
-            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
-            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
-        }
-    }
-}
-
-/// What every block needs during its turn and none keeps.
+/// Working arrays for one block at a time; they carry nothing over to the next.
 #[derive(Debug)]
 pub struct Scratch<T> {
     deformation_gradient: Vec<T>,
@@ -143,24 +50,24 @@ impl<T: Number> Default for Scratch<T> {
     }
 }
 
-/// What a turn asks for beside the forces.
+/// What is computed in a step beside the forces, and the lengths of steps.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct StepOptions {
     /// Energies and invariants of the law.
-    pub law: bool,
-    /// What else the balance of energies needs.
-    pub balance: bool,
-    /// Length of the step that led here, and the shortest that an element which may fail is worth.
+    pub law_outputs: bool,
+    /// The hourglass energy, which only the energy balance needs.
+    pub energy_balance: bool,
+    /// Length of the last step, and the stable step below which an element that may fail has collapsed.
     pub step: f64,
     pub shortest: f64,
 }
 
-/// What a turn adds to the sums of a step.
+/// Sums over the blocks in a step.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
     /// Energy that viscosity has dissipated.
     pub viscosity: f64,
-    /// Energy in hourglass modes, and what of it deleted elements let go of in this step.
+    /// Energy in hourglass modes, and the part of it that elements deleted in this step release.
     pub hourglass: f64,
     pub released: f64,
     /// By Irons' theorem no less than the body's: the largest square of an element's frequency, and the largest rate at
@@ -176,18 +83,22 @@ pub struct Sums {
     pub law: Duration,
 }
 
-/// What is done with the processor's widest instructions: before the law's turn, and after it.
+// What is done before the law is called and after it, with the widest instructions of the processor. pulp finds them at run
+// time without unsafe code: the yarn would take a quarter longer with those that every processor has.
+
+/// From displacements to deformation gradients and hourglass modes.
 struct Deform<'a, T> {
     shapes: &'a Shapes<T>,
     displacement: &'a [[T; 3]],
     scratch: &'a mut Scratch<T>,
 }
 
+/// From stresses to nodal forces.
 struct Forces<'a, T> {
     block: &'a mut ElementBlock<T>,
     medium: &'a Medium<T>,
     scratch: &'a mut Scratch<T>,
-    wanted: Wanted,
+    options: StepOptions,
     sums: &'a mut Sums,
     forces: &'a mut [[T; 3]],
 }
@@ -207,9 +118,9 @@ impl<T: Number> WithSimd for Forces<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Forces { block, medium, scratch, wanted, sums, forces } = self;
+        let Forces { block, medium, scratch, options, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
-        let Wanted { step, shortest, .. } = wanted;
+        let StepOptions { step, shortest, .. } = options;
         sums.viscosity += block.viscosity.advance(medium, &block.shapes, &mut scratch.measures, &block.intact, step);
         block.bound_step(medium, scratch, shortest, sums);
         let point = Points {
@@ -218,7 +129,7 @@ impl<T: Number> WithSimd for Forces<'_, T> {
             along: &block.viscosity.along,
             section: &block.viscosity.section,
         };
-        block.shapes.nominal_stress(&point, &mut scratch.nominal);
+        nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
         block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);
     }
 }
@@ -258,14 +169,14 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    /// From the nodes' displacements to their forces, the history moved on.
+    /// From the nodes' displacements to their forces; updates the history.
     pub fn advance(
         &mut self,
         medium: &Medium<T>,
         displacement: &[[T; 3]],
         forces: &mut [[T; 3]],
         scratch: &mut Scratch<T>,
-        wanted: Wanted,
+        options: StepOptions,
         sums: &mut Sums,
     ) {
         let wide = Arch::new();
@@ -273,7 +184,7 @@ impl<T: Number> ElementBlock<T> {
         let start = Instant::now();
         match &medium.entry {
             Entry::Hyperelastic(properties) => {
-                let code = self.call_hyperelastic(properties, medium, scratch, wanted);
+                let code = self.call_hyperelastic(properties, medium, scratch, options);
                 sums.refused = sums.refused.or(refused(code));
             }
             Entry::LinearElastic { properties, frame, criterion } => {
@@ -283,9 +194,10 @@ impl<T: Number> ElementBlock<T> {
             }
         }
         sums.law += start.elapsed();
-        // What cannot be evaluated goes before it weighs on its nodes; what has failed or collapsed carries its last stress.
+        // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
+        // exert their last stress.
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
-        wide.dispatch(Forces { block: self, medium, scratch, wanted, sums, forces });
+        wide.dispatch(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
             block.state[latch * stride + i] != T::default() && block.is_intact(i)
@@ -295,7 +207,7 @@ impl<T: Number> ElementBlock<T> {
             medium.fails && scratch.collapsed[i] != T::default() && block.is_intact(i)
         });
         sums.collapsed += sums.deleted.len() - failed;
-        if wanted.balance {
+        if options.energy_balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
         }
@@ -306,7 +218,7 @@ impl<T: Number> ElementBlock<T> {
         properties: &[T; HYPERELASTIC_PROPERTIES],
         medium: &Medium<T>,
         scratch: &mut Scratch<T>,
-        wanted: Wanted,
+        options: StepOptions,
     ) -> i32 {
         let wave_speed = &mut scratch.wave_speed[..];
         let arrays = SolverBlock {
@@ -314,13 +226,13 @@ impl<T: Number> ElementBlock<T> {
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
             state: &mut self.state,
-            energies: wanted.law,
+            energies: options.law_outputs,
             failure: medium.fails,
             stress: &mut scratch.stress,
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             status: &mut scratch.status,
         };
-        entries::hyperelastic_block(properties, arrays)
+        hyperelastic_block(properties, arrays)
     }
 
     fn call_linear_elastic(
@@ -341,7 +253,7 @@ impl<T: Number> ElementBlock<T> {
             status: &mut scratch.status,
         };
         // The code is the worst of the points': each has its own in `status`.
-        entries::linear_elastic_block(properties, arrays, frame, criterion);
+        linear_elastic_block(properties, arrays, frame, criterion);
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
     }
 
@@ -349,44 +261,43 @@ impl<T: Number> ElementBlock<T> {
     /// elements have collapsed.
     #[inline(always)]
     fn bound_step(&self, medium: &Medium<T>, scratch: &mut Scratch<T>, shortest: f64, sums: &mut Sums) {
-        let splat = |value: f64| Lanes::splat(T::from_f64(value));
-        let (zero, one, four) = (splat(0.0), splat(1.0), splat(4.0));
+        let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
-        let hourglass = splat(self.shapes.hourglass_frequency / medium.density);
-        let (square, twice) = (splat(shortest * shortest), splat(2.0 * shortest));
+        let hourglass = Lanes::constant(self.shapes.hourglass_frequency / medium.density);
+        let (square, twice) = (Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest));
         // A largest number drops what is NaN, a sum does not.
-        let [mut stiffest, mut most_damped, mut sum] = [hourglass, zero, zero];
-        for first in groups(self.shapes.stride) {
-            let at = |array: &[T]| Lanes::at(array, first);
-            let standing = scratch.measures.standing(&self.intact, first);
-            let speed = at(&scratch.wave_speed);
-            let stiffness = (hourglass + speed * speed * at(&scratch.measures.spread)).only_where(standing);
-            let damping = at(&scratch.measures.damping).only_where(standing);
+        let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
+        for group in 0..self.shapes.stride / LANES {
+            let first = group * LANES;
+            let active = scratch.measures.active(&self.intact, first);
+            let speed = Lanes::at(&scratch.wave_speed, first);
+            let spread = Lanes::at(&scratch.measures.spread, first);
+            let stiffness = (hourglass + speed * speed * spread).only_where(active);
+            let damping = Lanes::at(&scratch.measures.damping, first).only_where(active);
             (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
             sum = sum + stiffness + damping;
             // As in the body's stable step.
             let collapsed = one.only_where(square * stiffness + twice * damping - four);
-            store(collapsed, &mut scratch.collapsed, first);
+            collapsed.store(&mut scratch.collapsed, first);
         }
-        let greatest = |lanes: Lanes<T>| lanes.0.into_iter().map(Into::into).fold(0.0, largest);
-        sums.stiffness = largest(sums.stiffness, greatest(stiffest));
-        sums.damping = largest(sums.damping, greatest(most_damped));
-        if sum.0.into_iter().any(|value| value.into().is_nan()) {
+        sums.stiffness = largest(sums.stiffness, stiffest.largest());
+        sums.damping = largest(sums.damping, most_damped.largest());
+        if sum.sum().is_nan() {
             sums.stiffness = f64::NAN;
         }
     }
 
-    /// Deletes the elements that are picked, and latches those that the law has not.
+    /// Deletes the selected elements, and sets the latch where the law has not.
     fn delete(
         &mut self,
         medium: &Medium<T>,
         scratch: &Scratch<T>,
         sums: &mut Sums,
-        picked: impl Fn(&Self, &Scratch<T>, usize) -> bool,
+        selected: impl Fn(&Self, &Scratch<T>, usize) -> bool,
     ) {
         let latch = medium.state().1 * self.shapes.stride;
         for i in 0..self.shapes.n {
-            if picked(self, scratch, i) {
+            if selected(self, scratch, i) {
                 self.intact[i] = T::default();
                 self.state[latch + i] = T::from_f64(1.0);
                 self.viscosity.remove(i);
@@ -404,7 +315,7 @@ impl<T: Number> ElementBlock<T> {
         self.state[row * self.shapes.stride + i].into()
     }
 
-    /// Energy densities, as [`ENERGY_NAMES`] has them.
+    /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub fn energies(&self, medium: &Medium<T>, i: usize) -> [f64; 5] {
         match medium.entry {
             Entry::Hyperelastic(_) => {

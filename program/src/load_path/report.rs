@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::fibre_wave::FibreWave;
-use super::material::{Law, Material};
 use super::path::LoadPath;
 use super::run::{End, History, Increment};
-use super::unit_names::{ENERGY, number, unit};
+use crate::common::units::{ENERGY, number, unit};
+use crate::material::fibre_wave::FibreWave;
+use crate::material::model::{Law, Material};
 use toron::law::parameters::{ENERGY_DENSITY, STRESS};
 use toron::law::state::{ENERGIES, INVARIANTS};
 
@@ -16,7 +16,7 @@ pub const MODE_NAMES: [&str; 4] = ["elongation", "compaction", "distortion", "sh
 /// An energy below this fraction of the largest one is none.
 const ROUNDING: f64 = 1e-12;
 
-/// What happened to a point: largest fibre stress, energies, failure and its reason, work.
+/// The summary of a point: largest fibre stress, energies, failure and its reason, work.
 pub fn summary(path: &LoadPath, history: &History) -> String {
     let mut text = String::new();
     let material = &history.point.material;
@@ -58,8 +58,8 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         ),
         End::Failed(reason) => line("not completed", reason.clone()),
     }
-    if let Some(doubt) = wave.and_then(|wave| wave.doubt(&path.units)) {
-        for (name, part) in ["warning", ""].into_iter().zip(doubt.lines()) {
+    if let Some(unit_warning) = wave.and_then(|wave| wave.unit_warning(&path.units)) {
+        for (name, part) in ["warning", ""].into_iter().zip(unit_warning.lines()) {
             line(name, part.to_string());
         }
     }
@@ -109,7 +109,7 @@ fn failure(path: &LoadPath, history: &History) -> Vec<(&'static str, String)> {
     vec![("failure", place(path, first)), ("failure index", reason)]
 }
 
-/// What the hyperelastic law's failure index is the sum of.
+/// The terms whose sum is the hyperelastic law's failure index.
 fn parts(material: &Material, increment: &Increment) -> String {
     let Law::Hyperelastic(_) = material.law else { return String::new() };
     let [elongation, compaction, distortion] = material.failure_terms(&increment.answer.memory).map(number);

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 
 use clap::ValueEnum;
+use nalgebra::Matrix3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-use super::Error;
-use super::file_error::shortened;
 use super::polar::polar_decomposition;
-use crate::entries::{self, Answer};
+use crate::common::error::Error;
+use crate::common::toml_error::shortened;
+use crate::entries::evaluation::{self, Answer};
 use toron::host::{abaqus, c};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
-use toron::law::status;
+use toron::law::{status, stress};
 
 /// The C entry that evaluates a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -195,15 +196,15 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let p = &point.params;
     let [m1, m2, m3] = point.m;
     let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
-    let f = point.f;
-    let columns = [f[0][0], f[1][0], f[2][0], f[0][1], f[1][1], f[2][1], f[0][2], f[1][2], f[2][2]];
+    let f = Matrix3::from(point.f).transpose();
+    let columns: [f64; 9] = std::array::from_fn(|c| f[c]);
     let answer = match entry {
-        Entry::Law => entries::point(&properties, &columns, tangent),
-        Entry::LawF32 => entries::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
-        Entry::Block => entries::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
+        Entry::Law => evaluation::point(&properties, &columns, tangent),
+        Entry::LawF32 => evaluation::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
+        Entry::Block => evaluation::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
         Entry::BlockF32 => {
             let single = |x: f64| x as f32;
-            entries::block(
+            evaluation::block(
                 &properties.map(single),
                 &columns.map(single),
                 line,
@@ -211,13 +212,13 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
                 c::hyperelastic_block_tangent_f32,
             )
         }
-        Entry::Umat => entries::umat(&properties, &columns, tangent),
-        Entry::Vumat => via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
+        Entry::Umat => evaluation::umat(&properties, &columns, tangent),
+        Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
         Entry::VumatSp => {
-            via_vumat(&f, |stretch| entries::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
+            via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
         }
-        Entry::LsDyna => entries::lsdyna(&properties, &columns, tangent),
-        Entry::LsDynaVector => entries::lsdyna_vector(&properties, &columns, line, tangent),
+        Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
+        Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;
@@ -234,7 +235,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         failed: state[FAILED] == 1.0,
         sigma: order(answer.stress),
         status: answer.status,
-        message: (answer.status != status::OK).then(|| entries::message(answer.status, &properties)),
+        message: (answer.status != status::OK).then(|| evaluation::message(answer.status, &properties)),
         ddsdde: answer.ddsdde.map(|rows| order(rows.map(order))),
         s_el: mode(0),
         s_tc: mode(1),
@@ -248,16 +249,12 @@ fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
     [s[0], s[1], s[2], s[3], s[5], s[4]]
 }
 
-/// Plays Abaqus/Explicit: U goes in, the corotational stress comes out and is turned by R.
-fn via_vumat(f: &[[f64; 3]; 3], entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
+/// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.
+fn via_vumat(f: &Matrix3<f64>, entry: impl FnOnce([f64; 6]) -> Answer) -> Answer {
     let (r, u) = polar_decomposition(f);
-    let answer = entry([u[0][0], u[1][1], u[2][2], u[0][1], u[1][2], u[2][0]]);
-    let [s11, s22, s33, s12, s23, s31] = answer.stress;
-    let corotational = [[s11, s12, s31], [s12, s22, s23], [s31, s23, s33]];
-    let turned = |i: usize, j: usize| -> f64 {
-        (0..3).map(|k| r[i][k] * (0..3).map(|l| corotational[k][l] * r[j][l]).sum::<f64>()).sum()
-    };
-    let stress = [turned(0, 0), turned(1, 1), turned(2, 2), turned(0, 1), turned(1, 2), turned(2, 0)];
+    let answer = entry(stress::components(&u));
+    let rotated = r * (stress::matrix(&answer.stress) * r.transpose());
     // R of an F that is not finite may not be either.
-    Answer { stress: if answer.status == status::OK { stress } else { [0.0; 6] }, ..answer }
+    let stress = if answer.status == status::OK { stress::components(&rotated) } else { [0.0; 6] };
+    Answer { stress, ..answer }
 }

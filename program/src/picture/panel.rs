@@ -1,39 +1,25 @@
-//! The plot of a point's history: deformation, energies, stress and failure side by side, as SVG and PNG.
-
-use std::path::Path;
+//! A panel: lines over an abscissa between two axes, with its title and legend.
 
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
-use super::Error;
-use super::material::Law;
-use super::newton::{COMPONENT_NAMES, COMPONENTS};
-use super::path::LoadPath;
-use super::picture::{
-    self, Area, COLOURS, Drawn, GREY, HEADING, INK, RULE, Sheet, TEXT, TITLE, fine, stroke, superscript, text,
-};
-use super::report::MODE_NAMES;
-use super::run::{History, Increment};
-use super::table::{self, SYMMETRIC_NAMES};
-use super::unit_names::{ENERGY, unit};
-use toron::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
-use toron::law::state::{ENERGIES, INVARIANTS};
+use super::page::{Area, Drawn};
+use super::sheet::Sheet;
+use super::style::{GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, text};
 
-/// Width and height of the picture.
-const SIZE: [u32; 2] = [1280, 840];
-/// What the labels of an ordinate need.
+/// The width of an ordinate's labels.
 const MARGIN: i32 = 70;
 /// A line with more points than this is thinned.
 const MOST_POINTS: usize = 4000;
 
 /// A line in a panel.
-pub(super) struct Series {
+pub struct Series {
     pub name: String,
     pub colour: RGBColor,
     pub values: Vec<f64>,
 }
 
-pub(super) struct Panel {
+pub struct Panel {
     pub title: &'static str,
     pub unit: String,
     pub series: Vec<Series>,
@@ -41,125 +27,15 @@ pub(super) struct Panel {
     pub limit: Option<f64>,
 }
 
-/// What the panels have in common.
-pub(super) struct Abscissa {
+/// The abscissa that panels share.
+pub struct Abscissa {
     pub label: String,
     pub values: Vec<f64>,
     pub failure: Option<f64>,
 }
 
-/// Writes the plot of a history to two files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn write(svg: &Path, png: &Path, path: &LoadPath, history: &History) -> Result<(), Error> {
-    picture::write(svg, png, SIZE, |root| draw(root, path, history))
-}
-
-fn draw(root: &Area, path: &LoadPath, history: &History) -> Drawn<()> {
-    let material = &history.point.material;
-    let mut subtitle = format!("{} law, {}", material.law_name(), material.label);
-    if path.points.len() > 1 {
-        subtitle = format!("{}: {subtitle}", history.point.name);
-    }
-    root.draw_text(&path.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-    root.draw_text(&subtitle, &text(TEXT, &GREY), (fine(24), fine(50)))?;
-    let (_, body) = root.split_vertically(fine(84));
-    let abscissa = abscissa(path, history);
-    for (panel, area) in panels(path, history).iter().zip(body.split_evenly((2, 2))) {
-        panel.draw(&area, &abscissa)?;
-    }
-    Ok(())
-}
-
-fn abscissa(path: &LoadPath, history: &History) -> Abscissa {
-    let material = &history.point.material;
-    let columns = table::columns(material);
-    let column = columns.iter().position(|column| column.name == path.abscissa).unwrap_or(0);
-    let value = |increment: &Increment| table::values(increment, material, &path.element)[column];
-    let values: Vec<f64> = history.increments.iter().map(value).collect();
-    let label = match unit(&path.units, columns[column].dimension).as_str() {
-        "-" => columns[column].name.clone(),
-        unit => format!("{} ({unit})", columns[column].name),
-    };
-    Abscissa { label, failure: history.failure.map(|i| values[i]), values }
-}
-
-/// A value of every increment as a line.
-fn line(history: &History, name: &str, colour: RGBColor, of: impl Fn(&Increment) -> f64) -> Series {
-    Series { name: name.to_string(), colour, values: history.increments.iter().map(of).collect() }
-}
-
-/// Deformation, energies, stress; failure, or the work where nothing can fail.
-fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
-    let material = &history.point.material;
-    let panel = |title, dimension, series, limit| Panel {
-        title,
-        unit: unit(&path.units, dimension),
-        series: tidy(series),
-        limit,
-    };
-    let (title, deformation, energies) = match material.law {
-        Law::Hyperelastic(_) => {
-            ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
-        }
-        Law::LinearElastic { .. } => {
-            let work = line(history, "work", COLOURS[0], |i| material.energy(&i.answer.memory));
-            ("Deformation gradient", gradient(history), vec![work])
-        }
-    };
-    let stress = |k: usize| line(history, &format!("σ{}", SYMMETRIC_NAMES[k]), COLOURS[k], |i| i.answer.cauchy[k]);
-    let last = if material.can_fail() {
-        panel("Failure index", NUMBER, index(history), Some(1.0))
-    } else {
-        let stored = |i: &Increment| material.energy(&i.answer.memory) * path.element.volume();
-        let external = line(history, "external work", COLOURS[0], |i| i.work);
-        panel("Work", ENERGY, vec![external, line(history, "stored energy", COLOURS[1], stored)], None)
-    };
-    [
-        panel(title, NUMBER, deformation, None),
-        panel("Energy per reference volume", ENERGY_DENSITY, energies, None),
-        panel("Cauchy stress", STRESS, (0..6).map(stress).collect(), None),
-        last,
-    ]
-}
-
-/// Four state variables from `first` on, one for each deformation mode.
-fn modes(history: &History, first: usize) -> Vec<Series> {
-    let mode = |m: usize| line(history, MODE_NAMES[m], COLOURS[m], |i| i.answer.memory.state[first + m]);
-    (0..4).map(mode).collect()
-}
-
-/// The components of F, less 1 on the diagonal.
-fn gradient(history: &History) -> Vec<Series> {
-    let component = |k: usize| {
-        let (row, column) = COMPONENTS[k];
-        let rest = if row == column { 1.0 } else { 0.0 };
-        let name = format!("F{}{}", COMPONENT_NAMES[k], if row == column { " − 1" } else { "" });
-        line(history, &name, COLOURS[k % COLOURS.len()], |i| i.rotated_gradient()[(row, column)] - rest)
-    };
-    (0..9).map(component).collect()
-}
-
-/// The failure index, and for the hyperelastic law the terms that it is the sum of.
-fn index(history: &History) -> Vec<Series> {
-    let material = &history.point.material;
-    let total = |i: &Increment| material.failure_index(&i.answer.memory);
-    // Where the fibre is not in tension the index is 0, whatever its terms.
-    let term = |m: usize| {
-        let value = |i: &Increment| if total(i) > 0.0 { material.failure_terms(&i.answer.memory)[m] } else { 0.0 };
-        line(history, MODE_NAMES[m], COLOURS[m], value)
-    };
-    let mut series: Vec<Series> = match material.law {
-        Law::Hyperelastic(_) => (0..3).map(term).collect(),
-        Law::LinearElastic { .. } => Vec::new(),
-    };
-    series.push(line(history, "index", INK, total));
-    series
-}
-
 /// Drops lines that stay at 0 beside others that do not, and joins lines that the eye cannot tell apart.
-pub(super) fn tidy(series: Vec<Series>) -> Vec<Series> {
+pub fn tidy(series: Vec<Series>) -> Vec<Series> {
     let size = |values: &[f64]| values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
     let largest = series.iter().map(|one| size(&one.values)).fold(0.0, f64::max);
     let mut kept: Vec<Series> = Vec::new();
@@ -184,7 +60,7 @@ type Chart<'a, X, Y> = ChartContext<'a, &'a mut Sheet, Cartesian2d<X, Y>>;
 type Label<'a> = &'a dyn Fn(&f64) -> String;
 
 /// Axes and the rules across, as all plots have them, with the abscissa's name and the two axes' labels.
-pub(super) fn chart<'a, X, Y>(
+pub fn chart<'a, X, Y>(
     area: &Area<'a>,
     x: X,
     y: Y,

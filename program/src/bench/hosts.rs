@@ -1,0 +1,165 @@
+//! What is measured of the hosts: their C entries, called on arrays as they keep them.
+
+use std::hint::black_box;
+
+use nalgebra::{Matrix3, Scalar};
+
+use super::entries::each_point;
+use super::scene::Scene;
+use crate::entries::blocks::{SolverBlock, hyperelastic_block};
+use crate::entries::hosts::{CalculixPoint, LsdynaElement, LsdynaVector, OnePoint, Umat, VumatArrays};
+use crate::entries::precision::BlockPrecision;
+use toron::law::block::Precision;
+use toron::law::parameters::HYPERELASTIC_PROPERTIES;
+use toron::law::state::HYPERELASTIC_STATE;
+use toron::law::status;
+
+/// A C entry as its host calls it. Those for one point are called point by point on the scene's arrays; they prepare the law at
+/// every call. The others have arrays of their own, laid out as the host keeps them, with the scene's deformations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Host {
+    /// `toron_hyperelastic_point`, with dS/dE or with none.
+    Point {
+        tangent: bool,
+    },
+    /// `toron_hyperelastic_block`.
+    Block,
+    Umat {
+        tangent: bool,
+    },
+    Vumat,
+    Lsdyna,
+    LsdynaVector,
+    /// With dS/dE, which it wants at every call.
+    Calculix,
+}
+
+impl Host {
+    /// Those in either precision.
+    pub const BOTH: [Host; 6] = [
+        Host::Point { tangent: false },
+        Host::Point { tangent: true },
+        Host::Block,
+        Host::Vumat,
+        Host::Lsdyna,
+        Host::LsdynaVector,
+    ];
+    /// Those in double precision alone.
+    pub const DOUBLE: [Host; 3] = [Host::Umat { tangent: false }, Host::Umat { tangent: true }, Host::Calculix];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Host::Point { tangent: false } => "C point",
+            Host::Point { tangent: true } => "C point with dS/dE",
+            Host::Block => "C block",
+            Host::Umat { tangent: false } => "UMAT",
+            Host::Umat { tangent: true } => "UMAT with DDSDDE",
+            Host::Vumat => "VUMAT",
+            Host::Lsdyna => "LS-DYNA scalar",
+            Host::LsdynaVector => "LS-DYNA vectorised",
+            Host::Calculix => "CalculiX with dS/dE",
+        }
+    }
+}
+
+/// The arrays of the hosts that keep points in arrays.
+pub struct HostArrays<T> {
+    state: Vec<T>,
+    vumat: VumatArrays<T>,
+    lsdyna: LsdynaVector<T>,
+}
+
+impl<T: Precision + BlockPrecision> HostArrays<T> {
+    /// With the scene's deformations, or their symmetric parts for a host that passes a stretch: for small shears that is one.
+    pub fn new(scene: &Scene<T>) -> Self {
+        let (n, stride) = (scene.n, scene.leading_dimension);
+        let (mut vumat, mut lsdyna) = (VumatArrays::new(n), LsdynaVector::new(n));
+        let half = T::splat(0.5);
+        for i in 0..n {
+            let f = |row: usize, column: usize| scene.deformation_gradient[(3 * column + row) * stride + i];
+            for (c, (row, column)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
+                vumat.stretch[c * n + i] = half * (f(row, column) + f(column, row));
+            }
+            for c in 0..9 {
+                lsdyna.history[(HYPERELASTIC_STATE + c) * n + i] = f(c % 3, c / 3);
+            }
+        }
+        HostArrays { state: vec![T::splat(0.0); HYPERELASTIC_STATE * stride], vumat, lsdyna }
+    }
+}
+
+/// Calls a host's entry for all points.
+pub fn call<T: Precision + BlockPrecision + Scalar>(
+    host: Host,
+    properties: &[T; HYPERELASTIC_PROPERTIES],
+    scene: &mut Scene<T>,
+    arrays: &mut HostArrays<T>,
+) {
+    let columns = |f: &Matrix3<T>| -> [T; 9] { std::array::from_fn(|c| f[c]) };
+    match host {
+        Host::Point { tangent } => {
+            let mut point = OnePoint::default();
+            each_point(scene, |f, state| {
+                point.state = *state;
+                let status = point.call(properties, &columns(f), tangent);
+                black_box(&point.tangent);
+                (point.stress, point.state, status)
+            });
+        }
+        Host::Block => {
+            let block = SolverBlock {
+                n: scene.n,
+                leading_dimension: scene.leading_dimension,
+                deformation_gradient: &scene.deformation_gradient,
+                state: &mut arrays.state,
+                energies: true,
+                failure: true,
+                stress: &mut scene.stress,
+                wave_speed: None,
+                status: &mut scene.status,
+            };
+            hyperelastic_block(properties, block);
+        }
+        Host::Vumat => {
+            arrays.vumat.call(properties);
+            let VumatArrays { state_old, state_new, .. } = &mut arrays.vumat;
+            std::mem::swap(state_old, state_new); // as Abaqus does from step to step
+        }
+        Host::Lsdyna => {
+            let zero = T::splat(0.0);
+            let mut element = LsdynaElement { stress: [zero; 6], history: [zero; HYPERELASTIC_STATE + 9] };
+            each_point(scene, |f, state| {
+                let (old, gradient) = element.history.split_at_mut(HYPERELASTIC_STATE);
+                old.copy_from_slice(state);
+                gradient.copy_from_slice(&columns(f));
+                let status = element.call(properties);
+                (element.stress, std::array::from_fn(|c| element.history[c]), status)
+            });
+        }
+        Host::LsdynaVector => drop(arrays.lsdyna.call(properties)),
+        Host::Umat { .. } | Host::Calculix => double(host, &properties.map(Into::into), scene),
+    }
+}
+
+/// The hosts in double precision alone.
+fn double<T: Precision + Scalar>(host: Host, properties: &[f64; HYPERELASTIC_PROPERTIES], scene: &mut Scene<T>) {
+    let (mut umat, mut calculix) = (Umat::FRESH, CalculixPoint::default());
+    each_point(scene, |f, state| {
+        let (columns, state): ([f64; 9], _) = (std::array::from_fn(|c| f[c].into()), state.map(Into::into));
+        let (stress, state, status) = match host {
+            Host::Umat { tangent } => {
+                umat.statev = state;
+                let status = umat.call(properties, &columns, tangent);
+                black_box(&umat.ddsdde);
+                (umat.stress, umat.statev, status)
+            }
+            _ => {
+                calculix.state_old = state;
+                calculix.call(properties, &columns);
+                black_box(&calculix.stiffness);
+                (calculix.stress, calculix.state, status::OK)
+            }
+        };
+        (stress.map(T::splat), state.map(T::splat), status)
+    });
+}

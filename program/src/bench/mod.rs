@@ -1,0 +1,7 @@
+//! `toron bench`: what the law costs by point, on its own and through the hosts' entries.
+
+pub mod command;
+pub mod entries;
+pub mod hosts;
+pub mod parallel;
+pub mod scene;

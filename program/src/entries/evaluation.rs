@@ -1,0 +1,309 @@
+//! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for `eval`.
+
+use std::ptr::{null, null_mut};
+
+use super::hosts::{OnePoint, Umat};
+use super::precision::{BlockPrecision, FromF64};
+use toron::host::c::{self, Block};
+use toron::host::{abaqus, lsdyna};
+use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
+use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use toron::law::status;
+use toron::law::stress::truesdell_of_jaumann;
+
+/// The outputs of an entry: stress in the library's order, state, modes where it has them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Answer {
+    pub status: i32,
+    pub stress: [f64; 6],
+    pub state: [f64; HYPERELASTIC_STATE],
+    pub modes: Option<[[f64; 6]; 4]>,
+    /// The Jaumann modulus of the Kirchhoff stress over J, in the library's order, where it is wanted and the entry has it.
+    pub ddsdde: Option<[[f64; 6]; 6]>,
+}
+
+/// What a status means; for properties, which one is wrong.
+pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String {
+    let mut text = [0_u8; 512];
+    let room = text.as_mut_ptr().cast();
+    // SAFETY: the arrays have the sizes passed.
+    let length = unsafe {
+        match c::hyperelastic_validate_f64(properties.as_ptr(), properties.len(), room, 512, null_mut()) {
+            0 => c::status_message(code, room, 512),
+            length => length,
+        }
+    };
+    String::from_utf8_lossy(&text[..length.min(511)]).into_owned()
+}
+
+/// One point in either precision: stress and state as a solver asks for them, the modes by a call of their own, DDSDDE by a third.
+pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> Answer {
+    let mut single = OnePoint::default();
+    let status = single.call(properties, f, false);
+    let mut modes = [[T::default(); 6]; 4];
+    let (values, count) = (properties.as_ptr(), properties.len());
+    let nothing = null_mut();
+    // SAFETY: the arrays have the sizes that the entry asks for.
+    unsafe {
+        let (old, modes) = (null(), modes.as_mut_ptr().cast());
+        T::POINT(values, count, f.as_ptr(), null(), old, nothing, nothing, modes, T::default(), nothing);
+    }
+    let mut answer = Answer {
+        status,
+        stress: single.stress.map(Into::into),
+        state: single.state.map(Into::into),
+        modes: Some(modes.map(|mode| mode.map(Into::into))),
+        ddsdde: None,
+    };
+    if tangent {
+        let mut rows = [[T::default(); 6]; 6];
+        // SAFETY: as above. The status is that of the call before, or the tangent's own.
+        answer.status = unsafe {
+            let measure = c::TORON_TANGENT_JAUMANN;
+            let (old, rows) = (null(), rows.as_mut_ptr().cast());
+            T::POINT_TANGENT(values, count, f.as_ptr(), null(), old, nothing, nothing, measure, rows)
+        };
+        answer.ddsdde = Some(rows.map(|row| row.map(Into::into)));
+    }
+    answer
+}
+
+/// The deformations that stand beside the point in a block: rest, a stretched, a compacted and sheared one, and two that
+/// cannot be evaluated, none of which may disturb it.
+const NEIGHBOURS: [[f64; 9]; 5] = [
+    [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+    [1.2, 0.0, 0.0, 0.1, 0.9, 0.0, 0.0, 0.2, 1.1],
+    [0.9, 0.3, 0.0, 0.0, 0.6, 0.1, 0.5, 0.0, 0.8],
+    [-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+    [f64::NAN, 0.0, 0.0, 0.0, f64::INFINITY, 0.0, 0.0, 0.0, 1.0],
+];
+
+/// Where a line's point stands: the number of points of its block, its place in it, and the leading dimension.
+fn place(line: usize) -> (usize, usize, usize) {
+    let n = 1 + line * 7 % 23;
+    (n, line * 5 % n, n + line % 4)
+}
+
+pub type BlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const Block<T>, i32, *mut T) -> i32;
+
+pub fn block<T: Copy + Default + Into<f64> + FromF64>(
+    properties: &[T; HYPERELASTIC_PROPERTIES],
+    f: &[T; 9],
+    line: usize,
+    tangent: bool,
+    entry: BlockEntry<T>,
+) -> Answer {
+    let (n, at, stride) = place(line);
+    let array = |components: usize| vec![T::default(); components * stride];
+    let (mut gradient, mut fibre) = (array(9), array(3));
+    for i in 0..n {
+        for c in 0..9 {
+            gradient[c * stride + i] = if i == at { f[c] } else { T::from_f64(NEIGHBOURS[(line + i) % 5][c]) };
+        }
+        for c in 0..3 {
+            fibre[c * stride + i] = properties[FIBRE + c];
+        }
+    }
+    let (mut stress, mut modes, mut state) = (array(6), array(24), array(HYPERELASTIC_STATE));
+    let mut codes = vec![0; n];
+    let part = |state: &mut Vec<T>, row: usize| state[row * stride..].as_mut_ptr();
+    let block = Block {
+        n,
+        leading_dimension: stride,
+        deformation_gradient: gradient.as_ptr(),
+        // Every other line gives the direction point by point.
+        fibre: if line.is_multiple_of(2) { fibre.as_ptr() } else { null() },
+        energies_old: null(),
+        invariants_old: null(),
+        failure_old: null(),
+        density: T::default(),
+        stress: stress.as_mut_ptr(),
+        energies: part(&mut state, ENERGIES),
+        invariants: part(&mut state, INVARIANTS),
+        failure: part(&mut state, FAILURE_INDEX),
+        modes: modes.as_mut_ptr(),
+        wave_speed: null_mut(),
+        status: codes.as_mut_ptr(),
+        level: c::TORON_LEVEL_BEST,
+    };
+    let mut rows = array(36);
+    let wanted = if tangent { rows.as_mut_ptr() } else { null_mut() };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    let worst = unsafe { entry(properties.as_ptr(), properties.len(), &block, c::TORON_TANGENT_JAUMANN, wanted) };
+    let value = |array: &[T], c: usize| array[c * stride + at].into();
+    let mut answer = Answer { status: codes[at], ..Answer::default() };
+    if worst > status::INVERTED && worst != status::OK {
+        answer.status = worst; // the call itself was refused, and no point has a code
+    }
+    answer.stress = std::array::from_fn(|c| value(&stress, c));
+    answer.state = std::array::from_fn(|c| value(&state, c));
+    answer.modes = Some(std::array::from_fn(|mode| std::array::from_fn(|c| value(&modes, 6 * mode + c))));
+    answer.ddsdde = tangent.then(|| std::array::from_fn(|i| std::array::from_fn(|j| value(&rows, 6 * i + j))));
+    answer
+}
+
+pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
+    let mut point = Umat::FRESH;
+    let status = point.call(properties, f, tangent);
+    let Umat { stress: [s11, s22, s33, s12, s13, s23], statev, ddsdde, .. } = point;
+    let order = [0, 1, 2, 3, 5, 4];
+    Answer {
+        status,
+        stress: [s11, s22, s33, s12, s23, s13],
+        state: statev,
+        modes: None,
+        ddsdde: tangent.then(|| order.map(|i| order.map(|j| ddsdde[i][j]))),
+    }
+}
+
+/// A VUMAT of one point at the stretch U, 11 22 33 12 23 31; the stress is the corotational one.
+pub fn vumat<T: Copy + Default + Into<f64>>(
+    properties: &[f64; HYPERELASTIC_PROPERTIES],
+    stretch: [f64; 6],
+    round: impl Fn(f64) -> T,
+    entry: unsafe extern "C" fn(*const abaqus::Vumat<T>) -> i32,
+) -> Answer {
+    let stretch = stretch.map(&round);
+    let properties = properties.map(&round);
+    let zeros = [T::default(); HYPERELASTIC_STATE];
+    let one = [round(1.0)];
+    let (mut stress, mut state, mut energy, mut inelastic) = ([T::default(); 6], zeros, [T::default()], [T::default()]);
+    let block = abaqus::Vumat {
+        nblock: 1,
+        ndir: 3,
+        nshr: 3,
+        nstatev: HYPERELASTIC_STATE as i32,
+        nprops: HYPERELASTIC_PROPERTIES as i32,
+        step_time: one[0],
+        total_time: one[0],
+        props: properties.as_ptr(),
+        density: one.as_ptr(),
+        strain_inc: zeros.as_ptr(),
+        stretch_old: stretch.as_ptr(),
+        stretch_new: stretch.as_ptr(),
+        stress_old: zeros.as_ptr(),
+        state_old: zeros.as_ptr(),
+        ener_intern_old: zeros.as_ptr(),
+        ener_inelas_old: zeros.as_ptr(),
+        stress_new: stress.as_mut_ptr(),
+        state_new: state.as_mut_ptr(),
+        ener_intern_new: energy.as_mut_ptr(),
+        ener_inelas_new: inelastic.as_mut_ptr(),
+    };
+    // SAFETY: the arrays have the sizes that the structure tells, for one point.
+    let status = unsafe { entry(&block) };
+    Answer { status, stress: stress.map(Into::into), state: state.map(Into::into), ..Answer::default() }
+}
+
+/// LS-DYNA's material constants: 48 of them, the moduli for its time step at 12 and 13.
+fn lsdyna_constants(properties: &[f64; HYPERELASTIC_PROPERTIES]) -> [f64; 48] {
+    let mut cm = [0.0; 48];
+    cm[..HYPERELASTIC_PROPERTIES].copy_from_slice(properties);
+    let [bulk, shear] = [11, 12].map(|i| &raw mut cm[i]);
+    // SAFETY: the arrays have the sizes that the entry asks for. Bad properties are the material routine's to report.
+    unsafe { lsdyna::bulk_and_shear_f64(properties.as_ptr(), properties.len(), bulk, shear) };
+    cm
+}
+
+/// DDSDDE of LS-DYNA's tangent.
+fn jaumann(truesdell: &[[f64; 6]; 6], stress: &[f64; 6]) -> [[f64; 6]; 6] {
+    truesdell_of_jaumann(truesdell, &stress.map(|s| -s))
+}
+
+pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
+    let mut answer = Answer::default();
+    let cm = lsdyna_constants(properties);
+    let mut history = [0.0; HYPERELASTIC_STATE + 9];
+    history[HYPERELASTIC_STATE..].copy_from_slice(f);
+    let mut failed = 0;
+    // SAFETY: the arrays have the sizes that the entry asks for.
+    answer.status = unsafe {
+        lsdyna::umat_f64(
+            cm.as_ptr(),
+            answer.stress.as_mut_ptr(),
+            history.as_mut_ptr(),
+            HYPERELASTIC_STATE as i32,
+            &mut failed,
+        )
+    };
+    answer.state.copy_from_slice(&history[..HYPERELASTIC_STATE]);
+    answer.state[FAILED] = f64::from(failed);
+    if tangent {
+        let mut es = [[0.0; 6]; 6];
+        // The element fails by its flag: the tangent of the intact one is wanted.
+        history[FAILED] = 0.0;
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe { lsdyna::utan_f64(cm.as_ptr(), history.as_ptr(), HYPERELASTIC_STATE as i32, es.as_mut_ptr().cast()) };
+        answer.ddsdde = Some(jaumann(&es, &answer.stress));
+    }
+    answer
+}
+
+pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], line: usize, tangent: bool) -> Answer {
+    let (n, at, stride) = place(line);
+    // Elements lft to llt of nlq; what stands before them is not the block's.
+    let (first, nlq) = (line % 3, stride + line % 3);
+    let cm = lsdyna_constants(properties);
+    let mut history = vec![0.0; (HYPERELASTIC_STATE + 9) * nlq];
+    for i in 0..n {
+        for c in 0..9 {
+            history[(HYPERELASTIC_STATE + c) * nlq + first + i] =
+                if i == at { f[c] } else { NEIGHBOURS[(line + i) % 5][c] };
+        }
+    }
+    let mut stress = vec![0.0; 6 * nlq];
+    let mut failed = vec![0; nlq];
+    let [sig1, sig2, sig3, sig4, sig5, sig6] = [0, 1, 2, 3, 4, 5].map(|c| stress[c * nlq..].as_mut_ptr());
+    // SAFETY: the arrays have the sizes that the entry asks for.
+    let worst = unsafe {
+        lsdyna::umat_vector_f64(
+            cm.as_ptr(),
+            sig1,
+            sig2,
+            sig3,
+            sig4,
+            sig5,
+            sig6,
+            history.as_mut_ptr(),
+            HYPERELASTIC_STATE as i32,
+            first as i32 + 1,
+            (first + n) as i32,
+            nlq as i32,
+            failed.as_mut_ptr(),
+        )
+    };
+    let at = first + at;
+    let mut answer = Answer {
+        stress: std::array::from_fn(|c| stress[c * nlq + at]),
+        state: std::array::from_fn(|c| history[c * nlq + at]),
+        ..Answer::default()
+    };
+    answer.state[FAILED] = f64::from(failed[at]);
+    // LS-DYNA sees no code an element, only that it failed; the point entry tells why where it was not the limit.
+    let refused = worst > status::INVERTED && worst != status::OK;
+    let unexplained = failed[at] != 0 && answer.state[FAILURE_INDEX] < 1.0;
+    answer.status = match (refused, unexplained) {
+        (true, _) => worst,
+        (_, true) => point(properties, f, false).status,
+        _ => status::OK,
+    };
+    if tangent {
+        let mut dsave = vec![0.0; 36 * nlq];
+        history[FAILED * nlq..(FAILED + 1) * nlq].fill(0.0);
+        // SAFETY: as above.
+        unsafe {
+            lsdyna::utan_vector_f64(
+                cm.as_ptr(),
+                history.as_ptr(),
+                HYPERELASTIC_STATE as i32,
+                first as i32 + 1,
+                (first + n) as i32,
+                nlq as i32,
+                dsave.as_mut_ptr(),
+            )
+        };
+        let truesdell = std::array::from_fn(|i| std::array::from_fn(|j| dsave[(6 * i + j) * nlq + at]));
+        answer.ddsdde = Some(jaumann(&truesdell, &answer.stress));
+    }
+    answer
+}

@@ -1,0 +1,239 @@
+//! Points and arrays as their hosts keep them, and the calls of the C entries on them.
+
+use std::ffi::{c_char, c_int};
+use std::ptr::{null, null_mut};
+
+use nalgebra::Matrix3;
+
+use super::precision::BlockPrecision;
+use toron::host::{abaqus, c, calculix};
+use toron::law::parameters::HYPERELASTIC_PROPERTIES;
+use toron::law::state::HYPERELASTIC_STATE;
+
+/// One point through the C entry: stress and state, the old one on entry; with `tangent` dS/dE.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OnePoint<T> {
+    pub stress: [T; 6],
+    pub state: [T; HYPERELASTIC_STATE],
+    pub tangent: [[T; 6]; 6],
+}
+
+impl<T: BlockPrecision> OnePoint<T> {
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> i32 {
+        let (values, count, state) = (properties.as_ptr(), properties.len(), self.state.as_mut_ptr());
+        let stress = self.stress.as_mut_ptr();
+        // SAFETY: the arrays have the sizes that the entries ask for; the new state replaces the old one.
+        unsafe {
+            if tangent {
+                let rows = self.tangent.as_mut_ptr().cast();
+                let measure = c::TORON_TANGENT_MATERIAL;
+                T::POINT_TANGENT(values, count, f.as_ptr(), null(), state, state, stress, measure, rows)
+            } else {
+                let nothing = null_mut();
+                T::POINT(values, count, f.as_ptr(), null(), state, state, stress, nothing, T::default(), nothing)
+            }
+        }
+    }
+}
+
+/// One element through LS-DYNA's scalar entry: the state in the first eleven of its history, F behind it.
+#[derive(Clone, Copy, Debug)]
+pub struct LsdynaElement<T> {
+    pub stress: [T; 6],
+    pub history: [T; HYPERELASTIC_STATE + 9],
+}
+
+impl<T: BlockPrecision> LsdynaElement<T> {
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let (count, mut failed) = (HYPERELASTIC_STATE as i32, 0);
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe {
+            T::LSDYNA(properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr(), count, &mut failed)
+        }
+    }
+}
+
+/// A vector of elements as LS-DYNA keeps it: `history` has the eleven state variables and the nine entries of F, component-major.
+#[derive(Debug)]
+pub struct LsdynaVector<T> {
+    pub n: usize,
+    pub stress: Vec<T>,
+    pub history: Vec<T>,
+    pub failed: Vec<c_int>,
+}
+
+impl<T: BlockPrecision> LsdynaVector<T> {
+    pub fn new(n: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * n];
+        LsdynaVector { n, stress: array(6), history: array(HYPERELASTIC_STATE + 9), failed: vec![0; n] }
+    }
+
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let n = self.n;
+        let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| self.stress[c * n..].as_mut_ptr());
+        let (history, count, last) = (self.history.as_mut_ptr(), HYPERELASTIC_STATE as i32, n as i32);
+        let failed = self.failed.as_mut_ptr();
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe { T::LSDYNA_VECTOR(properties.as_ptr(), s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed) }
+    }
+}
+
+/// The arrays of a VUMAT, component-major; a step whose stretch does not change.
+#[derive(Debug)]
+pub struct VumatArrays<T> {
+    pub n: usize,
+    pub stretch: Vec<T>,
+    pub state_old: Vec<T>,
+    pub state_new: Vec<T>,
+    pub stress: Vec<T>,
+    /// Zeros and ones for what the law does not look at, or only at the value of.
+    zeros: Vec<T>,
+    ones: Vec<T>,
+    energies: [Vec<T>; 2],
+}
+
+impl<T: BlockPrecision> VumatArrays<T> {
+    pub fn new(n: usize) -> Self {
+        let array = |components: usize| vec![T::default(); components * n];
+        VumatArrays {
+            n,
+            stretch: array(6),
+            state_old: array(HYPERELASTIC_STATE),
+            state_new: array(HYPERELASTIC_STATE),
+            stress: array(6),
+            zeros: array(6),
+            ones: vec![T::from_f64(1.0); n],
+            energies: [array(1), array(1)],
+        }
+    }
+
+    /// Calls the entry; returns its status.
+    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
+        let (zeros, one) = (self.zeros.as_ptr(), T::from_f64(1.0));
+        let [internal, inelastic] = &mut self.energies;
+        let block = abaqus::Vumat {
+            nblock: self.n as i32,
+            ndir: 3,
+            nshr: 3,
+            nstatev: HYPERELASTIC_STATE as i32,
+            nprops: HYPERELASTIC_PROPERTIES as i32,
+            step_time: one,
+            total_time: one,
+            props: properties.as_ptr(),
+            density: self.ones.as_ptr(),
+            strain_inc: zeros,
+            stretch_old: self.stretch.as_ptr(),
+            stretch_new: self.stretch.as_ptr(),
+            stress_old: zeros,
+            state_old: self.state_old.as_ptr(),
+            ener_intern_old: zeros,
+            ener_inelas_old: zeros,
+            stress_new: self.stress.as_mut_ptr(),
+            state_new: self.state_new.as_mut_ptr(),
+            ener_intern_new: internal.as_mut_ptr(),
+            ener_inelas_new: inelastic.as_mut_ptr(),
+        };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { T::VUMAT(&block) }
+    }
+}
+
+/// One integration point as CalculiX hands it over: the old and the new state, second Piola–Kirchhoff stress and dS/dE.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CalculixPoint {
+    pub state_old: [f64; HYPERELASTIC_STATE],
+    pub state: [f64; HYPERELASTIC_STATE],
+    /// 11 22 33 12 13 23.
+    pub stress: [f64; 6],
+    /// The upper triangle in that order, by columns.
+    pub stiffness: [f64; 21],
+    pub pnewdt: f64,
+}
+
+impl CalculixPoint {
+    /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) {
+        let f = Matrix3::from_column_slice(f);
+        let strain = 0.5 * (f.tr_mul(&f) - Matrix3::identity());
+        let strain = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|component| strain[component]);
+        let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
+        let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
+        let (i, d) = (&raw const none, zeros.as_ptr());
+        // SAFETY: the arrays have the sizes that CalculiX promises; what the entry does not look at is zero.
+        unsafe {
+            calculix::hyperelastic(
+                name.as_ptr(),
+                &one,
+                &one,
+                &kode,
+                properties.as_ptr(),
+                strain.as_ptr(),
+                d,
+                d,
+                d,
+                d,
+                f.as_ptr(),
+                d,
+                i,
+                d,
+                d,
+                d,
+                d,
+                i,
+                i,
+                &one,
+                &state_count,
+                self.state_old.as_ptr(),
+                self.state.as_mut_ptr(),
+                self.stress.as_mut_ptr(),
+                self.stiffness.as_mut_ptr(),
+                i,
+                d,
+                d,
+                &mut self.pnewdt,
+                i,
+                80,
+            );
+        }
+    }
+}
+
+/// What a UMAT gets from Abaqus beside deformation gradient and properties, and gives back, in Abaqus's order.
+#[derive(Clone, Copy, Debug)]
+pub struct Umat {
+    pub stress: [f64; 6],
+    pub statev: [f64; HYPERELASTIC_STATE],
+    pub ddsdde: [[f64; 6]; 6],
+    pub sse: f64,
+    pub pnewdt: f64,
+}
+
+impl Umat {
+    /// A point at the start of an analysis.
+    pub const FRESH: Umat =
+        Umat { stress: [0.0; 6], statev: [0.0; HYPERELASTIC_STATE], ddsdde: [[0.0; 6]; 6], sse: 0.0, pnewdt: 1.0 };
+
+    /// Calls the UMAT, without `tangent` with a null DDSDDE; returns its status.
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> i32 {
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        unsafe {
+            abaqus::umat_tangent_f64(
+                self.stress.as_mut_ptr(),
+                self.statev.as_mut_ptr(),
+                if tangent { self.ddsdde.as_mut_ptr().cast() } else { null_mut() },
+                &mut self.sse,
+                &mut self.pnewdt,
+                f.as_ptr(),
+                properties.as_ptr(),
+                HYPERELASTIC_PROPERTIES as i32,
+                HYPERELASTIC_STATE as i32,
+                3,
+                3,
+                1,
+            )
+        }
+    }
+}

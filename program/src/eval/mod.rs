@@ -1,0 +1,4 @@
+//! `toron eval`: points as JSON through any of the C entries.
+
+pub mod command;
+pub mod polar;

@@ -1,0 +1,111 @@
+//! A material as the explicit host uses it: its law's properties, and the wave speeds and moduli that viscosity and hourglass
+//! control take from them.
+
+use super::lanes::Number;
+use crate::common::error::Error;
+use crate::entries::blocks::LinearFrame;
+use crate::material::model::{Law, Material};
+use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use toron::law::state::{FAILED, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
+use toron::{Criterion, Rotation};
+
+/// Coefficients of hourglass control and viscosity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    /// Fraction of the stiffness with which a material would resist the modes.
+    pub hourglass: f64,
+    /// Coefficients of viscosity: linear, quadratic, and against a change of the section's shape.
+    pub linear: f64,
+    pub quadratic: f64,
+    pub shape: f64,
+}
+
+/// Names of the energy densities: the hyperelastic law's modes, and the linear elastic law's work, which has no modes.
+pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
+
+/// A law's properties as its C entry takes them.
+#[derive(Clone, Debug)]
+pub enum Entry<T> {
+    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
+    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
+}
+
+/// A material as the host uses it.
+#[derive(Clone, Debug)]
+pub struct Medium<T> {
+    pub entry: Entry<T>,
+    pub density: f64,
+    pub control: Control,
+    /// The modulus of hourglass control.
+    pub hourglass: f64,
+    /// Whether elements may fail, and the linear elastic law's stress at failure.
+    pub fails: bool,
+    pub strength: f64,
+    /// Wave speed at rest along the fibre, a bound of it for the wave that compacts the section, and that of the one that
+    /// changes its shape; for viscosity.
+    pub wave_speed: f64,
+    pub compaction_speed: f64,
+    pub distortion_speed: f64,
+}
+
+impl<T: Number> Medium<T> {
+    /// # Errors
+    /// The frame is the spin's, which needs axes of its own.
+    pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
+        let property = |name: &str| material.property(name).unwrap_or_default();
+        let (entry, along, across, shear) = match &material.law {
+            Law::Hyperelastic(_) => {
+                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
+                // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
+                // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
+                let p = property("p");
+                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
+                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
+            }
+            Law::LinearElastic { law, frame, criterion } => {
+                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
+                for (to, &from) in properties.iter_mut().zip(&material.values) {
+                    *to = T::from_f64(from);
+                }
+                let frame = match frame {
+                    Rotation::Fibre => LinearFrame::Fibre,
+                    Rotation::Polar => LinearFrame::Polar,
+                    Rotation::Spin => {
+                        return Err(Error::Input("frame is \"spin\"; allowed here: fibre, polar".to_string()));
+                    }
+                };
+                let criterion = match criterion {
+                    Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
+                    Criterion::FibreStress => TORON_CRITERION_FIBRE,
+                };
+                let [across, shear] = [property("e_2"), property("g")];
+                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
+            }
+        };
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
+        Ok(Medium {
+            entry,
+            density,
+            control,
+            hourglass: control.hourglass * distortion,
+            fails: material.can_fail(),
+            strength: property("sigma_lim"),
+            wave_speed: (along / density).sqrt(),
+            compaction_speed: (across / density).sqrt(),
+            distortion_speed: (shear / density).sqrt(),
+        })
+    }
+
+    /// The law's number of state variables, and where the latch stands among them.
+    pub fn state(&self) -> (usize, usize) {
+        match self.entry {
+            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
+            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
+        }
+    }
+}

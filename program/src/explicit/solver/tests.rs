@@ -1,0 +1,167 @@
+use super::*;
+use crate::explicit::contact::{Contact, Cylinder};
+use crate::explicit::lanes::largest;
+use crate::explicit::medium::Control;
+use crate::explicit::mesh::{Section, Yarn};
+use crate::material::model::{Law, Material};
+use toron::law::parameters;
+use toron::{Criterion, Rotation};
+
+/// A cube of 1 mm with these boundary conditions; it may fail.
+fn cube(support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
+    let preset = parameters::preset("kevlar-km2-600").expect("it exists");
+    cube_of(preset.values.to_vec(), support_of)
+}
+
+fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver<f64> {
+    let preset = parameters::preset("kevlar-km2-600").expect("it exists");
+    let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+    let density = preset.density;
+    let material = Material { law, values, density: Some(density), label: String::new() };
+    let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2 };
+    let section = Section::Rectangle;
+    let yarn = Yarn { section, length: 1e-3, height: 1e-3, width: 1e-3, layers: 1, rows: 1, columns: 1 };
+    let medium = Medium::new(&material, density, control).expect("valid");
+    let mut solver = Solver::new(yarn.mesh(), vec![medium], |_| 0);
+    for node in 0..solver.mesh.nodes.len() {
+        solver.support(node, support_of(solver.mesh.nodes[node]));
+    }
+    solver
+}
+
+/// A node with a prescribed velocity.
+fn driven(velocity: [f64; 3]) -> Support {
+    Support { free: [false; 3], velocity }
+}
+
+/// A step; returns the energies at its start.
+fn step(solver: &mut Solver<f64>) -> Energies {
+    short_step(solver, 1.0)
+}
+
+/// A step no longer than this.
+fn short_step(solver: &mut Solver<f64>, longest: f64) -> Energies {
+    solver.accelerate(true, longest).expect("the step is stable");
+    let energies = solver.energies;
+    solver.displace();
+    energies
+}
+
+/// The top is driven through the bottom at 100 m/s.
+fn collapse([_, y, _]: [f64; 3]) -> Support {
+    driven([0.0, if y > 0.0 { -100.0 } else { 0.0 }, 0.0])
+}
+
+#[test]
+fn an_element_that_may_fail_goes_when_it_has_collapsed() {
+    let mut solver = cube(collapse);
+    let (mut first, mut worst) = (None, 0.0);
+    while solver.deleted.is_empty() {
+        step(&mut solver);
+        let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
+        worst = largest(worst, change.abs());
+        assert!(solver.time < 1e-5, "the top is through the bottom after 10 µs");
+    }
+    let first_step = solver.first_step.expect("a step was made");
+    assert!(solver.step < 1.1 * COLLAPSED * first_step && solver.step > 0.5 * COLLAPSED * first_step);
+    assert!(worst < 0.01 * solver.energies.external, "{worst} of {}", solver.energies.external);
+    assert_eq!((solver.deleted.len(), solver.collapsed), (1, 1));
+    // Without it nothing limits the step.
+    solver.accelerate(true, 1e-5).expect("nothing is left to collapse");
+    assert!(solver.step > first_step && !solver.is_intact(0));
+}
+
+#[test]
+fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none() {
+    let mut values = parameters::preset("kevlar-km2-600").expect("it exists").values.to_vec();
+    values[5..8].fill(0.0);
+    let mut solver = cube_of(values, collapse);
+    let (mut first, mut worst, mut steps) = (None, 0.0, 0);
+    let error = loop {
+        if let Err(error) = solver.accelerate(true, 1.0) {
+            break error.to_string();
+        }
+        let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
+        worst = largest(worst, change.abs());
+        solver.displace();
+        steps += 1;
+        assert!(steps < 100_000 && solver.time < 1e-5, "the top is through the bottom after 10 µs");
+    };
+    assert!(error.contains("elements have collapsed") && solver.deleted.is_empty(), "{error}");
+    let external = solver.energies.external;
+    assert!(worst < 0.01 * external, "{worst} of {external}");
+}
+
+/// A projectile held at 10 m/s presses the cube for 10 µs in steps no longer than this: the change of the total energy over
+/// the projectile's work.
+fn press(longest: f64) -> f64 {
+    let free = Support { free: [true; 3], velocity: [0.0; 3] };
+    let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });
+    let cylinder = Cylinder { radius: 0.01, stiffness: 1e13, friction: 0.0 };
+    let contact = Contact::new(cylinder, &solver.mesh.nodes, &solver.mesh.surface, solver.mass());
+    solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, contact));
+    let start = short_step(&mut solver, longest).total();
+    let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());
+    while solver.time < 1e-5 {
+        let moved = solver.projectile.as_ref().expect("it is there").moved;
+        now = short_step(&mut solver, longest);
+        let after = solver.projectile.as_ref().expect("it is there").force;
+        work -= 0.5 * (force + after) * moved;
+        force = after;
+    }
+    assert!(solver.projectile.is_some_and(|projectile| projectile.velocity == -10.0));
+    assert!(work > 0.0 && (now.external / work - 1.0).abs() < 1e-3, "{} is not {work}", now.external);
+    (now.total() - start) / work
+}
+
+#[test]
+fn a_held_projectile_works_on_the_body() {
+    // In stable steps, and in shorter ones.
+    for (longest, bound) in [(1.0, 2e-3), (2e-8, 3e-4)] {
+        let imbalance = press(longest);
+        assert!(imbalance.abs() < bound, "{imbalance} in steps of up to {longest}");
+    }
+}
+
+#[test]
+fn a_deleted_element_keeps_its_energy() {
+    // Pulled at 10 m/s, one corner faster: it fails with energy in its hourglass modes.
+    let mut solver = cube(|[x, y, z]| {
+        let faster = if y > 0.0 && z > 0.0 { 12.0 } else { 10.0 };
+        driven([if x > 0.0 { faster } else { 0.0 }, 0.0, 0.0])
+    });
+    let start = step(&mut solver).total();
+    let mut before = Energies::default();
+    while solver.deleted.is_empty() {
+        before = step(&mut solver);
+        assert!(solver.time < 1e-5, "it is a tenth longer by now");
+    }
+    assert!(before.hourglass > 1e-6 * before.internal && before.hourglass > 0.0, "{before:?}");
+    assert!((before.total() - start).abs() < 0.01 * before.external, "{before:?}");
+    let failed = step(&mut solver);
+    let later = (0..10).fold(failed, |_, _| step(&mut solver));
+    assert_eq!(later, failed, "nothing moves any energy");
+    assert_eq!((failed.hourglass, failed.internal), (before.hourglass, before.internal));
+    // The last force goes on for half a step.
+    let half = failed.external - before.external;
+    assert!((failed.total() + half - before.total()).abs() < 1e-9 * before.external, "{before:?} {failed:?}");
+}
+#[test]
+fn an_element_that_could_not_be_evaluated_stays_deleted() {
+    let mut solver = cube(|_| driven([0.0; 3]));
+    let pull = |solver: &mut Solver<f64>, factor: [f64; 3]| {
+        for (node, place) in solver.mesh.nodes.iter().enumerate() {
+            solver.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
+        }
+    };
+    pull(&mut solver, [1.01, 1.0, 1.0]);
+    let stretched = step(&mut solver);
+    assert!(stretched.internal > 0.0 && solver.deleted.is_empty());
+    pull(&mut solver, [1.01, -1.0, 1.0]);
+    step(&mut solver);
+    assert_eq!(solver.deleted, [0]);
+    pull(&mut solver, [1.02, 1.0, 1.0]);
+    let restored = step(&mut solver);
+    assert_eq!(restored.internal, stretched.internal, "it keeps the energy it had");
+    assert!(solver.forces.iter().all(|&force| force == [0.0; 3]), "{:?}", solver.forces);
+}

@@ -1,0 +1,196 @@
+//! The result of a case: its history, and the quantities computed from it.
+
+use std::time::Duration;
+
+use super::smith::Smith;
+use crate::explicit::energies::{Cost, Energies};
+use crate::explicit::lanes::largest;
+use crate::explicit::mesh::Mesh;
+
+/// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
+pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+/// The part of half the span over which the speed of a front is fitted: where it no longer builds up, and away from the clamp.
+const FITTED: [f64; 2] = [0.4, 0.85];
+/// A transverse front this near the clamp has reached it but for what its own length adds.
+const AT_CLAMP: [f64; 2] = [0.75, 0.95];
+
+/// A line of the history.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    pub time: f64,
+    /// Of the projectile, along its way; and how far it has come.
+    pub speed: f64,
+    pub travel: f64,
+    /// Contact force of the half model.
+    pub force: f64,
+    /// Of the whole yarn: twice the half model's.
+    pub energies: Energies,
+    /// The parts of the internal energy, as `ENERGY_NAMES` has them.
+    pub parts: [f64; 5],
+    /// Largest energy densities: in the yarn, and further than a radius from mid-span and from the clamp, where neither
+    /// touches the yarn.
+    pub largest: [f64; 5],
+    pub free: [f64; 5],
+    /// Least energy density of elongation, or of the linear law's work.
+    pub least: f64,
+    /// The largest failure index of what stands.
+    pub index: f64,
+    /// Elements deleted so far, and how many of them because they had collapsed.
+    pub deleted: usize,
+    pub collapsed: usize,
+    /// The front of the elongation, by reference length, and of the kink, in space.
+    pub longitudinal: f64,
+    pub transverse: f64,
+    /// Of the section, at the stations.
+    pub widths: [f64; 4],
+    /// Mean strain behind the front of the elongation.
+    pub strain: f64,
+}
+
+/// How a case ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// At the end of the time asked for.
+    Time,
+    /// The projectile has stopped.
+    Stopped,
+    /// It has left the broken yarn behind.
+    Left,
+}
+
+/// The yarn at an instant, to be drawn.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub time: f64,
+    pub positions: Vec<[f64; 3]>,
+    pub intact: Vec<bool>,
+    pub densities: Vec<[f64; 5]>,
+    /// Height of the projectile's axis, and its radius.
+    pub projectile: Option<(f64, f64)>,
+}
+
+/// The result of a case.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    pub samples: Vec<Sample>,
+    pub snapshots: Vec<Snapshot>,
+    pub mesh: Mesh,
+    pub end: End,
+    /// Whether a projectile strikes whose speed is its own, neither held nor driven.
+    pub own_speed: bool,
+    /// When the first element reached a failure index of 1.
+    pub failed: Option<f64>,
+    /// When the last line of elements along the fibre tore, and the projectile's speed then.
+    pub broken: Option<(f64, f64)>,
+    pub cost: Cost,
+    pub wall: Duration,
+    pub smith: Smith,
+}
+
+impl Outcome {
+    /// The last sample.
+    pub fn last(&self) -> Sample {
+        self.samples.last().copied().unwrap_or_default()
+    }
+
+    /// The sample at a time or the first one after.
+    pub fn at(&self, time: f64) -> Sample {
+        let found = self.samples.iter().find(|sample| sample.time >= time);
+        found.copied().unwrap_or_else(|| self.last())
+    }
+
+    /// The largest difference of the total energy from what it was, over the work from outside or the energy that was there.
+    pub fn imbalance(&self) -> f64 {
+        imbalance(&self.samples)
+    }
+
+    /// The projectile's residual speed; none where the run has ended before the projectile stopped or left, or where the speed is
+    /// not the projectile's own.
+    pub fn residual_speed(&self) -> Option<f64> {
+        match self.end {
+            End::Stopped if self.own_speed => Some(0.0),
+            End::Left if self.own_speed => Some(self.last().speed),
+            _ => None,
+        }
+    }
+
+    /// The largest of a quantity in the samples up to the break.
+    fn largest_before_break(&self, of: impl Fn(&Sample) -> f64) -> f64 {
+        let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
+        self.samples.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
+    }
+
+    /// The largest failure index of the samples up to the break.
+    pub fn largest_index(&self) -> f64 {
+        self.largest_before_break(|sample| sample.index)
+    }
+
+    /// The largest hourglass energy up to the break, over the largest internal energy.
+    pub fn hourglass_share(&self) -> f64 {
+        let internal = self.largest_before_break(|sample| sample.energies.internal);
+        let hourglass = self.largest_before_break(|sample| sample.energies.hourglass);
+        if internal == 0.0 { 0.0 } else { hourglass / internal }
+    }
+
+    /// The largest energy in the contact up to the break, over the energy that was there or the work from outside.
+    pub fn contact_share(&self) -> f64 {
+        let contact = self.largest_before_break(|sample| sample.energies.contact);
+        energy(&self.samples).filter(|_| contact > 0.0).map_or(0.0, |(_, scale)| contact / scale)
+    }
+
+    /// The samples in which the wave of elongation passes the middle of half the span.
+    fn passing(&self, half_length: f64) -> &[Sample] {
+        let [from, to] = FITTED.map(|fraction| fraction * half_length);
+        let Some(end) = self.samples.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
+        let start = self.samples[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
+        &self.samples[start..end]
+    }
+
+    /// Speed of a front while the wave of elongation passes the middle of half the span: the slope of a fitted line.
+    pub fn front_speed(&self, half_length: f64, place: impl Fn(&Sample) -> f64) -> Option<f64> {
+        let passing = self.passing(half_length);
+        let n = passing.len() as f64;
+        let mean = |of: &dyn Fn(&Sample) -> f64| passing.iter().map(of).sum::<f64>() / n;
+        let (t, x) = (mean(&|sample| sample.time), mean(&|sample| place(sample)));
+        let above = mean(&|sample| (sample.time - t) * (place(sample) - x));
+        let below = mean(&|sample| (sample.time - t).powi(2));
+        (below > 0.0).then(|| above / below)
+    }
+
+    /// Mean strain behind the wave of elongation meanwhile.
+    pub fn plateau(&self, half_length: f64) -> Option<f64> {
+        let passing = self.passing(half_length);
+        let sum: f64 = passing.iter().map(|sample| sample.strain).sum();
+        (!passing.is_empty()).then(|| sum / passing.len() as f64)
+    }
+
+    /// When the transverse wave is at the clamp: from its last stretch before it.
+    pub fn transverse_at_clamp(&self, half_length: f64) -> Option<f64> {
+        let [a, b] = AT_CLAMP.map(|fraction| {
+            let place = fraction * half_length;
+            self.samples.iter().find(|sample| sample.transverse >= place).map(|sample| sample.time)
+        });
+        let (a, b) = (a?, b?);
+        Some(b + (b - a) * (1.0 - AT_CLAMP[1]) / (AT_CLAMP[1] - AT_CLAMP[0]))
+    }
+
+    /// Number of steps times elements.
+    pub fn zone_cycles(&self) -> f64 {
+        self.cost.steps as f64 * self.mesh.elements.len() as f64
+    }
+}
+
+/// The largest difference of the total energy from what it was, over the largest of: the energy that was there, the work
+/// from outside.
+pub fn imbalance(samples: &[Sample]) -> f64 {
+    let Some((first, scale)) = energy(samples) else { return 0.0 };
+    let difference = samples.iter().map(|sample| (sample.energies.total() - first).abs()).fold(0.0, largest);
+    if difference > 0.0 || difference.is_nan() { difference / scale } else { 0.0 }
+}
+
+/// The energy at the start, and the largest of it and of the work from outside.
+fn energy(samples: &[Sample]) -> Option<(f64, f64)> {
+    let first = samples.first()?.energies.total();
+    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
+    Some((first, scale))
+}

@@ -1,0 +1,407 @@
+//! A scene from its TOML file. The format is described in `docs/impact.md`.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::file::{CaseFile, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, SceneFile, SectionName, StrikerName};
+use super::scene::{Abscissa, Case, Outputs, Precision, Scene, Striker, Zones};
+use super::smith::{LARGEST_STRAIN, Tension};
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use crate::common::units::number;
+use crate::explicit::contact::Cylinder;
+use crate::explicit::medium::Control;
+use crate::explicit::mesh::{Section, Yarn};
+use crate::material::fibre_wave::FibreWave;
+use crate::material::file::MaterialFile;
+use crate::material::model::{Law, Material};
+use toron::host::units::UnitSystem;
+use toron::{Criterion, Rotation};
+
+/// An element takes some 700 bytes: more do not fit most memories.
+const MOST_ELEMENTS: usize = 10_000_000;
+/// Files for ParaView are numbered by four digits.
+const MOST_FRAMES: usize = 9999;
+/// Lengths closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 600.0;
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = source.units(&file.units)?;
+        let base = file.scene.get_ref();
+        if let Some(name) = &base.name {
+            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
+        }
+        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
+        let mut cases: Vec<Case> = Vec::new();
+        if file.case.is_empty() {
+            source.check_used(base, &[base])?;
+            let span = file.scene.span();
+            let reader = Reader { source: &source, units: &units, file: base, own: base, span };
+            cases.push(reader.case("scene".to_string())?);
+        } else {
+            source.check_used(base, &tables.iter().collect::<Vec<_>>())?;
+        }
+        for (case, table) in file.case.iter().zip(&tables) {
+            let name = source.case_name(case, &cases)?;
+            source.check_used(case.get_ref(), &[table])?;
+            let reader = Reader { source: &source, units: &units, file: table, own: case.get_ref(), span: case.span() };
+            cases.push(reader.case(name)?);
+        }
+        let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
+    }
+}
+
+impl Source<'_> {
+    fn case_name(&self, case: &Spanned<CaseFile>, others: &[Case]) -> Result<String, Error> {
+        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
+        let Some(name) = &case.get_ref().name else {
+            return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
+        };
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        let taken = SUMMARIES.contains(&name.get_ref().as_str())
+            || others.iter().any(|other| same_files(&other.name, name.get_ref()));
+        if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
+            return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
+        }
+        Ok(name.get_ref().clone())
+    }
+
+    /// Refuses keys of a table that none of its cases reads.
+    fn check_used(&self, table: &CaseFile, cases: &[&CaseFile]) -> Result<(), Error> {
+        table.unused(cases).map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
+    }
+
+    /// A contact has its stiffness only where there is one.
+    fn abscissa_of(&self, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
+        let driven = cases.iter().find(|case| case.striker == Striker::Driven);
+        match (abscissa.get_ref(), driven) {
+            (Abscissa::ContactStiffness, Some(case)) => {
+                let message =
+                    format!("abscissa is contact-stiffness, but case \"{}\" is driven; allowed: elements", case.name);
+                Err(self.error(abscissa.span(), &message))
+            }
+            (&abscissa, _) => Ok(abscissa),
+        }
+    }
+}
+
+/// Names of the files that the cases have in common.
+const SUMMARIES: [&str; 2] = ["summary", "residual-speed"];
+
+/// Whether two cases would write the same files, one the other's pictures.
+fn same_files(one: &str, other: &str) -> bool {
+    let picture_of = |case: &str, name: &str| {
+        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix("-yarn-"));
+        number.is_some_and(|number| number.parse::<usize>().is_ok())
+    };
+    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
+}
+
+/// A case's table and what is needed to read it.
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    units: &'a UnitSystem,
+    file: &'a CaseFile,
+    /// The case's own table, without the scene's.
+    own: &'a CaseFile,
+    /// The place that errors name for keys that are missing.
+    span: Range<usize>,
+}
+
+impl Reader<'_> {
+    fn missing(&self, key: &str, allowed: &str) -> Error {
+        self.source.error(self.span.clone(), &format!("{key} is missing; allowed: {allowed}"))
+    }
+
+    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
+        match value {
+            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            None => Err(self.missing(key, "a finite number > 0")),
+        }
+    }
+
+    /// A number from 0 on, or the default.
+    fn zero_or_more(&self, key: &str, value: &Option<Spanned<f64>>, default: f64) -> Result<f64, Error> {
+        match value {
+            None => Ok(default),
+            Some(value) if value.get_ref().is_finite() && *value.get_ref() >= 0.0 => Ok(*value.get_ref()),
+            Some(value) => {
+                let message = format!("{key} is {}; allowed: a finite number >= 0", value.get_ref());
+                Err(self.source.error(value.span(), &message))
+            }
+        }
+    }
+
+    /// A whole number from `least` to `most`, or the default.
+    fn count(
+        &self,
+        key: &str,
+        value: &Option<Spanned<i64>>,
+        range: [usize; 2],
+        default: Option<usize>,
+    ) -> Result<usize, Error> {
+        let [least, most] = range;
+        let allowed = format!("a whole number from {least} to {most}");
+        let Some(count) = value else { return default.ok_or_else(|| self.missing(key, &allowed)) };
+        match usize::try_from(*count.get_ref()) {
+            Ok(number) if (least..=most).contains(&number) => Ok(number),
+            _ => Err(self.source.error(count.span(), &format!("{key} is {}; allowed: {allowed}", count.get_ref()))),
+        }
+    }
+
+    fn case(&self, name: String) -> Result<Case, Error> {
+        let file = self.file;
+        let end = self.positive("end", &file.end)?;
+        let sample = match &file.sample {
+            Some(_) => self.positive("sample", &file.sample)?,
+            None => end / SAMPLES,
+        };
+        if let Some(given) = file.sample.as_ref().filter(|given| *given.get_ref() > end) {
+            let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
+            return Err(self.source.error(given.span(), &message));
+        }
+        let yarn = self.yarn()?;
+        let zones = self.zones(&yarn)?;
+        Ok(Case {
+            striker: self.striker()?,
+            speed: self.speed(zones.inner())?,
+            end,
+            sample,
+            pictures: self.pictures(&name, end)?,
+            name,
+            frames: self.count("frames", &file.frames, [0, MOST_FRAMES], Some(0))?,
+            control: self.control()?,
+            zones,
+            yarn,
+            precision: file.precision.unwrap_or(Precision::F64),
+            outputs: file.outputs.unwrap_or(Outputs::Full),
+        })
+    }
+
+    fn yarn(&self) -> Result<Yarn, Error> {
+        let file = self.file;
+        let section = match file.section {
+            None | Some(SectionName::Ellipse) => Section::Ellipse,
+            Some(SectionName::Rectangle) => Section::Rectangle,
+        };
+        let yarn = Yarn {
+            section,
+            length: self.positive("half-length", &file.half_length)?,
+            height: self.positive("height", &file.height)?,
+            width: self.positive("width", &file.width)?,
+            layers: self.count("layers", &file.layers, [1, MOST_ELEMENTS], None)?,
+            rows: self.count("rows", &file.rows, [1, MOST_ELEMENTS], None)?,
+            // An ellipse needs two: they meet between its tips.
+            columns: self.count(
+                "columns",
+                &file.columns,
+                [if section == Section::Ellipse { 2 } else { 1 }, MOST_ELEMENTS],
+                None,
+            )?,
+        };
+        let elements = [yarn.layers, yarn.rows, yarn.columns].into_iter().fold(1, usize::saturating_mul);
+        if elements > MOST_ELEMENTS {
+            let message = format!("layers, rows and columns make {elements} elements; allowed: up to {MOST_ELEMENTS}");
+            return Err(self.source.error(self.span.clone(), &message));
+        }
+        Ok(yarn)
+    }
+
+    /// The speed, which stretches a yarn of this material at mid-span by no more than any fibre bears.
+    fn speed(&self, material: &Material) -> Result<f64, Error> {
+        let (key, value) = ("speed", &self.file.speed);
+        let speed = self.positive(key, value)?;
+        let most = Tension::of(material).fastest_strike(material.density.unwrap_or_default());
+        if speed > most {
+            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
+            let most = number(most);
+            let mut message =
+                format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+            if let Some(unit_warning) =
+                FibreWave::of(material, self.units).and_then(|wave| wave.unit_warning(self.units))
+            {
+                message.push_str(&format!(";\n{unit_warning}"));
+            }
+            return Err(self.source.error(span, &message));
+        }
+        Ok(speed)
+    }
+
+    fn striker(&self) -> Result<Striker, Error> {
+        let file = self.file;
+        if file.striker() == StrikerName::Driven {
+            return Ok(Striker::Driven);
+        }
+        let cylinder = Cylinder {
+            radius: self.positive("radius", &file.radius)?,
+            stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
+            friction: self.zero_or_more("friction", &file.friction, 0.0)?,
+        };
+        let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
+        let mass = if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? };
+        Ok(Striker::Cylinder { cylinder, mass, held })
+    }
+
+    /// The case is named: the times may be the scene's, the end its own.
+    fn pictures(&self, case: &str, end: f64) -> Result<Vec<f64>, Error> {
+        let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
+        for &time in times.get_ref() {
+            if !(time > 0.0 && time <= end) {
+                let message = format!(
+                    "a time of pictures is {time}; allowed: a number > 0, up to end = {end} of case \"{case}\""
+                );
+                return Err(self.source.error(times.span(), &message));
+            }
+        }
+        Ok(times.get_ref().clone())
+    }
+
+    fn control(&self) -> Result<Control, Error> {
+        let [linear, quadratic, shape] = match &self.file.viscosity {
+            None => VISCOSITY,
+            Some(given) => {
+                for value in given.get_ref().0 {
+                    let single = Some(Spanned::new(given.span(), value));
+                    self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
+                }
+                given.get_ref().0
+            }
+        };
+        let hourglass = self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?;
+        Ok(Control { hourglass, linear, quadratic, shape })
+    }
+
+    fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {
+        let file = self.file;
+        let hyperelastic = || self.material(HYPERELASTIC, &file.hyperelastic);
+        let linear = || self.material(LINEAR_ELASTIC, &file.linear_elastic);
+        Ok(match file.law() {
+            LawName::Hyperelastic => Zones::One(Box::new(hyperelastic()?)),
+            LawName::LinearElastic => Zones::One(Box::new(linear()?)),
+            LawName::Hybrid => Zones::Two(Box::new([hyperelastic()?, linear()?]), self.hyperelastic_length(yarn)?),
+        })
+    }
+
+    fn hyperelastic_length(&self, yarn: &Yarn) -> Result<f64, Error> {
+        let (key, value) = ("hyperelastic-length", &self.file.hyperelastic_length);
+        let length = self.positive(key, value)?;
+        let layer = yarn.length / yarn.layers as f64;
+        if length < layer * (1.0 - ROUNDING) || length > yarn.length * (1.0 + ROUNDING) {
+            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
+            let message = format!("{key} is {length}; allowed: from a layer, {layer}, to half-length, {}", yarn.length);
+            return Err(self.source.error(span, &message));
+        }
+        Ok(length)
+    }
+
+    /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
+    fn choose_failure(
+        &self,
+        law: &str,
+        material: &mut Material,
+        file: &MaterialFile,
+        span: &Range<usize>,
+    ) -> Result<(), Error> {
+        let failure = self.file.failure();
+        // A property of the scene is wrong only beside the failure of a case: that is the line to change.
+        let place = |name: &str| {
+            let of_case = self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
+            of_case.or(file.given(name).map(Spanned::span)).unwrap_or(span.clone())
+        };
+        let off: &[&str] = match failure {
+            FailureName::None => &["eps_lim", "sigma_lim"],
+            FailureName::Uniaxial => &["alpha", "beta"],
+            FailureName::Multiaxial => &[],
+        };
+        let table = material.table();
+        for (value, property) in material.values.iter_mut().zip(table) {
+            let name = property.name;
+            if !off.contains(&name) {
+                continue;
+            }
+            *value = 0.0;
+            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
+                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
+                let message = format!(
+                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
+                    given.get_ref()
+                );
+                return Err(self.source.error(place(name), &message));
+            }
+        }
+        let is_zero = |name: &str| material.property(name) == Some(0.0);
+        let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
+        if let Some(name) = missing {
+            let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
+            return Err(self.source.error(place(name), &message));
+        }
+        if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
+            let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
+            return Err(self.source.error(place("alpha"), message));
+        }
+        Ok(())
+    }
+
+    /// The material of this law's table, which its preset completes, with the failure that the case asks for.
+    fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
+        let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
+        let default = MaterialFile::of_preset(preset, self.span.clone());
+        let (file, span) = match table {
+            Some(table) => (table.get_ref().over(&default), table.span()),
+            None => (default, self.span.clone()),
+        };
+        let mut material = self.source.material(&file, self.units, span.clone())?;
+        let found = material.law_name().replace(' ', "-");
+        if found != law {
+            return Err(self.source.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
+        }
+        let fibre = material.fibre();
+        if fibre.x.abs() < 1.0 - ROUNDING {
+            let [x, y, z] = fibre.into();
+            let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
+            return Err(self.source.error(span, &message));
+        }
+        self.choose_failure(law, &mut material, &file, &span)?;
+        let table = material.table();
+        let (frame, criterion) = match material.law {
+            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
+            Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
+        };
+        material.law = Law::new(table, &material.values, frame, criterion)
+            .map_err(|error| self.source.error(span.clone(), &error.to_string()))?;
+        if frame == Rotation::Spin {
+            return Err(self.source.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
+        }
+        if material.density.is_none() {
+            return Err(self.source.error(span, "density is missing; allowed: a finite number > 0"));
+        }
+        Ok(material)
+    }
+}
+
+/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and viscosity, linear and
+/// quadratic as explicit solvers have them, and of the section's shape.
+const HOURGLASS: f64 = 0.1;
+const VISCOSITY: [f64; 3] = [0.06, 1.5, 0.2];

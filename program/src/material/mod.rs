@@ -1,0 +1,5 @@
+//! The laws' materials: their evaluation behind one interface, how files describe them, and whether their units can be right.
+
+pub mod fibre_wave;
+pub mod file;
+pub mod model;
