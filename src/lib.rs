@@ -35,6 +35,9 @@
 //! # Ok::<(), toron::Error>(())
 //! ```
 //!
+//! The laws take deformation gradients as columns, `[[T; 3]; 3]`, or as `nalgebra::Matrix3`, where a matrix says by its type which
+//! index is the row; nalgebra is used for nothing else in the hot paths.
+//!
 //! The documents beside the README say the rest: `docs/theory.md` the law as it is computed, `docs/hosts.md` how it goes
 //! into a solver, `docs/validation.md` how the numbers are checked, `docs/load-paths.md` what the program reads.
 
