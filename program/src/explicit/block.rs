@@ -2,9 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::element::{Measures, Shapes};
+use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number, largest};
 use super::medium::{Entry, Medium};
 use super::stress::{Points, nominal_stress};
@@ -83,17 +82,14 @@ pub struct Sums {
     pub law: Duration,
 }
 
-// What is done before the law is called and after it, with the widest instructions of the processor. pulp finds them at run
-// time without unsafe code: the yarn would take a quarter longer with those that every processor has.
-
-/// From displacements to deformation gradients and hourglass modes.
+/// Before the law is called: from displacements to deformation gradients and hourglass modes.
 struct Deform<'a, T> {
     shapes: &'a Shapes<T>,
     displacement: &'a [[T; 3]],
     scratch: &'a mut Scratch<T>,
 }
 
-/// From stresses to nodal forces.
+/// After it: from stresses to nodal forces.
 struct Forces<'a, T> {
     block: &'a mut ElementBlock<T>,
     medium: &'a Medium<T>,
@@ -103,21 +99,17 @@ struct Forces<'a, T> {
     forces: &'a mut [[T; 3]],
 }
 
-impl<T: Number> WithSimd for Deform<'_, T> {
-    type Output = ();
-
+impl<T: Number> Loops for Deform<'_, T> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn run(self) {
         let Scratch { deformation_gradient, modal, .. } = self.scratch;
         self.shapes.deform(self.displacement, deformation_gradient, modal);
     }
 }
 
-impl<T: Number> WithSimd for Forces<'_, T> {
-    type Output = ();
-
+impl<T: Number> Loops for Forces<'_, T> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn run(self) {
         let Forces { block, medium, scratch, options, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
         let StepOptions { step, shortest, .. } = options;
@@ -179,8 +171,7 @@ impl<T: Number> ElementBlock<T> {
         options: StepOptions,
         sums: &mut Sums,
     ) {
-        let wide = Arch::new();
-        wide.dispatch(Deform { shapes: &self.shapes, displacement, scratch });
+        run_widest(Deform { shapes: &self.shapes, displacement, scratch });
         let start = Instant::now();
         match &medium.entry {
             Entry::Hyperelastic(properties) => {
@@ -197,7 +188,7 @@ impl<T: Number> ElementBlock<T> {
         // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
         // exert their last stress.
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
-        wide.dispatch(Forces { block: self, medium, scratch, options, sums, forces });
+        run_widest(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
             block.state[latch * stride + i] != T::default() && block.is_intact(i)

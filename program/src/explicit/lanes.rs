@@ -28,7 +28,7 @@ impl Number for f32 {}
 
 /// Numbers of neighbouring elements, worked on together: one register where the processor's are wide enough.
 ///
-/// The loops that run under [`pulp::Arch::dispatch`] use its instructions only where they are inlined there. Therefore whatever
+/// The loops that run under [`run_widest`](super::instructions::run_widest) use its instructions only where they are inlined there. Therefore whatever
 /// they call is `#[inline(always)]`, down to the operators here, and they loop over indices: no closures, adaptors of iterators
 /// or `copy_from_slice`, which remain calls where the compiler does not choose to inline them.
 #[derive(Clone, Copy)]

@@ -8,6 +8,7 @@ pub mod block;
 pub mod contact;
 pub mod element;
 pub mod energies;
+pub mod instructions;
 pub mod lanes;
 pub mod medium;
 pub mod mesh;
