@@ -185,11 +185,13 @@ impl<T: Precision> Hyperelastic<T> {
 /// As for [`Hyperelastic::raw_block`].
 pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
     #[cfg(target_arch = "x86_64")]
-    if (1..=FEW).contains(&block.n) && block.tangent.is_null() && block.level() > Level::Baseline {
-        if let Ok(request) = block.check() {
-            // SAFETY: the caller answers for the arrays, and the processor has the instructions.
-            return unsafe { T::one_by_one(properties, block, request) };
-        }
+    if (1..=FEW).contains(&block.n)
+        && block.tangent.is_null()
+        && block.level() > Level::Baseline
+        && let Ok(request) = block.check()
+    {
+        // SAFETY: the caller answers for the arrays, and the processor has the instructions.
+        return unsafe { T::one_by_one(properties, block, request) };
     }
     // What is wrong about the properties is reported before what is wrong about the block.
     // SAFETY: the caller answers for the arrays.
