@@ -126,7 +126,8 @@ pub fn ln_1p<R: Real>(x: R) -> R {
 /// a = asinh(s/j) for s ≥ 0 and j > 0 up to its last step, which needs two reciprocals.
 ///
 /// With z = e^2a = (s + t)²/j², t = √(s² + j²), and the nearest power of two 2^k, a = ½ k ln 2 + artanh w,
-/// w = (z − 2^k)/(z + 2^k). For k = 0 that is w = s/t, which keeps its digits down to s = 0, and a/s follows without a quotient 0/0.
+/// w = (z − 2^k)/(z + 2^k). For k = 0 that is w = s/t, which keeps its digits down to s = 0, and a/s follows without a quotient
+/// 0/0.
 #[derive(Clone, Copy)]
 pub struct Asinh<R: Real> {
     k: R,

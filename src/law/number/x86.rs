@@ -235,26 +235,26 @@ macro_rules! register {
             const COUNT: usize = $count;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
-                // SAFETY: the dispatch has checked that the processor has the instructions; the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 $name(unsafe { $load(from) })
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
-                // SAFETY: the dispatch has checked that the processor has the instructions; the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 unsafe { $store(to, self.0) }
             }
             $(
                 #[inline(always)]
                 unsafe fn store_where(self, $wm: $mask, $wto: *mut $t) {
                     let $wx = self.0;
-                    // SAFETY: the dispatch has checked that the processor has the instructions; the pointer is the caller's promise.
+                    // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                     unsafe { $store_where }
                 }
             )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
-                // SAFETY: the dispatch has checked that the processor has the instructions; the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 unsafe { $store_integers }
             }
             #[inline(always)]
