@@ -33,10 +33,11 @@ use crate::law::voigt::Moduli;
 use super::border::properties;
 use super::environment::in_default_environment;
 
-/// What PNEWDT is lowered to where a point cannot be evaluated.
+/// The value that PNEWDT is lowered to if a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// The counts that an entry demands, with the number of shear components.
+/// Checks the numbers of components and state variables; `allowed` holds the allowed numbers of shear components. Returns a
+/// status code.
 fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
     if direct != 3 || !allowed.contains(&shear) {
         status::BAD_COUNT
@@ -47,10 +48,10 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
     }
 }
 
-/// `toron_abaqus_umat_tangent_f64` of the C interface, which says what its arguments are.
+/// `toron_abaqus_umat_tangent_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn umat_tangent_f64(
@@ -100,7 +101,8 @@ pub unsafe extern "C" fn umat_tangent_f64(
             return code;
         }
     }
-    // Two calls: each function is built for what it is asked. The structures are made where they are read, number by number.
+    // Two calls, each compiled for its own request. The structures are built inside the closures, so that their fields need not
+    // be copied as a whole.
     if ddsdde.is_null() {
         in_default_environment(move || {
             let mut status = status::OK;
@@ -119,7 +121,7 @@ pub unsafe extern "C" fn umat_tangent_f64(
 }
 
 /// Whether the fibre is neither in the plane of a plane-strain or axisymmetric element nor normal to it: its stress would have
-/// components that such an element has not. What is not a direction is not this function's business.
+/// components that such an element does not have. False for a direction that is zero or not finite, which is refused elsewhere.
 fn out_of_plane(properties: &[f64]) -> bool {
     /// A direction typed or computed to this many digits counts as in the plane.
     const TOLERANCE: f64 = 1e-9;
@@ -128,7 +130,7 @@ fn out_of_plane(properties: &[f64]) -> bool {
     along > TOLERANCE * across && across > TOLERANCE * along
 }
 
-/// Where a UMAT's answer goes: Abaqus's arrays, which the caller answers for.
+/// The sink of a UMAT: Abaqus's arrays, for which the caller answers.
 struct Umat<'a> {
     stress: *mut f64,
     statev: *mut f64,
@@ -141,7 +143,7 @@ struct Umat<'a> {
 }
 
 impl Umat<'_> {
-    /// All but DDSDDE.
+    /// Stores all results except DDSDDE.
     #[inline(always)]
     fn put(self, point: &Point<f64>) {
         let [s11, s22, s33, s12, s23, s31] = point.stress;
@@ -159,7 +161,7 @@ impl Umat<'_> {
                 let [w_el, w_tc, w_td, w_ld, ..] = point.state;
                 let energy = ((w_el + w_tc) + w_td) + w_ld;
                 let jacobian = dot(self.f[0], cross(self.f[1], self.f[2]));
-                // A failed point may arrive with any F.
+                // A point that has failed before may have any F.
                 let current = energy / jacobian;
                 *self.sse = if jacobian > 0.0 && current.is_finite() { current } else { energy };
             } else {
@@ -202,10 +204,10 @@ fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
     [c11, c22, c33, c12, c31, c23]
 }
 
-/// `toron_abaqus_umat_f64` of the C interface, which says what its arguments are.
+/// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn umat_f64(
@@ -261,7 +263,7 @@ pub struct Vumat<T> {
     pub ener_inelas_new: *mut T,
 }
 
-/// The elements of component `c` of point `i`.
+/// Component `c` of point `i` in an array of a VUMAT.
 macro_rules! at {
     ($array:expr, $block:expr, $c:expr, $i:expr) => {
         *$array.add($c * $block.nblock as usize + $i)
@@ -310,7 +312,8 @@ unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
     // SAFETY: the caller's promise, from here on.
     unsafe {
         for i in 0..n {
-            // What the law does not own goes over as it is, the inelastic energy too: there is none.
+            // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
+            // nothing.
             for c in HYPERELASTIC_STATE..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
@@ -325,8 +328,9 @@ unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
     }
 }
 
-/// The data check: Abaqus wants the elastic wave speed from fictitious strains, before there is any deformation. The
-/// answer is an isotropic solid whose longitudinal wave is the fibre's, since the law itself has no stiffness across.
+/// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
+/// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the law itself has no
+/// transverse stiffness at rest.
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
@@ -353,7 +357,7 @@ unsafe fn elastic_check<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n
     }
 }
 
-/// The law itself, at U: the stress of U is RᵀσR.
+/// Evaluates the law at F = U, whose stress is RᵀσR.
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
@@ -417,26 +421,26 @@ unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
             + u(5) * (u(3) * u(4) - u(1) * u(5));
         let w = |c: usize| at!(block.state_new, block, c, i);
         let energy = (w(0) + w(1) + w(2) + w(3)) / (*block.density.add(i) * volume);
-        // Where the deformation or the density makes no sense, the energy stays.
+        // If the deformation or the density is invalid, the energy keeps its old value.
         let known = zero.lt(volume) && (energy * zero).le(zero);
         *block.ener_intern_new.add(i) = if known { energy } else { *block.ener_intern_old.add(i) };
     }
 }
 
-/// `toron_abaqus_vumat_f64` of the C interface, which says what its arguments are.
+/// `toron_abaqus_vumat_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
     // SAFETY: the caller's promise.
     in_default_environment(move || unsafe { vumat(block) })
 }
 
-/// `toron_abaqus_vumat_f32` of the C interface, which says what its arguments are.
+/// `toron_abaqus_vumat_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>) -> i32 {
     // SAFETY: the caller's promise.

@@ -1,4 +1,5 @@
-//! What every entry does: read its arguments, compute in the default floating-point environment, store what is wanted.
+//! What the entry points have in common: they read their arguments, compute in the default floating-point environment and store
+//! the requested results.
 
 use core::slice;
 
@@ -29,13 +30,13 @@ pub(super) unsafe fn properties<'a, T>(
     Ok(unsafe { slice::from_raw_parts(properties, count) })
 }
 
-/// The body of an entry, in the default floating-point environment; its error as a code.
+/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error.
 #[inline(always)]
 pub(super) fn entry(body: impl FnOnce() -> Result<i32, Error>) -> i32 {
     in_default_environment(|| body().unwrap_or_else(|error| error.code()))
 }
 
-/// Copies results out, if the caller wants them.
+/// Copies results to the caller, unless `to` is null.
 ///
 /// # Safety
 /// `to` is null or has room for as many values.
@@ -77,10 +78,10 @@ pub(super) unsafe fn write_text(
     length
 }
 
-/// The text of a C string; `None` where it is null, longer than any name, or no UTF-8.
+/// The text of a C string; `None` if it is null, longer than any name, or not UTF-8.
 ///
 /// # Safety
-/// `text` is null or terminated.
+/// `text` is null or a null-terminated string.
 pub(super) unsafe fn name<'a>(text: *const c_char) -> Option<&'a str> {
     const LONGEST: usize = 64;
     if text.is_null() {

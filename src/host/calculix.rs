@@ -8,7 +8,7 @@
 //! | state | xstateini, xstate: (nstate_, mi(1), elements), nstate_ ≥ 11 |
 //! | stress | stre(6): second Piola–Kirchhoff 11 22 33 **12 13 23** |
 //! | tangent | stiff(21): dS/dE, tensor components, the upper triangle of that order by columns; on every call |
-//! | failure | stress 0; stiff keeps a millionth, or the nodes between failed elements would hang on nothing |
+//! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
 //! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM,
@@ -30,33 +30,33 @@ use nalgebra::{Matrix3, Vector3};
 use super::border::properties;
 use super::environment::in_default_environment;
 
-/// What pnewdt is lowered to where a point cannot be evaluated. CalculiX hands over −1: no wish.
+/// The value that pnewdt is lowered to if a point cannot be evaluated. CalculiX passes −1 for no limit.
 const CUTBACK: f64 = 0.25;
 
-/// What CalculiX ends with after an error in a material.
+/// The exit code of CalculiX after an error in a material.
 const EXIT_CODE: i32 = 201;
 
-/// What stiff keeps where a point has none, relative to the fibre's bulk modulus. With 0 CalculiX's equation solver ends the
-/// job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
+/// The diagonal of stiff at a point without stiffness, relative to the bulk modulus ½ k_el. With 0 CalculiX's equation solver
+/// ends the job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
 
-/// What the law has a use for among CalculiX's arguments.
+/// The arguments of CalculiX that the law uses.
 struct Arguments<'a> {
-    /// −100 less the number of constants.
+    /// −100 minus the number of constants.
     kode: i32,
     constants: *const f64,
     /// Lagrange strain 11 22 33 12 13 23, without its quadratic part where the analysis is linear.
     strain: &'a [f64; 6],
     initial_stress: &'a [f64; 6],
     f: &'a [[f64; 3]; 3],
-    /// Axes of `*ORIENTATION` and the place of the point, if there are any.
+    /// The axes of `*ORIENTATION` and the coordinates of the point, if the element has an orientation.
     orientation: Option<(&'a [f64; 7], &'a [f64; 3])>,
     state_count: i32,
     old_state: *const f64,
     pnewdt: f64,
 }
 
-/// What goes back to CalculiX.
+/// The results that are returned to CalculiX.
 #[derive(Default)]
 struct Answer {
     stress: [f64; 6],
@@ -89,10 +89,10 @@ const DIAGONAL: [f64; 21] = by_columns([
 ]);
 
 impl Arguments<'_> {
-    /// The law's answer.
+    /// Evaluates the law.
     ///
     /// # Errors
-    /// Whatever a deck may have wrong that the arguments show.
+    /// The errors of a deck that the arguments show.
     fn evaluate(&self) -> Result<Answer, Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
         // SAFETY: CalculiX's promise: as many constants as kode says.
@@ -129,7 +129,7 @@ impl Arguments<'_> {
         Ok(answer)
     }
 
-    /// Whether the strain is the linear one of this F, so that NLGEOM is missing: ½ HᵀH, H = F − 1, is not in it.
+    /// Whether NLGEOM is missing: the strain is the linear one of this F, without ½ HᵀH, H = F − 1.
     fn is_linear(&self) -> bool {
         let h = Matrix3::from(*self.f) - Matrix3::identity();
         let six = |s: Matrix3<f64>| [s.m11, s.m22, s.m33, s.m12, s.m13, s.m23];
@@ -137,7 +137,7 @@ impl Arguments<'_> {
         let (linear, quadratic) = (six(0.5 * (h + h.transpose())), largest(six(0.5 * h.tr_mul(&h))));
         let mut off = *self.strain;
         off.iter_mut().zip(linear).for_each(|(strain, linear)| *strain -= linear);
-        // What is not finite is no strain of either kind.
+        // If F or the strain is not finite, the law reports it.
         quadratic > 1e-9 && quadratic.is_finite() && largest(off) < 1e-3 * quadratic
     }
 }
@@ -162,7 +162,7 @@ fn turned(m: [f64; 3], &[a_1, a_2, a_3, b_1, b_2, b_3, system]: &[f64; 7], place
     (e1 * m_1 + e2 * m_2 + e3 * m_3).into()
 }
 
-/// An error in words: writing numbers is arithmetic, which has no place in CalculiX's environment.
+/// The text of an error. It is written in the default floating-point environment, since formatting numbers is arithmetic.
 struct Message {
     text: [u8; 400],
     length: usize,
@@ -192,14 +192,14 @@ fn refuse(material: &[u8; 80], message: &Message) -> ! {
     print(b": ");
     print(message.text.get(..message.length).unwrap_or_default());
     print(b"\n");
-    // SAFETY: CalculiX's own way out, which writes what its files still lack.
+    // SAFETY: CalculiX itself ends in this way; open files are flushed.
     unsafe { libc::exit(EXIT_CODE) }
 }
 
 /// The hyperelastic law as an external behaviour of CalculiX. Arguments as CalculiX passes them, see its `umat_user.f`.
 ///
 /// # Safety
-/// CalculiX's promise: every pointer has as many values as said there.
+/// CalculiX's promise: every pointer has as many values as documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic(

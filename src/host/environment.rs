@@ -1,12 +1,12 @@
-//! The caller's floating-point environment, which no entry of the library sees or changes.
+//! The change from the caller's floating-point environment, which no entry point computes in or alters, to the default one.
 //!
-//! Solvers trap floating-point exceptions, flush subnormal numbers to zero, and sometimes round in another direction. The
-//! compiler assumes none of that: it may compute in unused lanes, speculate a division whose result is dropped, and fold
-//! constants as if rounding to nearest. So each entry computes in the default environment of IEEE 754 (nothing trapped,
-//! subnormal numbers kept, round to nearest) and puts the caller's back when it is done, sticky exception flags included.
+//! Some solvers trap floating-point exceptions, flush subnormal numbers to zero or round in another direction. The compiler
+//! assumes none of that: it may compute in unused lanes, speculate a division whose result is dropped, and fold constants as if
+//! rounding to nearest. So each entry point computes in the default environment of IEEE 754 (nothing trapped, subnormal numbers
+//! kept, round to nearest) and restores the caller's when it is done, sticky exception flags included.
 //!
-//! On x86-64 that is the register MXCSR; nothing here uses the x87 registers. On other processors the work runs in the
-//! caller's environment.
+//! On x86-64 the environment is the register MXCSR; nothing here uses the x87 registers. On other processors the work runs in
+//! the caller's environment.
 
 /// Nothing trapped, no flag raised, subnormal numbers kept, round to nearest: MXCSR as a process starts with it.
 #[cfg(target_arch = "x86_64")]
@@ -14,7 +14,7 @@ const DEFAULT_MXCSR: u32 = 0x1f80;
 
 /// Runs `work` in the default floating-point environment and restores the caller's.
 ///
-/// `work` must not panic: nothing unwinds through the change of environments, the process would abort.
+/// `work` must not panic: a panic cannot unwind through the assembly, and the process would abort.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
@@ -58,7 +58,7 @@ pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
     }
 }
 
-/// Runs `work` in the caller's environment: this processor's is not changed.
+/// Runs `work` in the caller's environment, which is not changed on this architecture.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline(always)]
 pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {

@@ -31,7 +31,7 @@ use crate::law::tangent::Measure;
 use super::border::{entry, properties, store};
 use super::c::PointAnswer;
 
-/// Elements `first` to `last`, counted from 0, of a vector block.
+/// `count` elements of a vector block from `first` on, counted from 0.
 struct Elements<T> {
     stress: [*mut T; 6],
     history: *mut T,
@@ -41,7 +41,7 @@ struct Elements<T> {
     failed: *mut c_int,
 }
 
-/// The law of the card's properties, for the number of history variables that it needs.
+/// The law with the properties of the card. Refuses a wrong number of history variables.
 ///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
@@ -53,12 +53,13 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
     Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
 }
 
-/// Whether the history of an element can be this law's, with F behind it: `history(j)` is hsv(j + 1), j below 20.
+/// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
+/// below 20.
 ///
-/// LS-DYNA hands the card's NHV to no routine. With IHYPER = 0 there is no F, and where NHV is not 11, F stands elsewhere, behind
-/// zeros: before the first call of an element it is a rotation, or nearly one, and two of its columns tell it. After a call
-/// `failed` and `alive` tell that the state is this law's: each is 0 or 1, and not both are 0. Not seen are NHV from 14 to 19, where
-/// F seems to have a first column of zeros. What is not finite is left to the law.
+/// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is not 11, F is at another place, behind
+/// zeros. Before the first call of an element, F is a rotation or nearly one, which two of its columns show. After a call,
+/// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0. NHV from 14 to 19 is not
+/// detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
 fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     const F: usize = HYPERELASTIC_STATE;
     let h = |j: usize| -> f64 { history(j).into() };
@@ -67,7 +68,8 @@ fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     }
     let [failed, alive] = [FAILED, ALIVE].map(h);
     if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-        // Entries of an F that stands elsewhere may pass for them; then there are zeros where F is read. No element becomes so flat.
+        // Entries of an F at another place may look like such flags; then there are zeros where F is read. No F has a row or
+        // column of zeros.
         let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
         return !(0..3).any(|k| zeros(F + 3 * k, 1) || zeros(F + k, 3));
     }
@@ -80,7 +82,7 @@ fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
     !elsewhere.any(is_at)
 }
 
-/// Runs the law over the elements in place, and fails those that have failed or could not be evaluated.
+/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
 ///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
@@ -135,10 +137,10 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
 /// The card's properties, F by columns, and the state of an element.
 type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]);
 
-/// The card's properties, and F and the state of an element, for the number of history variables that the law needs.
+/// The card's properties, and F and the state of an element. Refuses a wrong number of history variables.
 ///
 /// # Errors
-/// A property that is wrong; −106 where F cannot be what LS-DYNA has written.
+/// A wrong number of history variables; a wrong property; −106 if the history cannot hold F.
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
@@ -157,7 +159,7 @@ unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Re
     }
 }
 
-/// Where the scalar routine's answer goes.
+/// The sink of the scalar routine.
 struct Element<'a, T> {
     sig: *mut T,
     hsv: *mut T,
@@ -173,7 +175,7 @@ impl<T: Precision> Sink<T, 0> for Element<'_, T> {
             point.state[FAILED] = T::splat(1.0);
             point.state[ALIVE] = T::splat(0.0);
         }
-        // SAFETY: whoever makes this has arrays of these sizes.
+        // SAFETY: `scalar` makes this from pointers to arrays of these sizes, as its caller promises.
         unsafe {
             *self.sig.cast() = point.stress;
             *self.hsv.cast() = point.state;
@@ -202,20 +204,20 @@ unsafe fn scalar<T: Precision>(
     Ok(status)
 }
 
-/// `toron_lsdyna_umat_f64` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_umat_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
 }
 
-/// `toron_lsdyna_umat_f32` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_umat_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn umat_f32(cm: *const f32, sig: *mut f32, hsv: *mut f32, nhv: i32, failel: *mut c_int) -> i32 {
     // SAFETY: the caller's promise.
@@ -263,10 +265,10 @@ unsafe fn vector<T: Precision>(
     }
 }
 
-/// `toron_lsdyna_umat_vector_f64` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_umat_vector_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn umat_vector_f64(
@@ -288,10 +290,10 @@ pub unsafe extern "C" fn umat_vector_f64(
     entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
 }
 
-/// `toron_lsdyna_umat_vector_f32` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_umat_vector_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn umat_vector_f32(
@@ -337,20 +339,20 @@ unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es
     Ok(status)
 }
 
-/// `toron_lsdyna_utan_f64` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_utan_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
 }
 
-/// `toron_lsdyna_utan_f32` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_utan_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
     // SAFETY: the caller's promise.
@@ -410,10 +412,10 @@ unsafe fn vector_tangent<T: Precision>(
     }
 }
 
-/// `toron_lsdyna_utan_vector_f64` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_utan_vector_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn utan_vector_f64(
     cm: *const f64,
@@ -428,10 +430,10 @@ pub unsafe extern "C" fn utan_vector_f64(
     entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
-/// `toron_lsdyna_utan_vector_f32` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn utan_vector_f32(
     cm: *const f32,
@@ -446,10 +448,10 @@ pub unsafe extern "C" fn utan_vector_f32(
     entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
 }
 
-/// `toron_lsdyna_bulk_and_shear_f64` of the C interface, which says what its arguments are.
+/// `toron_lsdyna_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn bulk_and_shear_f64(values: *const f64, count: usize, bulk: *mut f64, shear: *mut f64) -> i32 {
     if bulk.is_null() || shear.is_null() {

@@ -1,4 +1,4 @@
-//! The world's conventions meet the law here: one file a host, each opening with its order of arguments and components.
+//! The interfaces to host programs, one file for each; it begins with the host's order of arguments and components.
 
 pub mod abaqus;
 mod border;

@@ -5,7 +5,7 @@
 
 use crate::law::parameters::Dimension;
 
-/// A base unit in SI units: `factor` · 10^`exponent`, so that decimal units convert without a rounding of their own.
+/// A base unit in SI units: `factor` · 10^`exponent`, so that the conversion of decimal units adds no rounding of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Base {
     name: &'static str,
@@ -52,11 +52,11 @@ impl UnitSystem {
     /// Metre, kilogram, second.
     pub const SI: UnitSystem = UnitSystem { length: LENGTHS[0], mass: MASSES[0], time: TIMES[0] };
 
-    /// What a name may be, for messages.
+    /// The allowed names, for messages.
     pub const ALLOWED: &'static str = "length-mass-time out of m cm mm um in ft, kg g mg t (tonne) slug slinch, \
                                        s ms us ns: m-kg-s (si), mm-tonne-s, mm-kg-ms, cm-g-us, ...";
 
-    /// The system of this name; `None` where it is not three known units, one each of length, mass and time.
+    /// The system of this name; `None` unless it is three known units, one each of length, mass and time.
     pub fn parse(name: &str) -> Option<UnitSystem> {
         let name = name.trim();
         if name.eq_ignore_ascii_case("si") {
@@ -79,7 +79,7 @@ impl UnitSystem {
         Some(UnitSystem { length: length?, mass: mass?, time: time? })
     }
 
-    /// A value in SI units, in this system's units.
+    /// Converts a value in SI units to the units of this system.
     pub fn from_si(&self, value: f64, dimension: Dimension) -> f64 {
         let (mut exponent, mut factor) = (0, 1.0);
         for (base, power) in [(self.mass, dimension.mass), (self.length, dimension.length), (self.time, dimension.time)]

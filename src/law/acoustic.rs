@@ -1,9 +1,9 @@
-//! The acoustic tensor of a state: how fast its waves are, and where the material loses stability.
+//! The acoustic tensor of a state: the speeds of its waves, and whether the material is elliptic.
 //!
-//! For a wave of direction n and polarisation u the acoustic tensor times the reference density is
-//! u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. For a given n the extreme
-//! u is an eigenvector of Q(n), for a given u the extreme n one of c:(·⊗u)(·⊗u) + τ: taking turns leads to an extremum
-//! without a gradient or a step length, from each of many directions about the current frame to all that there are.
+//! For a wave of direction n and polarisation u the acoustic tensor times the reference density is u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) +
+//! n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. For a given n the extreme u is an eigenvector of Q(n), for a
+//! given u the extreme n is one of c:(·⊗u)(·⊗u) + τ. Alternating between the two converges to an extremum without a gradient or
+//! a step length; starts from many directions about the current frame find all extrema.
 
 use super::hyperelastic::Hyperelastic;
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -16,13 +16,14 @@ use super::stress::principal_axes;
 use super::tangent::Measure;
 use super::voigt::VOIGT;
 
-/// Whole numbers up to this one make the directions to start from: 109 of them, none farther than 14° from the next.
+/// The directions to start from have whole numbers up to this one as components: 109 directions, none farther than 14° from the
+/// next.
 const FINENESS: i32 = 3;
-/// Turns from each start, and for the best one of them.
-const TURNS: i32 = 8;
-const LAST_TURNS: i32 = 200;
+/// The most iterations from each start, and finally from the best result.
+const ITERATIONS: i32 = 8;
+const LAST_ITERATIONS: i32 = 200;
 
-/// A wave of current lengths: ρ0 v² as a stress, direction and polarisation as unit vectors in space.
+/// A plane wave of speed v in current lengths: ρ0 v² as a stress, direction and polarisation as unit vectors in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
     pub modulus: f64,
@@ -33,7 +34,7 @@ pub struct Wave {
 /// The acoustic tensors of one state.
 #[derive(Clone, Copy, Debug)]
 pub struct Acoustic {
-    /// Truesdell modulus and stress, of Cauchy; and J, which makes Kirchhoff's of them.
+    /// Truesdell modulus of the Cauchy stress, Cauchy stress, and J, by which both are multiplied for the Kirchhoff stress.
     modulus: [[f64; 6]; 6],
     stress: [f64; 6],
     jacobian: f64,
@@ -42,8 +43,8 @@ pub struct Acoustic {
 }
 
 impl Hyperelastic<f64> {
-    /// The acoustic tensors of the intact material at `f` (columns of F); a fibre direction of any length, or that of the
-    /// properties.
+    /// The acoustic tensors of the intact material at `f` (columns of F); `fibre` is a fibre direction of any length, or `None`
+    /// for that of the properties.
     ///
     /// # Errors
     /// The status code of a point that cannot be evaluated.
@@ -86,8 +87,8 @@ impl Acoustic {
         q
     }
 
-    /// The tensor whose extreme eigenvalues over directions are those of all waves of polarisation u: c:(·⊗u)(·⊗u) + τ,
-    /// 11 22 33 12 23 31.
+    /// The tensor A(u) = c:(·⊗u)(·⊗u) + τ with ρ0 v² = n·A n for waves of polarisation u, 11 22 33 12 23 31. Its extreme
+    /// eigenvalues are those over all directions n.
     pub fn tensor_of_directions(&self, u: [f64; 3]) -> [f64; 6] {
         let mut tensor = self.contracted(u);
         for (entry, &stress) in tensor.iter_mut().zip(&self.stress) {
@@ -110,7 +111,7 @@ impl Acoustic {
         [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
     }
 
-    /// The wave of the smallest ρ0 v² over all directions. Where that is below 0 the material is not elliptic.
+    /// The wave of the smallest ρ0 v² over all directions. If that is below 0, the material is not elliptic.
     pub fn least(&self) -> Wave {
         self.extreme(-1.0)
     }
@@ -120,6 +121,7 @@ impl Acoustic {
         self.extreme(1.0)
     }
 
+    /// The wave of the largest (`sign` 1) or smallest (−1) ρ0 v² over all directions.
     fn extreme(&self, sign: f64) -> Wave {
         let mut best = self.polarised(self.frame[0], sign);
         let along_axis = -FINENESS..=FINENESS;
@@ -127,29 +129,29 @@ impl Acoustic {
             for j in along_axis.clone() {
                 for k in along_axis.clone() {
                     if i.max(j.abs()).max(k.abs()) < FINENESS || (i == 0 && (j < 0 || (j == 0 && k < 0))) {
-                        continue; // inside the cube, or the opposite of another
+                        continue; // inside the cube, or opposite to another direction
                     }
                     let [e, q1, q2] = self.frame;
                     let n = along(along(scale(f64::from(i), e), f64::from(j), q1), f64::from(k), q2);
-                    let wave = self.settled(self.polarised(normalised(n), sign), sign, TURNS);
+                    let wave = self.alternated(self.polarised(normalised(n), sign), sign, ITERATIONS);
                     if sign * wave.modulus > sign * best.modulus {
                         best = wave;
                     }
                 }
             }
         }
-        self.settled(best, sign, LAST_TURNS)
+        self.alternated(best, sign, LAST_ITERATIONS)
     }
 
-    /// The extreme wave of a direction.
+    /// The wave of the largest (`sign` 1) or smallest (−1) ρ0 v² in one direction.
     fn polarised(&self, direction: [f64; 3], sign: f64) -> Wave {
         let (modulus, polarisation) = extreme_axis(&self.tensor(direction), sign);
         Wave { modulus, direction, polarisation }
     }
 
-    /// Takes turns between direction and polarisation until nothing is gained.
-    fn settled(&self, mut wave: Wave, sign: f64, turns: i32) -> Wave {
-        for _ in 0..turns {
+    /// Alternates between direction and polarisation until ρ0 v² no longer improves.
+    fn alternated(&self, mut wave: Wave, sign: f64, iterations: i32) -> Wave {
+        for _ in 0..iterations {
             let of_directions = self.tensor_of_directions(wave.polarisation);
             let next = self.polarised(extreme_axis(&of_directions, sign).1, sign);
             let gain = sign * (next.modulus - wave.modulus);
@@ -176,6 +178,7 @@ fn extreme_axis(s: &[f64; 6], sign: f64) -> (f64, [f64; 3]) {
     best
 }
 
+/// v·sv of a symmetric tensor s, 11 22 33 12 23 31.
 fn quadratic(s: &[f64; 6], v: [f64; 3]) -> f64 {
     dot(v, [dot([s[0], s[3], s[5]], v), dot([s[3], s[1], s[4]], v), dot([s[5], s[4], s[2]], v)])
 }

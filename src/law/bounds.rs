@@ -1,11 +1,11 @@
-//! Properties against the bounds of their table.
+//! The check of properties against the bounds of their table.
 
 use super::error::Error;
 use super::number::real::Real;
 use super::parameters::Property;
 use super::status::{PROPERTY_COUNT, PROPERTY_NOT_FINITE, PROPERTY_OUT_OF_BOUNDS};
 
-/// The least and the greatest number that each property of a table may be.
+/// The least and the greatest allowed value of each property of a table.
 pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
     let mut limits = [[f64::MIN; N], [f64::MAX; N]];
     let mut k = 0;
@@ -18,10 +18,10 @@ pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
     limits
 }
 
-/// Whether all values stand within their limits: what [`check`] finds, without a decision about each.
+/// Whether all values are within their limits, as [`check`] finds, but without a branch for each value.
 #[inline(always)]
 pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
-    // Two sums of the same kind each, which the compiler takes several at a time.
+    // Two loops of one comparison each, which the compiler vectorises.
     let (mut enough, mut too_much) = (true, false);
     let mut k = 0;
     while k < N {
@@ -39,7 +39,7 @@ pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]
 /// Checks number, finiteness and bounds of `values` against a table; the laws check their directions themselves.
 ///
 /// # Errors
-/// Names the first property that is wrong, its value and what is allowed.
+/// The first property that is wrong, its value and the allowed values.
 pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> Result<(), Error> {
     if values.len() != table.len() {
         return Err(Error::Count {

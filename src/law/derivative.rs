@@ -1,4 +1,4 @@
-//! What a call about one point makes beside its stress and state: nothing, or one of the tangents.
+//! The derivative that a call for one point computes besides stress and state: none, or one of the tangents.
 
 use super::hyperelastic::{Hyperelastic, Kirchhoff};
 use super::kinematics::{FibreFrame, Kinematics, Section, Stretch};
@@ -6,26 +6,31 @@ use super::number::real::Real;
 use super::response::Request;
 use super::tangent::{Bases, Measure, may_overflow};
 
-/// What is computed of a point beside its stress and state: N numbers.
+/// A derivative of N numbers, computed at a point besides its stress and state.
 ///
-/// A trait and no closure: a closure that the compiler does not inline is compiled without the instructions (AVX2, FMA) of the
-/// function that calls it.
+/// This is a trait and not a closure: a closure that the compiler does not inline is compiled without the instructions (AVX2,
+/// FMA) of the function that calls it.
 pub(crate) trait Derivative<const N: usize>: Copy {
-    /// What of the tangent can be computed before the invariants are known.
+    /// The part of the tangent that can be computed before the invariants are known.
     type Early<R: Real>;
-    /// The derivative with a request known at run time only that asks for the same: the law's functions are built for these.
+    /// The same derivative with its request as a value at run time. The functions of [`Hyperelastic`] are compiled for these
+    /// types only.
     type General: Derivative<N>;
 
+    /// This derivative as the general type.
     fn general(self) -> Self::General;
 
+    /// Computes the early part.
     fn early<R: Real>(self, d: &Stretch<R>, section: &Section<R>, images: &[[R; 3]; 3]) -> Self::Early<R>;
 
-    /// What is wanted of the law itself.
+    /// The results of the law that are requested.
     fn request(self) -> Request;
 
-    /// Whether an entry may leave the range of R at a point whose strains are within it.
+    /// Whether an entry may overflow in `R` at a point whose strains are valid.
     fn may_overflow<R: Real>(self, shear: bool) -> bool;
 
+    /// The N numbers. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes, and `shear`
+    /// whether k_ld is above 0.
     #[allow(clippy::too_many_arguments)]
     fn of<R: Real>(
         self,
@@ -43,7 +48,7 @@ pub(crate) trait Derivative<const N: usize>: Copy {
 #[derive(Clone, Copy)]
 pub(crate) struct NoTangent(pub Request);
 
-/// No tangent, with stress and state as a request that the compiler knows.
+/// No tangent; stress and state are requested, which the compiler knows.
 #[derive(Clone, Copy)]
 pub(crate) struct StressAndState;
 
@@ -119,7 +124,7 @@ impl Derivative<0> for StressAndState {
     }
 }
 
-/// A tangent of 6×6, by its upper triangle.
+/// A 6×6 tangent, as its upper triangle.
 #[derive(Clone, Copy)]
 pub(crate) struct SixBySix(pub Request, pub Measure);
 
@@ -159,7 +164,7 @@ impl Derivative<21> for SixBySix {
     }
 }
 
-/// The modulus of the Jaumann rate, with stress and state as a request that the compiler knows.
+/// The modulus of the Jaumann rate; stress and state are requested, which the compiler knows.
 #[derive(Clone, Copy)]
 pub(crate) struct JaumannModulus;
 

@@ -1,27 +1,27 @@
-//! What is wrong with a call, with the values that its message needs; no allocation.
+//! The errors of a call, with the values that their messages contain. Nothing is allocated.
 
 use core::fmt;
 
 use super::parameters::Property;
 use super::status::{BAD_ARGUMENT, PROPERTY_DIRECTION, meaning};
 
-/// What is wrong, with the values that a message needs.
+/// An error, with the values that its message contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {
-    /// The number of properties or state variables is not the table's.
+    /// A count is wrong: of properties, of state variables or of entries of an array, or a leading dimension.
     Count { code: i32, what: &'static str, found: i64, wanted: i64 },
     /// A property is not finite or out of bounds. `index` counts from 0.
     Property { code: i32, index: usize, property: &'static Property, value: f64 },
-    /// A direction among the properties cannot be used; `index` is that of its first component.
+    /// A direction among the properties is zero or parallel to another one; `index`, from 0, is that of its first component.
     Direction { index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
-    /// A scalar argument is outside what is allowed.
+    /// A scalar argument does not have an allowed value.
     Argument { name: &'static str, value: f64, wanted: &'static str },
-    /// Anything that its code says completely.
+    /// An error that its status code describes completely.
     Plain(i32),
 }
 
 impl Error {
-    /// The status code.
+    /// The status code, one of [`status`](super::status).
     pub fn code(&self) -> i32 {
         match *self {
             Error::Count { code, .. } | Error::Property { code, .. } | Error::Plain(code) => code,
@@ -30,7 +30,7 @@ impl Error {
         }
     }
 
-    /// Hands the message to `sink`, piece by piece. Formatting machinery of the standard library can panic; this cannot.
+    /// Passes the message to `sink`, piece by piece. `core::fmt` is not used, since its code can panic.
     pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
         match *self {
             Error::Count { what, found, wanted, .. } => {
@@ -88,7 +88,7 @@ impl Error {
     }
 }
 
-/// Digit by digit: the bounds checks inside `itoa` stay in the program, and with them a panic that C could reach.
+/// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the program.
 fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
     const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
     if value < 0 {
@@ -104,6 +104,7 @@ fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
     }
 }
 
+/// The shortest decimal number that is read back as `value`.
 fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
     if value.is_nan() {
         sink("NaN");

@@ -1,19 +1,19 @@
-//! When the yarn breaks: uniaxial (UF) and multiaxial (MF) failure, and the latch (thesis, section 4.4.2).
+//! The failure criterion of the yarn: uniaxial (UF) and multiaxial (MF) failure, and the latch (thesis, section 4.4.2).
 
 use super::kinematics::Strain;
 use super::number::elementary::ln_1p;
 use super::number::real::Real;
 
-/// A limit below this is as good as none at all: any tension fails. It keeps the failure index in range.
+/// The least limit that is used: for a smaller one any tension fails as well, but the failure index might overflow.
 const LEAST_LIMIT: f64 = 1e-30;
 
-/// The limit, prepared once.
+/// The failure criterion, prepared once.
 #[derive(Clone, Copy, Debug)]
 pub struct Failure<R> {
     /// I_lim = ln(1 + ε_lim), and its reciprocal.
     limit: R,
     inverse_limit: R,
-    /// The elongation invariant that failure needs to be above: 0, or infinite for a law without failure.
+    /// The index is 0 unless the elongation invariant is above this: 0, or infinity for a law without failure.
     threshold: R,
     /// The weights of compaction and distortion, α and β; both 0 is uniaxial failure.
     alpha: R,
@@ -29,13 +29,13 @@ impl<R: Real> Failure<R> {
         Failure { limit: one, inverse_limit: one, threshold, alpha: zero, beta: zero }
     }
 
-    /// From the property ε_lim, 0 for no failure, and the weights.
+    /// From the properties ε_lim (0: no failure), α and β.
     #[inline(always)]
     pub fn new(eps_lim: R, alpha: R, beta: R) -> Self {
         Failure::with_limit(eps_lim, ln_1p(eps_lim), alpha, beta)
     }
 
-    /// Likewise, given ln(1 + ε_lim).
+    /// As [`new`](Self::new), given `limit` = ln(1 + ε_lim).
     #[inline(always)]
     pub fn with_limit(eps_lim: R, limit: R, alpha: R, beta: R) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -51,7 +51,7 @@ impl<R: Real> Failure<R> {
         }
     }
 
-    /// The same limit in another number.
+    /// The same criterion with its numbers converted by `lane`.
     #[inline(always)]
     pub fn map<L>(self, lane: impl Fn(R) -> L) -> Failure<L> {
         Failure {
@@ -73,13 +73,13 @@ impl<R: Real> Failure<R> {
         R::select(self.threshold.lt(strain.i_el), index, zero)
     }
 
-    /// Failed, given the index: equality fails.
+    /// Whether a failure index means failure; an index of exactly 1 does.
     #[inline(always)]
     pub fn reached(index: R) -> R::Mask {
         R::splat(1.0).le(index)
     }
 
-    /// Not failed before, given the latch: a number below ½, so that a state full of NaN does not pass as intact.
+    /// Whether a latch means that the point has not failed before: it is below ½. A latch that is NaN counts as failed.
     #[inline(always)]
     pub fn intact(latch: R) -> R::Mask {
         latch.lt(R::splat(0.5))

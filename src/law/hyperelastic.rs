@@ -1,4 +1,4 @@
-//! The yarn law: energies, stress mode by mode, from the four deformation modes (thesis, Eq. 4.6–4.15).
+//! The yarn law: energies and stress from the four deformation modes (thesis, Eq. 4.6–4.15).
 //!
 //! ```text
 //! W = ½ k_el ⟨I_el⟩²  +  k_tc ⟨−I_tc⟩^p  +  ½ k_td I_td²  +  ½ k_ld I_ld²        per reference volume
@@ -6,9 +6,9 @@
 //! τ = k_el ⟨I_el⟩ e⊗e  −  (p/2) k_tc ⟨−I_tc⟩^(p−1) P  +  (k_td/4)(2 I_td/ŝ) D̂  +  (k_ld/λ⁴)(u⊗c1 + c1⊗u)
 //! ```
 //!
-//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the rest as
-//! [`kinematics`](super::kinematics) gives it. It is the thesis's Eq. 4.14 pushed forward, without its quotient 0/0:
-//! 2 I_td/ŝ is smooth through ŝ = 0.
+//! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other quantities as
+//! in [`kinematics`](super::kinematics). It is Eq. 4.14 of the thesis pushed forward, without its quotient 0/0: 2 I_td/ŝ is
+//! smooth through ŝ = 0.
 
 use super::bounds::{check, limits, within};
 use super::error::Error;
@@ -21,8 +21,8 @@ use super::parameters::{self, FIBRE, HYPERELASTIC_PROPERTIES};
 use super::status;
 use super::voigt::{square, sum, symmetric_product as product};
 
-/// The properties by name, in one system of units. Hosts pass the same numbers as an array, in the order of
-/// [`parameters::HYPERELASTIC`], which has their bounds.
+/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
+/// [`parameters::HYPERELASTIC`], which also gives their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties<T> {
     /// Elongation stiffness, a stress.
@@ -50,7 +50,7 @@ impl<T> From<Properties<T>> for [T; HYPERELASTIC_PROPERTIES] {
     }
 }
 
-/// The law's properties, checked and prepared once.
+/// The hyperelastic law: its properties, checked, and what is derived from them once.
 #[derive(Clone, Copy, Debug)]
 pub struct Hyperelastic<R> {
     pub(super) k_el: R,
@@ -60,12 +60,13 @@ pub struct Hyperelastic<R> {
     pub(super) k_ld: R,
     /// p − 1, the exponent of the compaction stress.
     pub(super) exponent: Exponent<R>,
-    /// W″ of a compaction of at most `held_below`, where an exponent p ≤ 2 would make it infinite or 0/0.
-    pub(super) held_below: R,
-    pub(super) greatest_curvature: R,
+    /// For a compaction of at most `limited_below`, W″ is replaced by `limited_curvature`: its formula would give infinity or
+    /// 0/0.
+    pub(super) limited_below: R,
+    pub(super) limited_curvature: R,
     pub(super) failure: Failure<R>,
     pub(super) frame: FibreFrame<R>,
-    /// Whether the fibre lies along the first axis, so that most products with the frame need not be computed.
+    /// Whether the fibre lies along the first axis: most products with the frame then need not be computed.
     pub(super) aligned: bool,
     /// Whether there is a longitudinal-shear stiffness; without one its terms are not computed.
     pub(super) shears: bool,
@@ -91,19 +92,19 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         Ok(law)
     }
 
-    /// Likewise, given the frame of the properties' fibre direction; without failure, which
-    /// [`prepare_failure`](Self::prepare_failure) adds.
+    /// As [`new`](Self::new), given the frame of the fibre direction, but without failure, which
+    /// [`prepare_failure`](Self::prepare_failure) prepares.
     ///
     /// # Errors
-    /// The first property that is wrong, the failure's among them.
-    // A call about one point prepares the law anew: inlined, its numbers go where they are wanted as they come. Copied as a whole
-    // they would all have to be there first.
+    /// The first property that is wrong, those of failure included.
+    // A call for one point prepares the law every time. Inlined, each number is used as soon as it has been computed; if the
+    // law were copied as a whole, all of them would have to be computed first.
     #[inline(always)]
     pub(super) fn prepare(properties: &[T], frame: &PropertyFrame<T>) -> Result<Self, Error> {
         const LIMITS: [[f64; HYPERELASTIC_PROPERTIES]; 2] = limits(&parameters::HYPERELASTIC);
         let Ok(properties) = <&[T; HYPERELASTIC_PROPERTIES]>::try_from(properties) else {
             check(&parameters::HYPERELASTIC, properties)?;
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the check says so
+            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: `check` has returned the error
         };
         if !within(&LIMITS, properties) {
             check(&parameters::HYPERELASTIC, properties)?;
@@ -119,7 +120,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         }
         let one = T::splat(1.0);
         let exponent = Exponent::new(p - one);
-        let [held_below, greatest_curvature] = held_stiffness(k_tc, p, &exponent);
+        let [limited_below, limited_curvature] = curvature_limit(k_tc, p, &exponent);
         Ok(Hyperelastic {
             k_el,
             k_tc,
@@ -127,8 +128,8 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
             k_td,
             k_ld,
             exponent,
-            held_below,
-            greatest_curvature,
+            limited_below,
+            limited_curvature,
             failure: Failure::none(),
             frame: frame.frame,
             aligned: frame.aligned,
@@ -145,7 +146,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         }
     }
 
-    /// The failure of properties that have been checked.
+    /// The failure criterion from properties that have been checked.
     #[inline(always)]
     pub(super) fn prepare_failure(properties: &[T]) -> Failure<T> {
         let [eps_lim, alpha, beta] = Self::failure_properties(properties);
@@ -159,7 +160,7 @@ pub(super) struct PropertyFrame<T> {
     pub frame: FibreFrame<T>,
     /// Whether the fibre lies along the first axis.
     pub aligned: bool,
-    /// Whether the direction has a length.
+    /// Whether the direction is finite and not zero.
     pub usable: bool,
 }
 
@@ -168,7 +169,7 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
     pub fn new(properties: &[T]) -> Self {
         let direction = match properties {
             &[.., m_1, m_2, m_3] if properties.len() == HYPERELASTIC_PROPERTIES => [m_1, m_2, m_3],
-            _ => [T::splat(0.0); 3], // no law will be made of them
+            _ => [T::splat(0.0); 3], // a wrong number of properties, which `prepare` refuses
         };
         let [m_1, m_2, m_3]: [f64; 3] = [direction[0].into(), direction[1].into(), direction[2].into()];
         if m_2 == 0.0 && m_3 == 0.0 && m_1 >= T::MIN_POSITIVE {
@@ -180,13 +181,13 @@ impl<T: Real + Into<f64>> PropertyFrame<T> {
     }
 }
 
-/// Below this compaction the stiffness W″ of an exponent p ≤ 2 is held, since it is infinite at 0 for p < 2.
+/// Below this compaction W″ is limited if p ≤ 2: for p < 2 it is infinite at 0.
 const COMPACTION_FLOOR: f64 = 1e-8;
 
-/// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is held, and its value there: for p > 2 it is 0 at 0, and held where
-/// i^(p−1) is 0 as well, so that no quotient overflows.
+/// The compaction up to which W″ = p(p − 1) k_tc i^(p−2) is replaced by a constant, and that constant. For p > 2 it is 0, and
+/// replaces W″ only where i^(p−1) underflows to 0 too, so that no quotient overflows.
 #[inline(always)]
-fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
+fn curvature_limit<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) -> [T; 2] {
     if p.into() > 2.0 {
         return [T::splat(T::MIN_POSITIVE * f64::from(1 << 20)), T::splat(0.0)];
     }
@@ -194,29 +195,29 @@ fn held_stiffness<T: Real + Into<f64>>(k_tc: T, p: T, exponent: &Exponent<T>) ->
     [floor, p * (p - T::splat(1.0)) * k_tc * power(floor, exponent) / floor]
 }
 
-/// The factors of the four modes in the Kirchhoff stress τ of the intact material, see the formula above.
+/// The factors of the four modes in the Kirchhoff stress τ of the intact material, see the formula of this module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Kirchhoff<R> {
-    /// k_el⟨I_el⟩, of e⊗e.
+    /// k_el⟨I_el⟩, the factor of e⊗e.
     pub tension: R,
-    /// (p/2) k_tc⟨−I_tc⟩^(p−1), of −P.
+    /// (p/2) k_tc⟨−I_tc⟩^(p−1), the factor of −P.
     pub pressure: R,
-    /// (k_td/2)(I_td/ŝ), of D̂.
+    /// (k_td/2)(I_td/ŝ), the factor of D̂.
     pub distortion: R,
-    /// k_ld/λ², of (u⊗c1 + c1⊗u)/λ².
+    /// k_ld/λ², the factor of (u⊗c1 + c1⊗u)/λ².
     pub shear: R,
-    /// The energy k_tc⟨−I_tc⟩^p, which shares its power with the pressure.
+    /// The energy k_tc⟨−I_tc⟩^p, computed from the same power as the pressure.
     pub compaction_energy: R,
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave is the fibre's: K + 4G/3 = k_el. For hosts that
-    /// take their time step and contact stiffness from two constants.
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is that of the fibre: K + 4G/3 = k_el. For
+    /// hosts that compute their time step and contact stiffness from two elastic constants.
     pub fn bulk_and_shear(&self) -> [R; 2] {
         [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
     }
 
-    /// The same properties in another number: many lanes instead of one.
+    /// The same law in another number type: each of its numbers in all lanes of `L`.
     #[inline(always)]
     pub(crate) fn lanes<L: Real>(&self) -> Hyperelastic<L>
     where
@@ -231,8 +232,8 @@ impl<R: Real> Hyperelastic<R> {
             k_td: lane(self.k_td),
             k_ld: lane(self.k_ld),
             exponent: self.exponent.map(lane),
-            held_below: lane(self.held_below),
-            greatest_curvature: lane(self.greatest_curvature),
+            limited_below: lane(self.limited_below),
+            limited_curvature: lane(self.limited_curvature),
             failure: self.failure.map(lane),
             frame: FibreFrame { m: vector(self.frame.m), t1: vector(self.frame.t1), t2: vector(self.frame.t2) },
             aligned: self.aligned,
@@ -240,7 +241,7 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// The first step of the compaction's power.
+    /// The first step of the power ⟨−I_tc⟩^(p−1).
     #[inline(always)]
     pub(crate) fn compaction(&self, strain: &Strain<R>) -> Power<R> {
         Power::new(-strain.i_tc)
@@ -255,21 +256,22 @@ impl<R: Real> Hyperelastic<R> {
             pressure: R::splat(0.5) * self.p * self.k_tc * power,
             distortion: R::splat(0.5) * self.k_td * strain.distortion_ratio,
             shear: self.k_ld * d.inverse_square,
-            // The power is 0 where there is no compaction; the sum with +0 is never −0.
+            // The power is 0 where there is no compaction; adding +0 makes a −0 positive.
             compaction_energy: (-(self.k_tc * power)).mul_add(strain.i_tc, zero),
         }
     }
 
-    /// |W′| and W″ of the compaction: its loading side at I_tc = 0, and with p < 2 held where W″ is infinite.
+    /// |W′| and W″ of the compaction energy; at I_tc = 0 those of compaction, and near it W″ is limited, see
+    /// [`curvature_limit`].
     #[inline(always)]
     pub(crate) fn compaction_slopes(&self, strain: &Strain<R>, k: &Kirchhoff<R>) -> (R, R) {
         let zero = R::splat(0.0);
         let compaction = -strain.i_tc;
         let slope = R::splat(2.0) * k.pressure;
-        let held = compaction.le(self.held_below);
-        // Divided before the slope is known, which takes long to compute.
-        let factor = (self.p - R::splat(1.0)) / R::select(held, R::splat(1.0), compaction);
-        let curvature = R::select(held, self.greatest_curvature, factor * slope);
+        let limited = compaction.le(self.limited_below);
+        // This division need not wait for the slope, which takes long to compute.
+        let factor = (self.p - R::splat(1.0)) / R::select(limited, R::splat(1.0), compaction);
+        let curvature = R::select(limited, self.limited_curvature, factor * slope);
         (slope, R::select(zero.le(compaction), curvature, zero))
     }
 
@@ -286,11 +288,12 @@ impl<R: Real> Hyperelastic<R> {
         ]
     }
 
-    /// Cauchy stress 11 22 33 12 23 31 of the points that are intact; zero for the others, if they can be evaluated.
+    /// Cauchy stress 11 22 33 12 23 31 of the intact points; 0 at points that have failed, undefined at points that cannot be
+    /// evaluated.
     ///
-    /// With A = a·a, x = a·b and v = ½(A − b·b) a + x b the section's deviator is D̂ = (a⊗v + v⊗a)/A − d̂ P, d̂ = ½(A − b·b) + x²/A,
-    /// which holds its digits where the section is hardly distorted. So
-    /// σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all over J.
+    /// With A = a·a, x = a·b and v = ½(A − b·b) a + x b the section's deviator is D̂ = (a⊗v + v⊗a)/A − d̂ P, d̂ = ½(A − b·b) +
+    /// x²/A, which keeps its digits if the section is hardly distorted. With the tension t, the pressure p, the factor f of D̂,
+    /// d = f d̂ and v' = (f/A) v, the stress is σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all divided by J.
     #[inline(always)]
     pub(crate) fn cauchy(
         &self,
@@ -306,7 +309,7 @@ impl<R: Real> Hyperelastic<R> {
         // −(p + d)/J.
         let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
         let along_fibre = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
-        // Where all three factors are zero, so is the stress: the sum with +0 is never −0.
+        // If all three factors are zero, so is the stress: adding +0 makes a −0 positive.
         let factor = |x: R| R::select(intact, x, zero);
         let (across, along_fibre) = (factor(across), factor(along_fibre));
         let w = scale(along_fibre, c);
@@ -330,7 +333,7 @@ impl<R: Real> Hyperelastic<R> {
         stress
     }
 
-    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the modes of τ pulled back through R⁻¹, which is triangular.
+    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31: the parts of τ by mode, pulled back by the triangle R.
     #[inline(always)]
     pub(crate) fn modes(&self, d: &Decomposition<R>, k: &Kirchhoff<R>, n: &FibreFrame<R>) -> [[R; 6]; 4] {
         let [w1, w2, w3] = d.pulled_back(n);

@@ -1,4 +1,5 @@
-//! From the deformation gradient to the four deformation modes and to what the stress needs of them, stably.
+//! The kinematics: from the deformation gradient to the four deformation modes and to the quantities that the stress needs,
+//! without cancellation.
 //!
 //! With N = (m, t1, t2) the fibre and any two transverse axes, c_i = F n_i are the images of the axes. The fibre gives
 //!
@@ -7,56 +8,59 @@
 //! h_j = c1·c_j          longitudinal shear, I_ld = √(h2² + h3²)/λ²
 //! ```
 //!
-//! and what is left of the other two images beside it, a = c2 − (h2/λ²) c1 and b = c3 − (h3/λ²) c1, is the section:
+//! and the parts of the other two images that are orthogonal to it, a = c2 − (h2/λ²) c1 and b = c3 − (h3/λ²) c1, make the
+//! section:
 //!
 //! ```text
 //! J_t² = (a·a)(b·b) − (a·b)²    area ratio, I_tc = ¼ ln J_t²
 //! ŝ² = ¼(a·a − b·b)² + (a·b)²   distortion, I_td = ½ asinh(ŝ/J_t), with t̂ = ½(a·a + b·b) = √(ŝ² + J_t²)
 //! ```
 //!
-//! No inverse, no eigenvector, no quotient 0/0, and a root only of ŝ².
+//! The stress needs no inverse, no eigenvector, no quotient 0/0, and no root but that of ŝ².
 //!
-//! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact, and C − 1 follows
-//! from it without cancellation; far from it the sums over F itself round best. Both are the same formula,
-//! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0: the choice is a number,
-//! not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = σ t1 + δ2 and x22 = a·a − σ = δ2·(a + σ t1), and likewise b.
+//! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact in floating point, and
+//! C − 1 follows from H without cancellation; elsewhere the sums over F itself round best. One formula covers both,
+//! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0 (χ in `docs/theory.md`): the
+//! choice is a number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = σ t1 + δ2 and x22 = a·a − σ = δ2·(a + σ t1),
+//! and b and x33 follow in the same way from δ3.
 //!
-//! The work comes in stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]), which a block runs one after the other
-//! over several points: each has a chain of operations short enough for the processor to overlap points, and divides and
-//! takes roots at its end, where nothing waits for them.
+//! The computation has several stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]). A block evaluates each stage for
+//! several points before the next one: within a stage the chain of dependent operations is short enough for the processor to
+//! overlap points, and divisions and roots come at its end, where no operation of the stage waits for them.
 
 use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::Real;
 use super::number::vector::{accurate_cross, along, cross, dot, image, scale};
 
-/// F is near the reference where every entry of its diagonal is above this: F − 1 is exact from ½ on.
+/// F is near the reference if every entry of its diagonal is above this. F − 1 is exact from ½ on.
 const NEAR_REFERENCE: f64 = 0.6;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
 pub trait Axes<R: Real>: Copy {
     /// Whether these are the coordinate axes.
     const ALONG_COORDINATES: bool;
-    /// What of the axes' images is worth keeping where F itself is at hand.
+    /// What [`keep`](Self::keep) stores of the images of the axes; nothing if they are easily computed again from F.
     type Kept: Copy;
+    /// Stores the images that [`Stretch::new`] has returned, for a later stage.
     fn keep(&self, images: [[R; 3]; 3]) -> Self::Kept;
-    /// What [`Stretch::new`] has said of the images, from what was kept or from F.
+    /// The images that [`Stretch::new`] has returned, from what was stored or from F.
     fn recall(&self, kept: &Self::Kept, f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3];
     /// The images of the axes under F.
     fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3];
-    /// `v + s n_axis`, counted from 0.
+    /// `v + s n`, n being the axis with the index `axis`, counted from 0.
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
-    /// The scalar product of the images of two different axes, the second one that of `n_axis`.
+    /// The scalar product of the images of two different axes; `y` is that of the axis with the index `axis`.
     fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R;
 }
 
-/// The image of an axis n, whole and less σn: near the reference the difference holds digits that the whole has not.
+/// The image of an axis n: F n (`whole`) and (F − σ1) n (`rest`). Near the reference the latter has digits that F n has lost.
 #[derive(Clone, Copy)]
 pub struct Image<R> {
     whole: [R; 3],
     rest: [R; 3],
 }
 
-/// The coordinate axes, where the fibre lies along the first one.
+/// The coordinate axes, for a fibre along the first one.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstAxis;
 
@@ -72,7 +76,7 @@ impl<R: Real> Axes<R> for FirstAxis {
     }
     #[inline(always)]
     fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3] {
-        // Near the reference these differences are exact, elsewhere they change nothing.
+        // Near the reference these differences are exact; elsewhere σ is 0.
         let image = |axis: usize, column| Image { whole: column, rest: self.shifted(column, -sigma, axis) };
         [image(0, f[0]), image(1, f[1]), image(2, f[2])]
     }
@@ -86,7 +90,7 @@ impl<R: Real> Axes<R> for FirstAxis {
     }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, _: R, _: usize) -> R {
-        // Each term has an entry across its axis as a factor, and so all its digits.
+        // Each term has an off-diagonal entry as a factor, and so keeps all its digits.
         dot(x.whole, y.whole)
     }
 }
@@ -112,7 +116,7 @@ impl<R: Real> FibreFrame<R> {
     pub fn new(direction: [R; 3]) -> (Self, R::Mask) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let largest = direction[0].abs().max(direction[1].abs()).max(direction[2].abs());
-        // Lengths whose square would leave the range of the number are brought near to one first.
+        // A direction whose squared length would overflow or underflow is scaled to a length near 1.
         let ordinary = R::splat(1e-15).lt(largest) & largest.lt(R::splat(1e15));
         let scaling = R::select(ordinary, one, one / largest);
         let direction = scale(scaling, direction);
@@ -120,8 +124,8 @@ impl<R: Real> FibreFrame<R> {
         let usable = zero.lt(square) & square.lt(R::splat(1e31));
         let length = R::select(usable, square, one).sqrt();
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
-        // Two axes across m, without a branch and without a loss where m points along −x (Duff et al., J. Comput.
-        // Graph. Tech. 6(1), 2017); those of the first axis are the other two.
+        // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
+        // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
         let sign = R::select(m[0].lt(zero), -one, one);
         let a = -(one / (sign + m[0]));
         let b = m[1] * m[2] * a;
@@ -174,7 +178,7 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     }
 }
 
-/// What the fibre and its image say, and F in the fibre's axes.
+/// The first stage: determinant, fibre stretch and longitudinal shear.
 #[derive(Clone, Copy)]
 pub struct Stretch<R: Real> {
     /// 1 near the reference, else 0.
@@ -182,25 +186,26 @@ pub struct Stretch<R: Real> {
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
-    /// λ², its reciprocal, and the rounding error of λ²: the exact value less this one.
+    /// λ², its reciprocal, and the rounding error of λ²: the exact value minus the computed one.
     pub square: R,
     pub inverse_square: R,
     rounding: R,
-    /// h2 and h3: the fibre's image times those of the axes across it; (h2² + h3²)/λ².
+    /// h2 and h3, the products of the fibre's image with those of the transverse axes; (h2² + h3²)/λ².
     pub h: [R; 2],
     slip_square: R,
 }
 
 impl<R: Real> Stretch<R> {
-    /// Of `f` (columns of F) in the material axes; with it F m, (F − σ1) t1 and (F − σ1) t2, which the section is made of.
+    /// From `f` (columns of F) and the material axes. Also returns F m, (F − σ1) t1 and (F − σ1) t2, from which the section is
+    /// computed.
     ///
     /// Valid where [`Strain::nan_if_invalid`] is 0; the caller masks out the other points.
     #[inline(always)]
     pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 3]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
 
-        // With accurate minors the determinant is as good as the entries of F allow; otherwise a sheared and compacted
-        // section loses most of its digits here.
+        // With accurate minors the determinant is as accurate as the entries of F allow; with ordinary ones it would lose most
+        // of its digits if the section is sheared and compacted.
         let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
         let near = R::splat(NEAR_REFERENCE).lt(f[0][0].min(f[1][1]).min(f[2][2]));
@@ -233,7 +238,7 @@ impl<R: Real> Stretch<R> {
     }
 }
 
-/// The section across the fibre.
+/// The second stage: the section across the fibre.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
     /// ½(a·a − b·b), a·b and its square, a·a.
@@ -244,15 +249,15 @@ pub struct Section<R: Real> {
     /// t̂ = ½(a·a + b·b) and ŝ.
     pub half_trace: R,
     pub distortion: R,
-    /// J_t², its reciprocal, and the rounding error of J_t²: the exact value less this one.
+    /// J_t², its reciprocal, and the rounding error of J_t²: the exact value minus the computed one.
     area_square: R,
     inverse_area_square: R,
     rounding: R,
 }
 
 impl<R: Real> Section<R> {
-    /// Given F m, (F − σ1) t1 and (F − σ1) t2; with it a and b, the images of the transverse axes less their parts along the
-    /// fibre's.
+    /// From F m, (F − σ1) t1 and (F − σ1) t2. Also returns a and b, the images of the transverse axes without their components
+    /// along the image of the fibre.
     #[inline(always)]
     pub fn new<A: Axes<R>>(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
@@ -267,7 +272,7 @@ impl<R: Real> Section<R> {
         let x23 = n.product(&a, &b, d.sigma, 2);
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
-        // J_t² = det X where both are near 1: its distance from 1 holds more digits than J. σ = 0 is never near.
+        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With σ = 0 `near` never holds.
         let growth = sum + x22.mul_add(x33, -x23_square);
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
         let near = sum.lt(d.sigma) & (-half).lt(growth);
@@ -295,17 +300,18 @@ impl<R: Real> Section<R> {
     }
 }
 
-/// The logarithms half done: what is missing are four reciprocals, which share one division.
+/// The third stage: the logarithms up to their last step, which needs four reciprocals; these share one division.
 #[derive(Clone, Copy)]
 pub struct Logarithms<R: Real> {
     stretch: Logarithm<R>,
     area: Logarithm<R>,
     distortion: Asinh<R>,
-    /// The products of the first two and three denominators, and the reciprocal of all four's.
+    /// The products of the first two and of the first three denominators, and the reciprocal of the product of all four.
     product_2: R,
     product_3: R,
     inverse: R,
-    /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
+    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be computed,
+    /// else NaN.
     pub nan_if_invalid: R,
 }
 
@@ -325,8 +331,9 @@ impl<R: Real> Logarithms<R> {
             product_2,
             product_3,
             inverse: R::splat(1.0) / (product_3 * d_4),
-            // NaN in F is NaN in the growth, and stays so in the largest one. Where the three images are almost parallel a and b
-            // may vanish by cancellation, though J does not. With a·a and the growth in range J_t² is a normal number.
+            // A NaN in F makes `growth` NaN, and with it the largest value, in which `growth` comes last. If the three images
+            // are almost parallel, a and b may vanish by cancellation although J does not. With a·a and `growth` in range J_t²
+            // is a normal number.
             nan_if_invalid: R::select(
                 least.lt(d.jacobian.min(d.square).min(section.a_square))
                     & d.square.max(section.half_trace).max(d.slip_square).max(growth).lt(most),
@@ -337,7 +344,7 @@ impl<R: Real> Logarithms<R> {
     }
 }
 
-/// The invariants.
+/// The fourth stage: the invariants.
 #[derive(Clone, Copy, Debug)]
 pub struct Strain<R> {
     /// Elongation, compaction and distortion invariant (Eq. 4.9).
@@ -348,7 +355,8 @@ pub struct Strain<R> {
     pub distortion_ratio: R,
     /// 1/(a·a), for the stress.
     pub inverse_a_square: R,
-    /// 0 where F is finite, upright and of a size that its strains can be computed from, else NaN.
+    /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be computed,
+    /// else NaN.
     pub nan_if_invalid: R,
 }
 
@@ -382,7 +390,7 @@ impl<R: Real> Strain<R> {
     }
 }
 
-/// What all stages together say of a point.
+/// The results of all stages for a point.
 #[derive(Clone, Copy)]
 pub struct Kinematics<'a, R: Real> {
     pub stretch: &'a Stretch<R>,
@@ -401,7 +409,7 @@ pub struct Kinematics<'a, R: Real> {
 /// ```
 ///
 /// The deviator of B = P F Fᵀ P over J_t has the components (d1, d2; d2, −d1) on (q1, q2), with √(d1² + d2²) = s = sinh 2 I_td.
-/// What is not needed for the stress itself.
+/// The stress by mode and the wave speed need this decomposition; the stress itself does not.
 #[derive(Clone, Copy, Debug)]
 pub struct Decomposition<R> {
     pub e: [R; 3],
@@ -457,7 +465,7 @@ impl<R: Real> Decomposition<R> {
         cross(self.e, self.q1)
     }
 
-    /// F⁻¹e, F⁻¹q1, F⁻¹q2, by the triangle R: no inverse of F.
+    /// F⁻¹e, F⁻¹q1, F⁻¹q2, by back substitution in the triangle R, without the inverse of F.
     #[inline(always)]
     pub fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
         let one = R::splat(1.0);

@@ -1,13 +1,13 @@
-//! The baseline law: linear elastic, orthotropic, as the field uses it (thesis, section 4.1).
+//! The linear elastic orthotropic law in common use (thesis, section 4.1), with which the yarn law is compared.
 //!
-//! An objective rate of the Cauchy stress is C : D, with C = diag(E1, E2, E2, G, G, G) on (D11, D22, D33, 2D12, 2D23,
-//! 2D31) in a material frame and zero Poisson ratios. Which frame turns with the material decides everything, since the
-//! shear stiffness is 1/630 of the fibre's: see [`Rotation`]. In the frame the stress is the sum of C times the strain
-//! increments; an increment is the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives
-//! E1 ln λ in any number of steps.
+//! An objective rate of the Cauchy stress is C : D, with C = diag(E1, E2, E2, G, G, G) on (D11, D22, D33, 2D12, 2D23, 2D31) in
+//! a material frame and zero Poisson ratios. The choice of the frame has a large effect, since the shear stiffness is 1/630 of
+//! that of the fibre: see [`Rotation`]. In the frame the stress is the sum of C times the strain increments; an increment is
+//! the symmetric part of ln(Q1ᵀ F1 F0⁻¹ Q0), so that a stretch along the fibre gives E1 ln λ in any number of steps.
 //!
-//! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is Q1ᵀ (F1 − F0) F0⁻¹ Q0 and what the axes turn by,
-//! Q1ᵀ Q0 − 1, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). No rounding of F or Q beside 1 enters the strain.
+//! A small increment keeps its digits: Q1ᵀ F1 F0⁻¹ Q0 − 1 is computed as the sum of Q1ᵀ (F1 − F0) F0⁻¹ Q0 and Q1ᵀ Q0 − 1, the
+//! rotation of the axes, whose symmetric part is −½ (Q1 − Q0)ᵀ(Q1 − Q0). So the rounding of F and Q relative to 1 does not
+//! enter the strain.
 
 use nalgebra::Matrix3;
 
@@ -25,19 +25,19 @@ use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LAR
 use super::status;
 use super::stress::{largest_principal, turned};
 
-/// The frame that turns with the material.
+/// The material frame in which the stress is accumulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rotation {
-    /// The first axis follows the fibre, the second one F n made orthogonal to it: the frame of a yarn.
+    /// The first axis follows the fibre, the second one is F n made orthogonal to it: the frame of a yarn.
     #[default]
     Fibre,
-    /// The rotation of F = R U: the stiff direction drifts off a sheared fibre.
+    /// The rotation R of F = R U: in shear the stiff direction deviates from the fibre.
     Polar,
-    /// The spin integrated step by step (Jaumann rate, midpoint rule of Hughes and Winget): the caller keeps the axes.
+    /// The spin, integrated step by step (Jaumann rate, midpoint rule of Hughes and Winget): the caller stores the axes.
     Spin,
 }
 
-/// What is held against σ_lim.
+/// The stress that is compared with σ_lim.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Criterion {
     /// The largest signed principal Cauchy stress, shears included.
@@ -47,7 +47,7 @@ pub enum Criterion {
     FibreStress,
 }
 
-/// The law's properties, checked and prepared once.
+/// The linear elastic law: its properties, checked, and its axes.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearElastic<R = f64> {
     pub(super) stiffness: [R; 6],
@@ -56,19 +56,20 @@ pub struct LinearElastic<R = f64> {
     axes: Matrix<R>,
 }
 
-/// What the law answers for one point.
+/// The results of the law at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearPoint {
-    /// Cauchy stress 11 22 33 12 23 31: in space from [`step`](LinearElastic::step), in the frame from
+    /// Cauchy stress 11 22 33 12 23 31: in global axes from [`step`](LinearElastic::step), in the material frame from
     /// [`increment`](LinearElastic::increment).
     pub stress: [f64; 6],
     /// The new state, in the order of [`state::LINEAR_ELASTIC`](super::state::LINEAR_ELASTIC).
     pub state: [f64; LINEAR_ELASTIC_STATE],
-    /// 0, or why the point could not be evaluated; then there is no stress and the state is the old one.
+    /// 0, or the [`status`](super::status) code of the reason why the point could not be evaluated; then the stress is 0 and
+    /// the state is the old one.
     pub status: i32,
 }
 
-/// What is wanted beside the status; the old state counts in any case.
+/// The results that a caller requests besides the status.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
     pub stress: bool,
@@ -79,7 +80,7 @@ impl Wanted {
     pub const ALL: Wanted = Wanted { stress: true, state: true };
 }
 
-/// What the law answers for points side by side.
+/// The results of the law for the points in the lanes of `R`.
 pub(super) struct Answer<R: Real> {
     pub stress: [R; 6],
     pub state: [R; LINEAR_ELASTIC_STATE],
@@ -87,7 +88,7 @@ pub(super) struct Answer<R: Real> {
     pub q0: Matrix<R>,
     pub q1: Matrix<R>,
     pub status: R,
-    /// Where the step has been taken: not at points that failed before or cannot be evaluated.
+    /// Where the step has been taken: the point has not failed before and can be evaluated.
     pub taken: R::Mask,
 }
 
@@ -124,7 +125,7 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
         Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes })
     }
 
-    /// The same law in lanes.
+    /// The same law in another number type: each of its numbers in all lanes of `L`.
     #[inline(always)]
     pub(super) fn lanes<L: Real>(&self) -> LinearElastic<L> {
         let lane = |x: T| L::splat(x.into());
@@ -139,14 +140,14 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
 }
 
 impl LinearElastic {
-    /// The material axes in the reference placement, as columns: where a spin frame starts.
+    /// The material axes in the reference placement, as columns; the initial axes for [`Rotation::Spin`].
     pub fn reference_axes(&self) -> Matrix3<f64> {
         self.axes.into()
     }
 
-    /// From the deformation gradients at both ends of a step.
+    /// One step, from the deformation gradient `f0` and the old state to the deformation gradient `f1`.
     ///
-    /// `axes`, the material axes in space as columns, is read and advanced for [`Rotation::Spin`] only (start with
+    /// `axes`, the material axes in space as columns, is read and updated for [`Rotation::Spin`] only (start with
     /// [`reference_axes`](Self::reference_axes)); the other frames follow from F.
     pub fn step(
         &self,
@@ -165,12 +166,12 @@ impl LinearElastic {
         answer.point()
     }
 
-    /// From an increment of strain in a frame that the host keeps: `strain` holds the tensor components 11 22 33 12 23
-    /// 31 (half the engineering shears) of the increment in the material axes, `jacobian` the volume ratio, which
-    /// weighs the work (1 where it is not known).
+    /// One step, from a strain increment in a material frame that the host keeps: `strain` holds its tensor components 11 22 33
+    /// 12 23 31 (half the engineering shears), `jacobian` is the volume ratio, by which the work is multiplied (1 if it is not
+    /// known).
     ///
-    /// The stress comes out in that frame. The law is as good as the frame: axes that follow the host's polar rotation
-    /// or spin let the stiff direction drift off the fibre.
+    /// The stress is returned in that frame. Its accuracy depends on the frame: if the axes follow the host's polar rotation or
+    /// spin, the stiff direction deviates from a sheared fibre.
     pub fn increment(
         &self,
         strain: &[f64; 6],
@@ -178,7 +179,7 @@ impl LinearElastic {
         state: &[f64; LINEAR_ELASTIC_STATE],
         criterion: Criterion,
     ) -> LinearPoint {
-        let (stress, new) = self.increase(strain, jacobian, state, criterion, Wanted::ALL);
+        let (stress, new) = self.advance(strain, jacobian, state, criterion, Wanted::ALL);
         let nowhere = [[0.0; 3]; 3];
         let mut answer = Answer { stress, state: new, q0: nowhere, q1: nowhere, status: 0.0, taken: true };
         let finite = strain.iter().all(|x| x.is_finite()) && jacobian.is_finite();
@@ -189,15 +190,15 @@ impl LinearElastic {
         answer.point()
     }
 
-    /// ρ0 c² for a bound c of the wave speed where the material is not stressed: with Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²)
-    /// no eigenvalue exceeds the largest of E_i and 2G.
+    /// ρ0 c² for an upper bound c of the wave speed in the unstressed material: with Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²) no
+    /// eigenvalue exceeds the largest of E_i and 2G.
     pub fn wave_modulus(&self) -> f64 {
         self.stiffness[0].max(self.stiffness[1]).max(2.0 * self.stiffness[3])
     }
 }
 
 impl<R: Real> LinearElastic<R> {
-    /// A step of points side by side from the columns of F at both ends. `axes` counts for [`Rotation::Spin`] only.
+    /// One step for the points in the lanes, from the columns of F at both ends. `axes` is read for [`Rotation::Spin`] only.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub(super) fn respond<T>(
@@ -227,14 +228,14 @@ impl<R: Real> LinearElastic<R> {
                 let (r0, r1) = (polar_rotation(f0, able), polar_rotation(f1, able));
                 (product(&r0, &self.axes), product(&r1, &self.axes))
             }
-            Rotation::Spin => (*axes, spun(axes, &change)),
+            Rotation::Spin => (*axes, rotated_by_spin(axes, &change)),
         };
         let turn = difference(&q1, &q0);
         let back = transposed(&q1);
         let [skew, square] = [product(&back, &turn), product(&transposed(&turn), &turn)];
         let local = sum(&product(&back, &product(&change, &q0)), -half, &square);
         let local = sum(&local, half, &difference(&transposed(&skew), &skew));
-        let (rate, settled) = logarithm(&local, able);
+        let (rate, converged) = logarithm(&local, able);
         let strain = [
             rate[0][0],
             rate[1][1],
@@ -243,15 +244,15 @@ impl<R: Real> LinearElastic<R> {
             half * (rate[1][2] + rate[2][1]),
             half * (rate[2][0] + rate[0][2]),
         ];
-        let (stress, state) = self.increase(&strain, half * (j0 + j1), old, criterion, wanted);
+        let (stress, state) = self.advance(&strain, half * (j0 + j1), old, criterion, wanted);
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
         let mut answer = Answer { stress, state, q0, q1, status: zero, taken: able };
-        // Lengths whose squares leave the range give no axes.
-        let sized = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
-        answer.taken = upright & settled & sized & answer.sound(old);
+        // If squares of lengths overflow, there are no axes.
+        let in_range = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
+        answer.taken = upright & converged & in_range & answer.sound(old);
         if R::any(!answer.taken) {
             let code = |code: i32| R::splat(f64::from(code));
-            let why = R::select(settled, zero, code(status::INCREMENT_TOO_LARGE));
+            let why = R::select(converged, zero, code(status::INCREMENT_TOO_LARGE));
             let why = R::select(upright, why, code(status::INVERTED));
             let finite = is_finite(f0) & is_finite(f1) & is_finite(axes);
             answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
@@ -259,9 +260,9 @@ impl<R: Real> LinearElastic<R> {
         answer
     }
 
-    /// The stress in the axes and the new state, given the increment of strain (tensor components) there.
+    /// The stress in the material axes and the new state, given the strain increment (tensor components) in these axes.
     #[inline(always)]
-    fn increase(
+    fn advance(
         &self,
         strain: &[R; 6],
         jacobian: R,
@@ -289,7 +290,7 @@ impl<R: Real> LinearElastic<R> {
 }
 
 impl<R: Real> Answer<R> {
-    /// Where the points have not failed before and all their numbers are finite.
+    /// Where a point has not failed before and all its results are finite.
     #[inline(always)]
     fn sound(&self, old: &[R; LINEAR_ELASTIC_STATE]) -> R::Mask {
         let zero = R::splat(0.0);
@@ -300,8 +301,9 @@ impl<R: Real> Answer<R> {
         Failure::intact(old[LINEAR_FAILED]) & probe.le(zero)
     }
 
-    /// Gives the points that have not taken the step no stress and their old state, less what is not finite in it, and
-    /// says why: with the code `why`, or where that is 0 by the old state, or else an overflow.
+    /// For the points that have not taken the step: sets the stress to 0, restores the old state with 0 in place of what is not
+    /// finite, and sets the status. That is `why`, unless it is 0 or the point has failed before; then the code of an old state
+    /// that is not finite; then 0 for a point that has failed before, and else that of an overflow.
     #[inline(always)]
     pub fn keep(&mut self, old: &[R; LINEAR_ELASTIC_STATE], why: R) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -333,7 +335,7 @@ impl Answer<f64> {
     }
 }
 
-/// The axes that follow the fibre: F m, and F n less its part along it.
+/// The axes that follow the fibre: F m and F n made orthonormal in this order, and their vector product.
 #[inline(always)]
 fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
     let (e1, second) = (unit(image(f, axes[0])), image(f, axes[1]));
@@ -341,10 +343,10 @@ fn fibre_axes<R: Real>(f: &Matrix<R>, axes: &Matrix<R>) -> Matrix<R> {
     [e1, e2, cross(e1, e2)]
 }
 
-/// The axes turned by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ they turn by
-/// (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
+/// The axes rotated by the spin of the increment 1 + X, by the midpoint rule: with w the skew part of X (2 + X)⁻¹ the rotation
+/// is (1 − w)⁻¹(1 + w) = 1 + 2 (w + w²)/(1 + |w|²), |w| the length of its axial vector, which is exact for a rigid step.
 #[inline(always)]
-fn spun<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
+fn rotated_by_spin<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
     let g = half_gradient(increment);
     let w = scale(R::splat(0.5), [g[1][2] - g[2][1], g[2][0] - g[0][2], g[0][1] - g[1][0]]);
     let factor = R::splat(2.0) / (R::splat(1.0) + dot(w, w));
@@ -353,17 +355,17 @@ fn spun<R: Real>(axes: &Matrix<R>, increment: &Matrix<R>) -> Matrix<R> {
     sum(&sum(axes, factor, &once), factor, &twice)
 }
 
-/// The rotation R of F = R U, det F > 0, where `able`: by Newton's iteration X ← ½(γX + X⁻ᵀ/γ), γ² the ratio of the norms, or
-/// 1 once it is near, where a scale would only round (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
+/// The rotation R of F = R U of the points in `able`, where det F > 0, by Newton's iteration X ← ½(γX + X⁻ᵀ/γ). γ² is the ratio
+/// of the norms, or 1 once X is near R, where scaling would only add a rounding (Higham, SIAM J. Sci. Stat. Comput. 7, 1986).
 #[inline(always)]
 fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
-    /// The scale brings any stretch near within a few steps.
+    /// With the scaling a few steps suffice for any stretch.
     const STEPS: usize = 20;
     const NEAR: f64 = 0.01;
     let (half, one) = (R::splat(0.5), R::splat(1.0));
-    let (mut x, mut open) = (*f, able);
+    let (mut x, mut active) = (*f, able);
     for _ in 0..STEPS {
-        if !R::any(open) {
+        if !R::any(active) {
             break;
         }
         let (determinant, minors) = cofactors(&x);
@@ -372,9 +374,9 @@ fn polar_rotation<T, R: Lanes<T>>(f: &Matrix<R>, able: R::Mask) -> Matrix<R> {
         let ratio = (square_norm(&dual) / square_norm(&x)).sqrt().sqrt();
         let ratio = R::select(gap.lt(R::splat(NEAR)), one, ratio);
         let next = sum(&scaled(half * ratio, &x), half / ratio, &dual);
-        x = selected(open, &next, &x);
-        // Quadratic: what is left of the error is less than the square of the gap.
-        open = open & R::splat(R::EPSILON).lt(gap);
+        x = selected(active, &next, &x);
+        // Convergence is quadratic: the error that is left is below the square of the gap.
+        active = active & R::splat(R::EPSILON).lt(gap);
     }
     x
 }
@@ -390,31 +392,33 @@ fn half_gradient<R: Real>(x: &Matrix<R>) -> Matrix<R> {
     scaled(determinant.reciprocal(), &g)
 }
 
-/// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where its series settles; `able` says where that counts.
+/// ln(1 + X) as 2 artanh(X (2 + X)⁻¹), and where the series has converged. Only the points in `able` determine the number of
+/// terms.
 #[inline(always)]
 fn logarithm<T, R: Lanes<T>>(x: &Matrix<R>, able: R::Mask) -> (Matrix<R>, R::Mask) {
     const TERMS: i32 = 120;
-    /// The square of a norm that no step comes near; beyond, rounding leaves little of (2 + X)⁻¹.
+    /// A squared norm of X far above that of any step that converges; beyond, (2 + X)⁻¹ has too few correct digits.
     const LARGEST: f64 = 1e6;
     let y = half_gradient(x);
     let square = product(&y, &y);
     let growth = square_norm(&square);
     let size = square_norm(&y);
-    // Squares of norms; a term that cannot change a sixteenth of a rounding is left out, at each point by itself.
+    // Squares of norms. The series ends, at each point separately, with the first term that cannot change the sum by a
+    // sixteenth of a rounding.
     let negligible = R::splat(R::EPSILON * R::EPSILON / 256.0) * size;
     let (mut power, mut series) = (y, y);
     let mut next = size * growth;
-    let mut open = able & negligible.lt(next);
+    let mut active = able & negligible.lt(next);
     for k in 1..TERMS {
-        if !R::any(open) {
+        if !R::any(active) {
             break;
         }
         let factor = R::splat(1.0 / f64::from(2 * k + 1));
         power = product(&power, &square);
-        series = sum(&series, R::select(open, factor, R::splat(0.0)), &power);
-        next = R::select(open, factor * factor * square_norm(&power) * growth, next);
-        open = open & negligible.lt(next);
+        series = sum(&series, R::select(active, factor, R::splat(0.0)), &power);
+        next = R::select(active, factor * factor * square_norm(&power) * growth, next);
+        active = active & negligible.lt(next);
     }
-    let settled = next.le(negligible) & next.lt(R::splat(f64::INFINITY)) & square_norm(x).lt(R::splat(LARGEST));
-    (scaled(R::splat(2.0), &series), settled)
+    let converged = next.le(negligible) & next.lt(R::splat(f64::INFINITY)) & square_norm(x).lt(R::splat(LARGEST));
+    (scaled(R::splat(2.0), &series), converged)
 }

@@ -1,4 +1,4 @@
-//! The tangent of the linear elastic law, consistent with what a finite step does (derivation in `docs/theory.md`).
+//! The tangent of the linear elastic law, consistent with its finite step (derivation in `docs/theory.md`).
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,8 +10,8 @@ use super::tangent::Measure;
 use super::voigt::{PAIRS, VOIGT};
 
 impl LinearElastic {
-    /// As [`step`](Self::step), with the tangent consistent with what the step does: that of the intact material in the
-    /// call that detects failure, 0 afterwards and where the point cannot be evaluated.
+    /// As [`step`](Self::step), with the tangent consistent with the finite step: that of the intact material in the call that
+    /// detects failure, 0 in later calls and if the point cannot be evaluated.
     pub fn step_with_tangent(
         &self,
         f0: &Matrix3<f64>,
@@ -35,8 +35,8 @@ impl LinearElastic {
         (answer.point(), tangent.unwrap_or(none))
     }
 
-    /// ∂τ/∂L over J for a step to (1 + L) F, column by column: the strain that L adds in the axes, which turn with L as
-    /// well, and the turning of the stress that is there. `None` where it does not fit the number format.
+    /// ∂τ/∂L over J for a step to (1 + L) F, column by column: the strain that L adds in the material axes, which L rotates as
+    /// well, and the rotation of the stress with these axes. `None` if it cannot be computed or is not finite.
     fn tangent_of(
         &self,
         answer: &Answer<f64>,
@@ -92,10 +92,10 @@ impl Step {
 
 /// The spin of a step by the midpoint rule.
 struct HalfSpin {
-    /// Half the gradient of the increment at the middle of the step, (f − 1)(f + 1)⁻¹, and what of it is (f + 1)⁻¹.
+    /// Half the gradient of the increment at the middle of the step, (f − 1)(f + 1)⁻¹, and its factor (f + 1)⁻¹.
     gradient: Matrix3<f64>,
     middle: Matrix3<f64>,
-    /// Its skew part w, which turns a rigid step exactly by (1 − w)⁻¹(1 + w), and (1 − w)⁻¹.
+    /// (1 − w)⁻¹, w the skew part of `gradient`: the rotation (1 − w)⁻¹(1 + w) is exact for a rigid step.
     forward: Matrix3<f64>,
 }
 
@@ -109,7 +109,7 @@ impl HalfSpin {
     }
 }
 
-/// What the turning of the material axes by a motion needs: dQ1 = Q1 Ω, with Ω linear in L.
+/// The rotation of the material axes by a further motion L: dQ1 = Q1 Ω, with Ω linear in L.
 enum Turning {
     Fibre,
     /// Reference axes, R, U and (tr U 1 − U)⁻¹.
@@ -132,11 +132,11 @@ impl Turning {
         })
     }
 
-    /// Ω of the motion L.
+    /// Ω for the motion L.
     fn of(&self, step: &Step, l: &Matrix3<f64>) -> Matrix3<f64> {
         let seen = step.q1.transpose() * l * step.q1;
         match self {
-            // e1 follows L e1; e3 is normal to L e1 and L e2: what is below the diagonal turns the axes.
+            // e1 follows L e1, and e3 stays normal to e1 and e2 as L moves them: Ω has the entries of L below the diagonal.
             Turning::Fibre => skew(&Vector3::new(seen.m32, -seen.m31, seen.m21)),
             // Θ U + U Θ is the skew part of RᵀL R U, twice; in axial vectors that is (tr U 1 − U) θ.
             Turning::Polar(axes, r, u, inverse) => {
@@ -159,23 +159,23 @@ fn skew(v: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)
 }
 
-/// How the stress at the end of a step answers to a further motion: ∂τ_ij/∂L_kl over J for F moved to (1 + L) F. Columns of L
-/// 11 21 31 12 22 32 13 23 33, each with the stress 11 22 33 12 23 31.
+/// The derivative of the stress at the end of a step: ∂τ_ij/∂L_kl over J for F moved to (1 + L) F. One row for each kl, 11 21
+/// 31 12 22 32 13 23 33, with the components ij, 11 22 33 12 23 31.
 ///
-/// It is not symmetric, and with [`Rotation::Spin`], whose axes depend on the step, not that of an objective rate.
+/// It is not symmetric, and with [`Rotation::Spin`], whose axes depend on the step, it is not that of an objective rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearTangent(pub [[f64; 6]; 9]);
 
 impl LinearTangent {
-    /// The matrix of a 6×6 measure, row by row, at the deformation gradient `f` and the Cauchy stress of the step's end;
-    /// `None` for [`Measure::Nominal`], and where F has no inverse.
+    /// The matrix of a 6×6 measure, row by row, at the deformation gradient `f` and the Cauchy stress (11 22 33 12 23 31) of
+    /// the end of the step; `None` for [`Measure::Nominal`], and for [`Measure::Material`] if F has no inverse.
     ///
-    /// [`Measure::Jaumann`] is DDSDDE: a motion of symmetric L and no spin.
+    /// [`Measure::Jaumann`] is DDSDDE: the motions L are symmetric, without spin.
     pub fn matrix(&self, measure: Measure, f: &Matrix3<f64>, cauchy: &[f64; 6]) -> Option<[[f64; 6]; 6]> {
         let mut jaumann = [[0.0; 6]; 6];
         for (column, (k, l)) in PAIRS.into_iter().enumerate() {
             for (row, entries) in jaumann.iter_mut().enumerate() {
-                // An engineering shear is half a motion each way.
+                // A unit engineering shear is L_kl = L_lk = ½.
                 entries[column] = 0.5 * (self.0[k + 3 * l][row] + self.0[l + 3 * k][row]);
             }
         }
@@ -209,7 +209,7 @@ impl LinearTangent {
     }
 }
 
-/// The derivative of ln A = 2 artanh((A − 1)(A + 1)⁻¹) along `da`, term by term; `None` where the series does not settle.
+/// The derivative of ln A = 2 artanh((A − 1)(A + 1)⁻¹) along `da`, term by term; `None` if the series does not converge.
 fn logarithm_derivative(a: &Matrix3<f64>, da: &Matrix3<f64>) -> Option<Matrix3<f64>> {
     const TERMS: i32 = 200;
     let identity = Matrix3::identity();

@@ -1,4 +1,4 @@
-//! The constitutive laws: no host, no file, no allocation, no standard library.
+//! The constitutive laws, independent of any host program. They access no files, allocate nothing and need no standard library.
 
 pub mod acoustic;
 pub mod block;

@@ -1,6 +1,6 @@
-//! The tables of properties of both laws and their presets: the single source for messages, headers, documents, decks.
+//! The property tables of both laws and their presets, from which messages, the C interface, documents and decks are made.
 
-/// What a quantity is measured in, as powers of mass, length and time.
+/// The physical dimension of a quantity, as exponents of mass, length and time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dimension {
     pub mass: i32,
@@ -12,7 +12,7 @@ pub struct Dimension {
 
 pub const NUMBER: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "-" };
 pub const STRESS: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "stress" };
-/// Energy per reference volume is a stress; the name tells the reader which it is.
+/// Energy per reference volume has the dimension of a stress; the name distinguishes the two.
 pub const ENERGY_DENSITY: Dimension = Dimension { mass: 1, length: -1, time: -2, name: "energy/volume" };
 pub const DENSITY: Dimension = Dimension { mass: 1, length: -3, time: 0, name: "density" };
 
@@ -24,14 +24,14 @@ pub struct Property {
     /// The symbol of the thesis.
     pub symbol: &'static str,
     pub dimension: Dimension,
-    /// The value to use where nothing else is known; `None`: the user must give it.
+    /// The default value; `None` if the user must give one.
     pub default: Option<f64>,
-    /// The least value allowed, and whether it is itself excluded.
+    /// The least allowed value, and whether that value itself is excluded.
     pub minimum: f64,
     pub minimum_excluded: bool,
-    /// The greatest value allowed.
+    /// The greatest allowed value.
     pub maximum: f64,
-    /// The bounds in words.
+    /// The allowed values in words.
     pub allowed: &'static str,
     pub meaning: &'static str,
 }
@@ -72,7 +72,7 @@ const fn component(name: &'static str, symbol: &'static str, default: f64, meani
 
 /// Number of properties of the hyperelastic law.
 pub const HYPERELASTIC_PROPERTIES: usize = 11;
-/// Where the fibre direction starts among the properties of the hyperelastic law.
+/// Index of the first component of the fibre direction among the properties of the hyperelastic law.
 pub const FIBRE: usize = 8;
 
 /// The properties of the hyperelastic law, in the order in which every host passes them (Eq. 4.10–4.15, section 4.4.2).
@@ -102,7 +102,8 @@ pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
 
 /// Number of properties of the linear elastic law.
 pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;
-/// Where the fibre direction and the second axis start among the properties of the linear elastic law.
+/// Indices of the first components of the fibre direction and of the second axis among the properties of the linear elastic
+/// law.
 pub const LINEAR_FIBRE: usize = 4;
 pub const LINEAR_SECOND_AXIS: usize = 7;
 
@@ -129,19 +130,19 @@ pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
     },
 ];
 
-/// A named set of properties in SI units, with the density that goes with it.
+/// A named set of properties in SI units, and the density of the same yarn.
 #[derive(Debug)]
 pub struct Preset {
     pub name: &'static str,
     pub table: &'static [Property],
-    /// As many values as the table has rows.
+    /// One value for each row of `table`.
     pub values: &'static [f64],
     /// Reference density in kg/m³.
     pub density: f64,
     pub source: &'static str,
 }
 
-/// The yarns that the library knows by name.
+/// The presets of the library.
 pub static PRESETS: [Preset; 2] = [
     Preset {
         name: "kevlar-km2-600",
@@ -159,7 +160,7 @@ pub static PRESETS: [Preset; 2] = [
     },
 ];
 
-/// The preset of this name.
+/// The preset of this name; `None` if there is none.
 pub fn preset(name: &str) -> Option<&'static Preset> {
     PRESETS.iter().find(|preset| preset.name == name)
 }

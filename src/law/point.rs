@@ -1,4 +1,4 @@
-//! The yarn law at one point: the stages one after the other, then what failure and errors make of the answer.
+//! The yarn law at one point: kinematics, stress, state and tangent, and what becomes of them after failure and errors.
 
 use core::cell::Cell;
 
@@ -20,22 +20,23 @@ use super::status;
 use super::tangent::Measure;
 use super::voigt::Moduli;
 
-/// What the law answers for one point, ready to store.
+/// The results of the law at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point<T> {
     /// Cauchy stress 11 22 33 12 23 31.
     pub stress: [T; 6],
     /// The new state, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
     pub state: [T; HYPERELASTIC_STATE],
-    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
+    /// Second Piola–Kirchhoff stress by mode, S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31.
     pub modes: [[T; 6]; 4],
-    /// ρ0 c² for a bound c of the wave speed.
+    /// ρ0 c² for an upper bound c of the wave speed.
     pub wave_modulus: T,
-    /// 0, or why the point could not be evaluated.
+    /// 0, or the [`status`](super::status) code of the reason why the point could not be evaluated.
     pub status: i32,
 }
 
-/// Where the answer goes. Handed over while it stands in registers: a copy by way of memory would make the processor wait.
+/// Takes the results of a point while they are still in registers: writing them to memory and copying them from there would
+/// make the processor wait.
 pub(crate) trait Sink<T, const N: usize> {
     fn take(self, point: Point<T>, entries: [T; N]);
 }
@@ -51,7 +52,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     /// The law at one point, with the fibre direction of the properties.
     ///
     /// `f` is the deformation gradient, `state` the old state: all 0 at the start. A point that cannot be evaluated (F
-    /// inverted, not finite, …) says so in `status`, carries no stress and keeps its state.
+    /// inverted, not finite, …) has a nonzero `status`, no stress, and its old state.
     pub fn point(&self, f: &Matrix3<T>, state: &[T; HYPERELASTIC_STATE], request: Request) -> Point<T>
     where
         T: nalgebra::Scalar,
@@ -60,7 +61,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_along(&columns, None, state, request)
     }
 
-    /// The law at one point: columns of F; a fibre direction of any length, or that of the properties.
+    /// The law at one point. `f` holds the columns of F; `fibre` is a fibre direction of any length, or `None` for that of the
+    /// properties.
     pub fn point_along(
         &self,
         f: &[[T; 3]; 3],
@@ -71,8 +73,8 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_with(f, fibre, state, NoTangent(request)).0
     }
 
-    /// The law at one point, with what `tangent` makes of it: intact in the call that detects failure, zeros afterwards
-    /// and where the point cannot be evaluated, which it cannot where the tangent is not finite.
+    /// The law at one point and the derivative `tangent`: that of the intact material in the call that detects failure, 0 in
+    /// later calls and if the point cannot be evaluated. A point whose derivative is not finite cannot be evaluated.
     #[inline(never)]
     pub(super) fn point_with<D: Derivative<N>, const N: usize>(
         &self,
@@ -84,14 +86,14 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
         let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
-        debug_assert!(evaluated.is_ok()); // the law is there
+        debug_assert!(evaluated.is_ok()); // only wrong properties are an error, and those of a law are right
         (point, entries)
     }
 
-    /// The law at one point with a tangent of six rows; [`Measure::Nominal`] is taken for dS/dE.
+    /// The law at one point and its 6×6 tangent; [`Measure::Nominal`], which is 9×9, gives dS/dE.
     ///
-    /// The call that detects failure gives the intact tangent; a point that has failed before, or cannot be evaluated, has
-    /// none: zeros. A tangent that does not fit the number format makes the point one that cannot be evaluated.
+    /// The call that detects failure gives the tangent of the intact material. The tangent of a point that has failed before or
+    /// cannot be evaluated is 0. If the tangent does not fit the number format, the point cannot be evaluated.
     pub fn point_with_moduli(
         &self,
         f: &[[T; 3]; 3],
@@ -104,7 +106,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         (point, Moduli(moduli))
     }
 
-    /// The law at one point with dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; otherwise as
+    /// The law at one point and dP/dF, both by columns: entry `(i + 3 J) + 9 (k + 3 L)` is ∂P_iJ/∂F_kL; otherwise as
     /// [`point_with_moduli`](Self::point_with_moduli).
     pub fn point_with_nominal(
         &self,
@@ -116,7 +118,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         self.point_with(f, fibre, state, NineByNine(request))
     }
 
-    /// The law at one point with the fibre direction of the properties, and the full matrix of a measure with six rows.
+    /// All results at one point without history, and its full 6×6 tangent; the fibre direction is that of the properties.
     pub fn tangent(&self, f: &Matrix3<T>, measure: Measure) -> (Point<T>, [[T; 6]; 6])
     where
         T: nalgebra::Scalar,
@@ -128,15 +130,18 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     }
 }
 
-/// Where the law of a point comes from: it has been prepared, or comes as properties with the call.
+/// The source of the law for a point: a law that has been prepared, or the properties, which are passed with the call.
 pub(super) trait Source<T>: Copy {
+    /// The frame of the properties' fibre direction.
     fn frame(&self) -> PropertyFrame<T>;
 
+    /// The law; its failure criterion comes from [`power_and_failure`](Self::power_and_failure).
+    ///
     /// # Errors
     /// The first property that is wrong.
     fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error>;
 
-    /// ⟨−I_tc⟩^(p−1) with the exponent of `law`, and the law's failure, which is not wanted earlier.
+    /// ⟨−I_tc⟩^(p−1) with the exponent of `law`, and the failure criterion, which is not needed earlier.
     fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>);
 }
 
@@ -174,7 +179,7 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
             let failure = Hyperelastic::prepare_failure(self).map(|x| R::of(x));
             return (law.compaction(strain).reduce(&law.exponent).finish(), failure);
         }
-        // One pass for both logarithms.
+        // Both logarithms are computed side by side in one register.
         let [eps_lim, alpha, beta] = Hyperelastic::failure_properties(self);
         let [eps_lim, alpha, beta] = [R::of(eps_lim), R::of(alpha), R::of(beta)];
         let (power, limit) = Power::reduce_beside(-strain.i_tc, &law.exponent, eps_lim);
@@ -182,10 +187,10 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     }
 }
 
-/// The law at one point, computed in R; see [`Hyperelastic::point_with`].
+/// The law at one point, computed in the number type `R`; see [`Hyperelastic::point_with`].
 ///
 /// # Errors
-/// The first property that is wrong; nothing is handed to the sink.
+/// The first property that is wrong; the sink is not called.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 pub(super) fn evaluate<
@@ -221,35 +226,35 @@ pub(super) fn evaluate<
     point_in(source, &own, &f, &frame, &frame, usable, state, tangent, sink)
 }
 
-/// A call from a host that hands over the properties with every point.
+/// A call from a host that passes the properties with every point.
 pub(crate) struct Call<'a, T, D, S, const N: usize> {
     pub properties: &'a [T],
     /// Columns of F.
     pub f: &'a [[T; 3]; 3],
-    /// A fibre direction of any length, or that of the properties.
+    /// A fibre direction of any length, or `None` for that of the properties.
     pub fibre: Option<[T; 3]>,
-    /// The old state; the sink may put the new one in its place.
+    /// The old state, in cells since the sink may overwrite it with the new one.
     pub state: &'a [Cell<T>; HYPERELASTIC_STATE],
     pub tangent: D,
     pub sink: S,
 }
 
 impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N: usize> Call<'_, T, D, S, N> {
-    /// Prepares the law and evaluates it, in R.
+    /// Prepares the law and evaluates it in the number type `R`.
     ///
     /// # Errors
-    /// The first property that is wrong; nothing is handed to the sink.
+    /// The first property that is wrong; the sink is not called.
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
         evaluate::<T, R, &[T], D, S, N>(self.properties, self.f, self.fibre, self.state, self.tangent, self.sink)
     }
 
-    /// Likewise by the law's own function for one point, in the instructions of every processor.
+    /// Prepares the law and evaluates it with the instructions that every processor of the architecture has.
     ///
     /// # Errors
-    /// The first property that is wrong; nothing is handed to the sink.
+    /// The first property that is wrong; the sink is not called.
     #[inline(never)]
-    pub(super) fn evaluate_plainly(self) -> Result<(), Error> {
+    pub(super) fn evaluate_baseline(self) -> Result<(), Error> {
         let law = Hyperelastic::new(self.properties)?;
         let state = self.state.each_ref().map(Cell::get);
         let (point, entries) = law.point_with(self.f, self.fibre, &state, self.tangent.general());
@@ -258,11 +263,11 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     }
 }
 
-/// Evaluates a call by the best instructions: within four roundings of the input's sensitivity of what
-/// [`Hyperelastic::point_along`] gives, with the same status.
+/// Evaluates a call with the best instructions that the processor has. The status is that of [`Hyperelastic::point_along`]; the
+/// other results differ from its results by no more than four roundings of the input would change them.
 ///
 /// # Errors
-/// The first property that is wrong; nothing is handed to the sink.
+/// The first property that is wrong; the sink is not called.
 #[inline(always)]
 pub(crate) fn evaluate_call<T: Registers, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
     call: Call<'_, T, D, S, N>,
@@ -276,14 +281,14 @@ pub(crate) fn evaluate_call<T: Registers, D: Derivative<N>, S: Sink<T, N>, const
             call.evaluate::<T::Point>()
         }
         if has_fma() {
-            // SAFETY: the processor has the instructions.
+            // SAFETY: the processor has AVX2 and FMA, as `has_fma` has found.
             return unsafe { with_fma(call) };
         }
     }
-    call.evaluate_plainly()
+    call.evaluate_baseline()
 }
 
-/// A state as the law reads it: its place may be that of the new one.
+/// A state in cells, as [`Call`] takes it.
 #[inline(always)]
 pub(crate) fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE]) -> [Cell<T>; HYPERELASTIC_STATE] {
     [
@@ -301,7 +306,7 @@ pub(crate) fn cells<T>([a, b, c, d, e, f, g, h, i, j, k]: [T; HYPERELASTIC_STATE
     ]
 }
 
-/// So many numbers of one point.
+/// The values of N numbers, each of which holds one point.
 #[inline(always)]
 fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
     let (mut values, mut k) = ([T::splat(0.0); N], 0);
@@ -312,10 +317,10 @@ fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
     values
 }
 
-/// The law at one point, in these axes; `frame` the same ones as vectors.
+/// The law at one point with the material axes `axes`, which `frame` holds as vectors.
 ///
-/// The law is prepared when the kinematics are on their way: they are a long chain of operations, each of which waits for the one
-/// before, and the processor fills the gaps with what stands near in the program.
+/// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the processor
+/// waits for them, it executes independent operations that are near in the program.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 fn point_in<
@@ -355,7 +360,7 @@ fn point_in<
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = law.respond(kinematics, &k, frame, nan_if_invalid, latch, request, shear);
     let h = law.history(&strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
-    // The stress need not wait for the tangent's finiteness.
+    // This check comes after the stress, so that the stress need not wait for the tangent.
     let zero = R::splat(0.0);
     let representable = if may_overflow { nan_unless_finite(&entries).le(zero) } else { zero.le(zero) };
     if !R::holds(r.updated & representable) {
@@ -380,7 +385,7 @@ fn point_in<
 }
 
 impl<T: Real<Mask = bool>> Point<T> {
-    /// All zero.
+    /// All zeros.
     #[inline(always)]
     pub(crate) fn nothing() -> Self {
         let zero = T::splat(0.0);
@@ -393,12 +398,12 @@ impl<T: Real<Mask = bool>> Point<T> {
         }
     }
 
-    /// A point without stress that keeps its old state but for the latch.
+    /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite become 0.
     #[inline(never)]
     fn unchanged(state: &[Cell<T>; HYPERELASTIC_STATE], failed: T, wave_modulus: T, status: i32) -> Self {
         let zero = T::splat(0.0);
         let mut point = Point { wave_modulus, status, ..Point::nothing() };
-        // The latch has been checked, and alive is never read.
+        // The caller has checked the latch, and `alive` is never read.
         for (x, old) in point.state.iter_mut().zip(state).take(FAILED) {
             let old = old.get();
             let finite = (old * zero).le(zero);

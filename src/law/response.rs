@@ -1,4 +1,4 @@
-//! What failure and points that cannot be evaluated make of the law's answer, and what a caller asks for.
+//! The results of the law at a point: what a caller requests, and what becomes of it if the point fails or cannot be evaluated.
 
 use super::failure::Failure;
 use super::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -6,44 +6,49 @@ use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
 use super::number::real::Real;
 use super::status;
 
-/// What a caller wants beside the stress; what is left out is not computed and stays 0.
+/// The results that a caller requests. Values that are not requested have no meaning in the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Request {
+    /// Cauchy stress.
     pub stress: bool,
+    /// Energies by mode, per reference volume.
     pub energies: bool,
+    /// Strain invariants of the four modes.
     pub invariants: bool,
-    /// Failure index and latch. Left out, no point fails; a point that has failed before stays failed all the same.
+    /// Failure index and latch. If they are not requested, no point fails; a point that has failed before stays failed.
     pub failure: bool,
+    /// Second Piola–Kirchhoff stress by mode.
     pub modes: bool,
+    /// ρ0 c² for an upper bound c of the wave speed.
     pub wave_modulus: bool,
 }
 
 impl Request {
-    /// Everything there is.
+    /// All results.
     pub const ALL: Request =
         Request { stress: true, energies: true, invariants: true, failure: true, modes: true, wave_modulus: true };
-    /// What a solver wants at every step.
+    /// Stress and state: what a solver needs at every step.
     pub const STRESS_AND_STATE: Request = Request { modes: false, wave_modulus: false, ..Request::ALL };
 }
 
-/// What the law answers at once, for one point or for several side by side.
+/// The results of the law except the new state, for one point or for one in each lane of `R`.
 #[derive(Clone, Copy)]
 pub(crate) struct Response<R: Real> {
-    /// Cauchy stress 11 22 33 12 23 31: intact in the call that detects failure, zero afterwards; undefined where `latch_or_nan`
-    /// is NaN.
+    /// Cauchy stress 11 22 33 12 23 31: that of the intact material in the call that detects failure, 0 in later calls;
+    /// undefined where `latch_or_nan` is NaN.
     pub stress: [R; 6],
-    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress mode by mode, each 11 22 33 12 23 31; like the stress.
+    /// S_el, S_tc, S_td, S_ld: second Piola–Kirchhoff stress by mode, each 11 22 33 12 23 31; 0 where `updated` does not hold.
     pub modes: [[R; 6]; 4],
-    /// ρ0 c² for a bound c of the wave speed, at least k_el.
+    /// ρ0 c² for an upper bound c of the wave speed, at least k_el.
     pub wave_modulus: R,
-    /// The old latch, or NaN where the point cannot be evaluated: the reason is its [`status_code`](Hyperelastic::status_code).
+    /// The old latch, or NaN where the point cannot be evaluated; [`status_code`](Hyperelastic::status_code) gives the reason.
     pub latch_or_nan: R,
-    /// Where the state is a new one: the point has not failed before and can be evaluated.
+    /// Where the point gets a new state: it has not failed before and can be evaluated.
     pub updated: R::Mask,
 }
 
-/// The new state of a point; where the state is not updated the energies, invariants and the index are undefined and the old ones
-/// stay.
+/// The new state of a point. Where [`Response::updated`] does not hold, energies, invariants and index are undefined, and the
+/// caller keeps the old ones.
 #[derive(Clone, Copy)]
 pub(crate) struct History<R> {
     /// W_el, W_tc, W_td, W_ld; I_el, I_tc, I_td, I_ld; failure index.
@@ -55,10 +60,11 @@ pub(crate) struct History<R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The stress of a point, given its kinematics, the factors of its modes, `nan_if_invalid` (0 where these are valid, else NaN)
-    /// and the latch of the old state; `shear` says whether there is a longitudinal-shear stiffness whose terms are to be computed.
+    /// The results at a point except its new state. `k` has the factors of the modes; `nan_if_invalid` is 0 where the
+    /// kinematics are valid, else NaN; `latch` is that of the old state. `shear` says whether k_ld is above 0, so that the
+    /// terms of the longitudinal shear have to be computed.
     ///
-    /// The wave modulus is a finite number at every point, the rest wherever the point can be evaluated.
+    /// The wave modulus is finite at every point, the other results wherever the point can be evaluated.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub(crate) fn respond(
@@ -73,14 +79,14 @@ impl<R: Real> Hyperelastic<R> {
     ) -> Response<R> {
         let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
-        // NaN does not count as intact.
+        // A latch that is NaN counts as failed.
         let mut latch_or_nan = latch + nan_if_invalid;
         let intact = Failure::intact(latch_or_nan);
         let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
 
-        // Whether all that was asked for is a finite number: zero times that is zero. With the bounds of the properties
-        // the invariants, the index and the energies are finite wherever the kinematics are valid, but for the shear's energy.
-        // A compaction energy that does not fit shows in the stress, if that is asked for.
+        // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants, the
+        // index and the energies are finite wherever the kinematics are valid, except the energy of the longitudinal shear. If
+        // the compaction energy overflows, so does the stress, so that it is checked only if the stress is not requested.
         if !R::HEADROOM || shear {
             let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
             latch_or_nan = sum.mul_add(zero, latch_or_nan);
@@ -115,7 +121,7 @@ impl<R: Real> Hyperelastic<R> {
         Response { stress, modes, wave_modulus: R::select(updated, wave, self.k_el), latch_or_nan, updated }
     }
 
-    /// The new state, given where there is one. The latch is a finite number at every point.
+    /// The new state, given [`Response::updated`]. The latch is finite at every point.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]
     pub(crate) fn history(
@@ -138,13 +144,13 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// The status code of a point whose state is not updated, as a number: why it cannot be evaluated, or 0 where it has failed
-    /// before. `usable` says whether its fibre direction is.
+    /// The status code, as a number, of a point whose state is not updated: the reason why it cannot be evaluated, or 0 if it
+    /// has failed before. `usable` says whether its fibre direction is finite and not zero.
     #[inline(always)]
     pub(crate) fn status_code(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: R::Mask, latch: R) -> R {
         let zero = R::splat(0.0);
         let code = |status: i32| R::splat(f64::from(status));
-        // A number times zero is zero unless it is NaN or infinite. Where F is too large its determinant is not meaningful.
+        // A number times zero is zero unless it is NaN or infinite. If F is too large, its determinant is meaningless.
         let (mut finite, mut size) = (zero, zero);
         for column in f {
             for &entry in column {
@@ -153,7 +159,8 @@ impl<R: Real> Hyperelastic<R> {
             }
         }
         let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
-        // Later lines take precedence: a latch that is set, F not finite, no fibre direction, F inverted, and else an overflow.
+        // Later lines take precedence. In this order: latch set, F not finite, fibre direction not usable, F inverted, else
+        // overflow.
         let error = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
         let error = R::select(usable, error, code(status::FIBRE_DIRECTION));
         let error = R::select(finite.le(zero), error, code(status::NOT_FINITE));
@@ -166,7 +173,7 @@ impl<R: Real> Hyperelastic<R> {
 #[inline(always)]
 pub(crate) fn nan_unless_finite<R: Real>(values: &[R]) -> R {
     let zero = R::splat(0.0);
-    // Four sums, which need not wait for one another.
+    // Four independent sums, to shorten the chain of dependent operations.
     let [mut a, mut b, mut c, mut d] = [zero; 4];
     let mut fours = values.chunks_exact(4);
     for four in &mut fours {

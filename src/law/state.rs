@@ -1,4 +1,4 @@
-//! The tables of state variables: what a host keeps for each point from one call to the next. All start at 0.
+//! The tables of state variables, which a host stores for each point from one call to the next. All are 0 at the start.
 
 use super::parameters::{Dimension, ENERGY_DENSITY, NUMBER, STRESS};
 
@@ -17,7 +17,8 @@ const fn row(name: &'static str, symbol: &'static str, dimension: Dimension, mea
 
 /// Number of state variables of the hyperelastic law.
 pub const HYPERELASTIC_STATE: usize = 11;
-/// Where the groups of the hyperelastic law's state start: four energies, four invariants, then failure.
+/// Indices into the state of the hyperelastic law: the first of four energies, the first of four invariants, the failure index,
+/// the latch, and the flag for element deletion.
 pub const ENERGIES: usize = 0;
 pub const INVARIANTS: usize = 4;
 pub const FAILURE_INDEX: usize = 8;
@@ -46,6 +47,8 @@ pub static HYPERELASTIC: [StateVariable; HYPERELASTIC_STATE] = [
 
 /// Number of state variables of the linear elastic law.
 pub const LINEAR_ELASTIC_STATE: usize = 10;
+/// Indices into the state of the linear elastic law: the first of six stress components, the largest principal stress, the
+/// work, the latch, and the flag for element deletion.
 pub const LINEAR_STRESS: usize = 0;
 pub const LINEAR_LARGEST: usize = 6;
 pub const LINEAR_WORK: usize = 7;

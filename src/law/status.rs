@@ -1,7 +1,7 @@
 //! Status codes and their meanings.
 //!
-//! 0 is success and a negative number an error. The hundreds say whose error it is: −1xx the call's, −2xx the
-//! properties', −3xx the point's. New codes fill the gaps; none changes its meaning.
+//! 0 is success and a negative number an error. The hundreds say what is wrong: −1xx the call, −2xx the properties, −3xx the
+//! point. New codes take numbers that are not in use; no code changes its meaning.
 
 /// Everything went well.
 pub const OK: i32 = 0;
@@ -82,12 +82,12 @@ pub const TABLE: [(i32, &str, &str); 19] = [
     ),
 ];
 
-/// The short name of a status code; `None` for a number that is no code.
+/// The short name of a status code; `None` if there is no such code.
 pub fn name(code: i32) -> Option<&'static str> {
     TABLE.iter().find(|row| row.0 == code).map(|row| row.1)
 }
 
-/// What a status code means, in a sentence; `None` for a number that is no code.
+/// The meaning of a status code in a sentence; `None` if there is no such code.
 pub fn meaning(code: i32) -> Option<&'static str> {
     TABLE.iter().find(|row| row.0 == code).map(|row| row.2)
 }

@@ -1,4 +1,5 @@
-//! One stress, several measures: Cauchy σ, Kirchhoff τ = Jσ, first Piola–Kirchhoff P = JσF⁻ᵀ, second S = JF⁻¹σF⁻ᵀ.
+//! Stress measures and conversions between them: Cauchy σ, Kirchhoff τ = Jσ, first Piola–Kirchhoff P = JσF⁻ᵀ, second
+//! S = JF⁻¹σF⁻ᵀ.
 
 use nalgebra::Matrix3;
 
@@ -39,16 +40,18 @@ pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
     )
 }
 
-/// First Piola–Kirchhoff stress of a Cauchy stress: the conjugate of F, force per reference area.
+/// The first Piola–Kirchhoff stress P = JσF⁻ᵀ of a Cauchy stress 11 22 33 12 23 31: force per reference area.
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
     matrix(cauchy) * cofactors(f)
 }
 
-/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no order, and an orthonormal axis for each, by Jacobi rotations.
+/// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no particular order, and an orthonormal axis for each, by Jacobi
+/// rotations.
 pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
     let [mut a, mut b, mut c, mut ab, mut bc, mut ca] = *s;
     let [mut x, mut y, mut z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    // One rotation: annihilates pq, couples p and q to the third axis, and turns theirs.
+    // One Jacobi rotation: makes the entry `pq` zero, and changes the entries `pr` and `qr` with the third axis and the axes
+    // `u` and `v`.
     type Axis = [f64; 3];
     let rotate = |p: &mut f64, q: &mut f64, pq: &mut f64, pr: &mut f64, qr: &mut f64, u: &mut Axis, v: &mut Axis| {
         if *pq == 0.0 {
@@ -68,7 +71,7 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
             turn(x, y);
         }
     };
-    // Quadratic convergence: six sweeps take any 3×3 matrix to rounding.
+    // Convergence is quadratic: after six sweeps any 3×3 matrix is diagonal to rounding.
     for _ in 0..6 {
         rotate(&mut a, &mut b, &mut ab, &mut ca, &mut bc, &mut x, &mut y);
         rotate(&mut b, &mut c, &mut bc, &mut ab, &mut ca, &mut y, &mut z);
@@ -79,9 +82,9 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
 
 /// The largest eigenvalue of a symmetric tensor 11 22 33 12 23 31, to within a few roundings of its norm.
 ///
-/// The eigenvalue that stands apart from the other two is a simple root of the characteristic equation, wherever those two
-/// are, and its axis a column of cofactors; what the tensor is across that axis gives the other two, however near they are
-/// (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
+/// The eigenvalue farthest from the other two is a simple root of the characteristic equation even if those two coincide, and
+/// its axis is a column of the matrix of cofactors; the tensor in the plane across that axis gives the other two, however near
+/// to each other they are (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
 #[inline(always)]
 pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
@@ -100,7 +103,8 @@ pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
     let n = unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
     let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
-    // Less what it is along the axis and in the mean across it, the deviator is half the gap of the other two, twice.
+    // Without its component along that axis and its mean in the plane across it, the deviator has the eigenvalues 0 and ± half
+    // the distance between the other two.
     let (drop, middle) = (R::splat(-1.5) * apart, half * apart);
     let along = [drop * n[0], drop * n[1], drop * n[2]];
     let diagonal =
@@ -110,6 +114,7 @@ pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     alone.max(p.mul_add(gap - middle, mean) * size)
 }
 
+/// The longer of two vectors.
 #[inline(always)]
 fn longer<R: Real>(u: [R; 3], v: [R; 3]) -> [R; 3] {
     select(dot(v, v).le(dot(u, u)), u, v)
@@ -121,7 +126,7 @@ fn apart<R: Real>(r: R) -> R {
     const ROOT: f64 = 1.732_050_807_568_877_2;
     let [one, two, three] = [R::splat(1.0), R::splat(2.0), R::splat(3.0)];
     let size = r.abs().min(one);
-    // Newton's method from the chord of the solution, which goes from √3 at 0 to 2 at 1.
+    // Newton's method. Its start is linear in |r|, from the solution √3 at r = 0 to the solution 2 at |r| = 1.
     let mut x = R::splat(2.0 - ROOT).mul_add(size, R::splat(ROOT));
     for _ in 0..3 {
         let square = x * x;
@@ -130,12 +135,13 @@ fn apart<R: Real>(r: R) -> R {
     R::select(r.lt(R::splat(0.0)), -x, x)
 }
 
+/// An entry of ½ 1⊙σ.
 #[inline(always)]
 fn half_with_one<R: Real, const ROW: usize, const COLUMN: usize>(stress: &[R; 6]) -> R {
     paired_with_one::<R, ROW, COLUMN>(stress).map_or(R::splat(0.0), |entry| R::splat(0.5) * entry)
 }
 
-/// The Truesdell modulus of a Jaumann modulus and the Cauchy stress σ, 11 22 33 12 23 31: c − ½ 1⊙σ.
+/// The Truesdell modulus c − ½ 1⊙σ, from the Jaumann modulus c and the Cauchy stress σ; 11 22 33 12 23 31, engineering shears.
 pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64; 6]; 6] {
     let mut truesdell = *jaumann;
     let stress = Moduli(upper_triangle!(half_with_one(cauchy))).matrix();
@@ -145,10 +151,12 @@ pub fn truesdell_of_jaumann(jaumann: &[[f64; 6]; 6], cauchy: &[f64; 6]) -> [[f64
     truesdell
 }
 
-/// dS/dE of a Truesdell modulus of the Cauchy stress: J F⁻¹F⁻¹F⁻¹F⁻¹ c; `None` where F has no inverse.
+/// dS/dE, from the Truesdell modulus of the Cauchy stress: J times its pull-back by F⁻¹ on all four indices; `None` if F has no
+/// inverse.
 pub fn pulled_back(truesdell: &[[f64; 6]; 6], f: &Matrix3<f64>) -> Option<[[f64; 6]; 6]> {
     let inverse = f.try_inverse()?;
-    // Of a symmetric tensor's components, those of its pull-back: T c Tᵀ, off the diagonal two at a time.
+    // The 6×6 matrix T of the pull-back of a symmetric tensor, in which an off-diagonal component stands for two entries. The
+    // result is J T c Tᵀ.
     let mut t = [[0.0; 6]; 6];
     for (row, (a, b)) in t.iter_mut().zip(PAIRS) {
         for (entry, (i, j)) in row.iter_mut().zip(PAIRS) {

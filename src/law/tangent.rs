@@ -9,11 +9,13 @@
 //! H = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
 //! ```
 //!
-//! In space P is 1 − E, and products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e needs no more than
-//! e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs in H alone: ½ K P + ½ τ_el + ½ τ_ld stands there.
+//! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e
+//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in H (Y in `docs/theory.md`), which becomes
+//! ½ K P + ½ τ_el + ½ τ_ld.
 //!
-//! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b, each over the lengths of c, a and b, where c, a and b are
-//! orthogonal. No quotient 0/0 anywhere, and symmetric by construction: only the upper triangle is computed.
+//! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b', where c, a
+//! and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by construction: only the
+//! upper triangle is computed.
 
 use super::hyperelastic::{Hyperelastic, Kirchhoff};
 use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
@@ -23,22 +25,25 @@ use super::voigt::{
     Moduli, PAIRS, VOIGT, added, combination, multiple, paired_with_one, square, symmetric_product, upper_triangle,
 };
 
-/// Which derivative of which stress. Rows and columns of the 6×6 are 11 22 33 12 23 31, its columns engineering shears.
+/// Which tangent: the stress that is differentiated, and the strain or rate. Rows and columns of the 6×6 are 11 22 33 12 23 31,
+/// its columns engineering shears.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
-    /// dS/dE, 6×6: second Piola–Kirchhoff stress by Green–Lagrange strain, in reference axes.
+    /// dS/dE, 6×6: derivative of the second Piola–Kirchhoff stress with respect to the Green–Lagrange strain, in reference
+    /// axes.
     Material,
-    /// The Truesdell modulus of σ, 6×6: dS/dE pushed forward over J. LS-DYNA's `utan`.
+    /// The Truesdell modulus of σ, 6×6: dS/dE pushed forward and divided by J. LS-DYNA's `utan`.
     Truesdell,
-    /// The modulus of the Jaumann rate of τ over J, 6×6: Abaqus's DDSDDE.
+    /// The modulus of the Jaumann rate of τ, divided by J, 6×6: Abaqus's DDSDDE.
     #[default]
     Jaumann,
-    /// dP/dF, 9×9: first Piola–Kirchhoff stress by deformation gradient, both by columns 11 21 31 12 22 32 13 23 33.
+    /// dP/dF, 9×9: derivative of the first Piola–Kirchhoff stress with respect to the deformation gradient, both by columns 11
+    /// 21 31 12 22 32 13 23 33.
     Nominal,
 }
 
 impl Measure {
-    /// Rows and columns.
+    /// The number of rows, which is that of columns.
     pub const fn size(self) -> usize {
         match self {
             Measure::Nominal => 9,
@@ -46,13 +51,13 @@ impl Measure {
         }
     }
 
-    /// Entries of the full matrix.
+    /// The number of entries of the full matrix.
     pub const fn components(self) -> usize {
         self.size() * self.size()
     }
 }
 
-/// The factors of the modulus, all over the same number: J for a modulus of σ, 1 for one of τ or S.
+/// The factors of the modulus, all divided by J for a modulus of σ, by 1 for one of τ or S.
 struct Factors<R> {
     /// A = k_el (1 − 2 I_el) in tension, I_el = 0 included.
     elongation: R,
@@ -65,7 +70,7 @@ struct Factors<R> {
     curvature: R,
     /// Tension k_el⟨I_el⟩.
     tension: R,
-    /// κ = k_ld/λ² times J_t.
+    /// κ J_t with κ = k_ld/λ².
     shear: R,
 }
 
@@ -91,7 +96,7 @@ impl<R: Real> Shape<R> {
     }
 }
 
-/// What a modulus in space is made of; tensors as 11 22 33 12 23 31.
+/// The quantities from which spatial moduli are computed; tensors as 11 22 33 12 23 31.
 #[derive(Clone, Copy)]
 pub(crate) struct Bases<R> {
     shape: Shape<R>,
@@ -106,7 +111,7 @@ impl<R: Real> Bases<R> {
     #[inline(always)]
     pub(super) fn new(d: &Stretch<R>, section: &Section<R>, [c, a, b]: &[[R; 3]; 3]) -> Self {
         let shape = Shape::new(section);
-        // So e is exactly a coordinate axis where c is along one, but for a rounding of λ².
+        // With a division e is a coordinate axis, up to the rounding of λ², if c is along one.
         let inverse_lambda = R::splat(1.0) / d.square.sqrt();
         let fibre = scale(inverse_lambda, *c);
         let e = square(R::splat(1.0), fibre);
@@ -128,24 +133,27 @@ impl<R: Real> Bases<R> {
     }
 }
 
-/// P⊗(w P) + D⊗(W2 D) + E⊙G + 1⊙S, entry by entry.
+/// The terms of the spatial moduli, P⊗(w P) + D⊗(W2 D) + E⊙G + 1⊙S.
 struct Terms<'a, R> {
     bases: &'a Bases<R>,
-    /// 1 − E_rr, and w P_rr.
+    /// The diagonals of P and of w P.
     p: [R; 3],
     with_p: [R; 3],
-    /// −w E; P is −E off the diagonal.
+    /// −w E, which is w P off the diagonal.
     sheared: [R; 6],
+    /// W2 D.
     with_d: [R; 6],
     /// [`along_fibre`] of G.
     with_fibre: [[R; 6]; 3],
+    /// S.
     with_one: [R; 6],
 }
 
+/// An entry of the spatial moduli.
 #[inline(always)]
 fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
     let Bases { fibre, e, d, .. } = t.bases;
-    // A product of P's components, off the diagonal −E's.
+    // P⊗(w P); off the diagonal P is −E.
     let (factor, other) = if COLUMN < 3 {
         (t.with_p[ROW], t.p[COLUMN])
     } else if ROW < 3 {
@@ -162,13 +170,14 @@ fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// The factors of the modulus, each multiplied by `over`: 1/J for a modulus of σ, 1 for one of τ or S.
     #[inline(always)]
     fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = self.compaction_slopes(strain, k);
-        // D⊗D W2 = (D/s)⊗(D/s)(k_td/4)(1 − x a/s): the bracket has an error of some roundings of 1 and D/s is a direction, so
-        // that no series is needed near s = 0, only something to divide by. Where s² is below a rounding of 1, so is the
-        // term beside W1.
+        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x a/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
+        // series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this term is below a
+        // rounding of that with W1.
         let square = (shape.s * shape.s).max(R::splat(R::EPSILON));
         // a/s and x a/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
@@ -200,8 +209,8 @@ impl<R: Real> Hyperelastic<R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, kinematics.strain, k, over);
-        // H = h_p P − h_d D, G − H = g_p P + g_d D. No term is a difference of larger ones: a slack fibre has no stiffness but
-        // for roundings of the others.
+        // H = h_p P − h_d D, G − H = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
+        // fibre is 0 but for roundings of the other terms.
         let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
         let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
         let g_d = f.shear + h_d - f.distortion;
@@ -246,7 +255,7 @@ impl<R: Real> Hyperelastic<R> {
         Moduli(upper_triangle!(entry(&terms)))
     }
 
-    /// dS/dE in reference axes, `n` the fibre's; `along_coordinates` says that they are the coordinate axes.
+    /// dS/dE in reference axes. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes.
     #[inline(always)]
     fn material_tangent(
         &self,
@@ -261,7 +270,8 @@ impl<R: Real> Hyperelastic<R> {
         if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
     }
 
-    /// The tangent of a 6×6 measure; [`Measure::Nominal`] has nine columns and [`nominal_tangent`](Self::nominal_tangent).
+    /// The tangent of a 6×6 measure, dS/dE for [`Measure::Nominal`], whose 9×9 tangent is
+    /// [`nominal_tangent`](Self::nominal_tangent).
     #[inline(always)]
     pub(crate) fn moduli(
         &self,
@@ -283,8 +293,8 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus of σ, given
-    /// σ as well.
+    /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of σ.
+    /// `stress` is σ.
     #[inline(always)]
     pub(crate) fn nominal_tangent(
         &self,
@@ -297,11 +307,11 @@ impl<R: Real> Hyperelastic<R> {
         let Kinematics { stretch, section, images, .. } = kinematics;
         let bases = Bases::new(stretch, section, &images);
         let c = self.spatial_tangent(kinematics, &bases, k, Measure::Truesdell, shear).matrix();
-        // F⁻¹ takes c to m, a to α and b to β: its rows, from the vectors dual to these.
+        // F⁻¹ takes c to m, a to α and b' to β, so that its rows follow from these and the dual vectors of c, a and b'.
         let basis = Orthogonal::new(kinematics);
         let [m, alpha, beta] = basis.pulled_back(n);
         let [c1, a, _] = images;
-        // The third one is b' over its square, which c × a gives without a cancellation.
+        // The third dual vector, b'/(b'·b'), is c × a over J, which involves no cancellation.
         let duals =
             [scale(stretch.inverse_square, c1), scale(basis.over_a, a), scale(stretch.inverse_jacobian, cross(c1, a))];
         let inverse = [
@@ -321,7 +331,7 @@ impl<R: Real> Hyperelastic<R> {
                 let rows = [row(0), row(1), row(2)];
                 for (big_l, last) in inverse.iter().enumerate() {
                     let half = scale(stretch.jacobian, [dot(rows[0], *last), dot(rows[1], *last), dot(rows[2], *last)]);
-                    // With i = k the block is symmetric of itself.
+                    // For i = k the 3×3 block is symmetric, and half of it is computed.
                     for (big_j, first) in inverse.iter().enumerate().take(if i == k { big_l + 1 } else { 3 }) {
                         let entry = dot(*first, half);
                         a[(i + 3 * big_j) + 9 * (k + 3 * big_l)] = entry;
@@ -334,9 +344,9 @@ impl<R: Real> Hyperelastic<R> {
     }
 }
 
-/// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a of the axes' images, and what F⁻¹ makes of it.
+/// The orthogonal basis c, a and b' = b − (a·b)/(a·a) a made of the images of the axes, and its pull-back F⁻¹c, F⁻¹a, F⁻¹b'.
 struct Orthogonal<R> {
-    /// (a·b)/(a·a), the parts of the other two images along the fibre's, 1/(a·a) and 1/(b'·b').
+    /// (a·b)/(a·a); h2/λ² and h3/λ²; 1/(a·a); 1/(b'·b').
     shift: R,
     slip: [R; 2],
     over_a: R,
@@ -357,7 +367,7 @@ impl<R: Real> Orthogonal<R> {
         }
     }
 
-    /// F⁻¹ of the basis.
+    /// m = F⁻¹c, α = F⁻¹a and β = F⁻¹b'.
     #[inline(always)]
     fn pulled_back(&self, n: &FibreFrame<R>) -> [[R; 3]; 3] {
         let alpha = along(n.t1, -self.slip[0], n.m);
@@ -366,7 +376,7 @@ impl<R: Real> Orthogonal<R> {
     }
 }
 
-/// The components of dS/dE on F⁻¹ of the orthogonal basis, 1 for the fibre: those that are not 0.
+/// The nonzero components of dS/dE in the basis m, α, β that [`Orthogonal::pulled_back`] gives; index 1 is the fibre.
 struct FibreComponents<R> {
     basis: Orthogonal<R>,
     c_1111: R,
@@ -427,49 +437,52 @@ impl<R: Real> FibreComponents<R> {
         }
     }
 
-    /// In the axes of the fibre, m, t1 and t2, to which F⁻¹a = t1 − y m and F⁻¹b' = t2 − z m − u F⁻¹a are near.
+    /// The moduli in the axes of the fibre, m, t1 and t2, by two shears of the basis: F⁻¹a = t1 − y m,
+    /// F⁻¹b' = t2 − z m − u F⁻¹a.
     #[inline(always)]
     fn in_fibre_axes(&self, shear: bool) -> Moduli<R> {
         let zero = R::splat(0.0);
         let Orthogonal { shift, slip, .. } = self.basis;
         let [y, z] = slip;
-        // On F⁻¹b for F⁻¹b': columns, then rows.
+        // From the basis with F⁻¹b' to the one with F⁻¹b = t2 − z m: the columns, then the rows.
         let [c_2222, c_2233, c_2223, c_3333, c_3323, c_2323] = self.across;
         let (r22, r33, r23) = (
-            turn([c_2222, c_2233, c_2223], shift),
-            turn([c_2233, c_3333, c_3323], shift),
-            turn([c_2223, c_3323, c_2323], shift),
+            apply_shift([c_2222, c_2233, c_2223], shift),
+            apply_shift([c_2233, c_3333, c_3323], shift),
+            apply_shift([c_2223, c_3323, c_2323], shift),
         );
-        let [c_2222, _, _] = turn([r22[0], r33[0], r23[0]], shift);
-        let [c_2233, c_3333, c_3323] = turn([r22[1], r33[1], r23[1]], shift);
-        let [c_2223, _, c_2323] = turn([r22[2], r33[2], r23[2]], shift);
+        let [c_2222, _, _] = apply_shift([r22[0], r33[0], r23[0]], shift);
+        let [c_2233, c_3333, c_3323] = apply_shift([r22[1], r33[1], r23[1]], shift);
+        let [c_2223, _, c_2323] = apply_shift([r22[2], r33[2], r23[2]], shift);
         let [c_1212, c_3131, c_1231] = self.along;
-        let turned = less(shift, c_3131, c_1231);
-        let (c_1212, c_1231) = (less(shift, c_1231 + turned, c_1212), turned);
-        // Columns on m, t1 and t2.
-        let (c_2211, c_2212, c_2231) = lean([c_2222, c_2233, c_2223], slip);
-        let (c_3311, c_3312, c_3331) = lean([c_2233, c_3333, c_3323], slip);
-        let (c_2311, c_2312, c_2331) = lean([c_2223, c_3323, c_2323], slip);
+        let shifted = fnmadd(shift, c_3131, c_1231);
+        let (c_1212, c_1231) = (fnmadd(shift, c_1231 + shifted, c_1212), shifted);
+        // The rows 22, 33 and 23: their columns 11, 12 and 31 in m, t1 and t2.
+        let (c_2211, c_2212, c_2231) = apply_slip([c_2222, c_2233, c_2223], slip);
+        let (c_3311, c_3312, c_3331) = apply_slip([c_2233, c_3333, c_3323], slip);
+        let (c_2311, c_2312, c_2331) = apply_slip([c_2223, c_3323, c_2323], slip);
         let (mut from_12, mut from_31, mut c_1111) = (zero, zero, self.c_1111);
         if shear {
             let [c_1112, c_1131] = self.slip;
-            (from_12, from_31) = (less(shift, c_1131, c_1112), c_1131);
-            c_1111 = less(y + y, from_12, less(z + z, from_31, c_1111));
+            (from_12, from_31) = (fnmadd(shift, c_1131, c_1112), c_1131);
+            c_1111 = fnmadd(y + y, from_12, fnmadd(z + z, from_31, c_1111));
         }
-        let from_12 = less(y + y, c_1212, less(z + z, c_1231, from_12));
-        let from_31 = less(y + y, c_1231, less(z + z, c_3131, from_31));
-        // Columns 12, 31 and 11 of the rows 12, 31 and 11.
-        let (n_1212, n_1231) = (less(y, c_2212, less(z, c_2312, c_1212)), less(y, c_2231, less(z, c_2331, c_1231)));
-        let n_3131 = less(y, c_2331, less(z, c_3331, c_3131));
-        let (n_1112, n_1131) = (less(y, c_2211, less(z, c_2311, from_12)), less(y, c_2311, less(z, c_3311, from_31)));
-        let n_1111 = less(y, from_12 + n_1112, less(z, from_31 + n_1131, c_1111));
+        let from_12 = fnmadd(y + y, c_1212, fnmadd(z + z, c_1231, from_12));
+        let from_31 = fnmadd(y + y, c_1231, fnmadd(z + z, c_3131, from_31));
+        // The rows 12, 31 and 11: their columns 12, 31 and 11 in m, t1 and t2.
+        let (n_1212, n_1231) =
+            (fnmadd(y, c_2212, fnmadd(z, c_2312, c_1212)), fnmadd(y, c_2231, fnmadd(z, c_2331, c_1231)));
+        let n_3131 = fnmadd(y, c_2331, fnmadd(z, c_3331, c_3131));
+        let (n_1112, n_1131) =
+            (fnmadd(y, c_2211, fnmadd(z, c_2311, from_12)), fnmadd(y, c_2311, fnmadd(z, c_3311, from_31)));
+        let n_1111 = fnmadd(y, from_12 + n_1112, fnmadd(z, from_31 + n_1131, c_1111));
         Moduli([
             n_1111, c_2211, c_3311, n_1112, c_2311, n_1131, c_2222, c_2233, c_2212, c_2223, c_2231, c_3333, c_3312,
             c_3323, c_3331, n_1212, c_2312, n_1231, c_2323, c_2331, n_3131,
         ])
     }
 
-    /// In the axes that the fibre's are given in: the sum of dyads of F⁻¹a and F⁻¹b', and a product of m⊗m.
+    /// The moduli in the reference axes: dyads of tensors made of F⁻¹a and F⁻¹b', and a product ⊙ of m⊗m.
     #[inline(always)]
     fn in_reference_axes(&self, n: &FibreFrame<R>, shear: bool) -> Moduli<R> {
         let one = R::splat(1.0);
@@ -481,7 +494,7 @@ impl<R: Real> FibreComponents<R> {
         let mut with_fibre =
             added(&sum([c_1212, c_3131, c_1231], &dyads), R::splat(0.25) * self.c_1111, &square(one, m));
         if shear {
-            // c_1112 is twice the component of what m⊗m is multiplied with.
+            // c_1112 is twice the component 12 of the tensor that m⊗m is multiplied with.
             let half = R::splat(0.5);
             let across = along(scale(half * self.slip[0], alpha), half * self.slip[1], beta);
             with_fibre = added(&with_fibre, one, &symmetric_product(R::splat(2.0), m, across));
@@ -504,23 +517,24 @@ fn sum<R: Real>([x, y, z]: [R; 3], [a, b, c]: &[[R; 6]; 3]) -> [R; 6] {
 
 /// t − s x.
 #[inline(always)]
-fn less<R: Real>(s: R, x: R, t: R) -> R {
+fn fnmadd<R: Real>(s: R, x: R, t: R) -> R {
     (-s).mul_add(x, t)
 }
 
-/// Components 22, 33, 23 on the vectors α and β of those on α and β − u α.
+/// The components 22, 33, 23 of a tensor in the basis α, β, from those in the basis α, β − u α.
 #[inline(always)]
-fn turn<R: Real>([c22, c33, c23]: [R; 3], u: R) -> [R; 3] {
-    let turned = less(u, c33, c23);
-    [less(u, c23 + turned, c22), c33, turned]
+fn apply_shift<R: Real>([c22, c33, c23]: [R; 3], u: R) -> [R; 3] {
+    let shifted = fnmadd(u, c33, c23);
+    [fnmadd(u, c23 + shifted, c22), c33, shifted]
 }
 
-/// Components 11, 12, 31 on m, α and β of a tensor that has 22, 33, 23 on m, α − y m and β − z m, and no others there.
+/// The components 11, 12, 31 in the basis m, α, β of a tensor whose only components in the basis m, α − y m, β − z m are 22, 33
+/// and 23.
 #[inline(always)]
-fn lean<R: Real>([c22, c33, c23]: [R; 3], [y, z]: [R; 2]) -> (R, R, R) {
+fn apply_slip<R: Real>([c22, c33, c23]: [R; 3], [y, z]: [R; 2]) -> (R, R, R) {
     let zero = R::splat(0.0);
-    let (c12, c31) = (less(y, c22, less(z, c23, zero)), less(y, c23, less(z, c33, zero)));
-    (less(y, c12, less(z, c31, zero)), c12, c31)
+    let (c12, c31) = (fnmadd(y, c22, fnmadd(z, c23, zero)), fnmadd(y, c23, fnmadd(z, c33, zero)));
+    (fnmadd(y, c12, fnmadd(z, c31, zero)), c12, c31)
 }
 
 /// An entry of A⊗A' + B⊗B' + C⊗C' + (m⊗m)⊙G.
@@ -535,7 +549,7 @@ fn material_entry<R: Real, const ROW: usize, const COLUMN: usize>(
     paired_along::<R, ROW, COLUMN>(m, along, sum)
 }
 
-/// `rest` and an entry of (m⊗m)⊙G, given [`along_fibre`] of G.
+/// `rest` plus an entry of (m⊗m)⊙G; `along` is [`along_fibre`] of G.
 #[inline(always)]
 fn paired_along<R: Real, const ROW: usize, const COLUMN: usize>(m: [R; 3], along: &[[R; 6]; 3], rest: R) -> R {
     let (i, j) = PAIRS[ROW];
@@ -551,7 +565,7 @@ fn along_fibre<R: Real>(m: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
     [along_row(m, [g[0], g[3], g[5]]), along_row(m, [g[3], g[1], g[4]]), along_row(m, [g[5], g[4], g[2]])]
 }
 
-/// Likewise for one row of G.
+/// m_k G_jl + m_l G_jk for the pairs kl and one j, given row j of G.
 #[inline(always)]
 fn along_row<R: Real>([x, y, z]: [R; 3], [a, b, c]: [R; 3]) -> [R; 6] {
     [(x + x) * a, (y + y) * b, (z + z) * c, x.mul_add(b, y * a), y.mul_add(c, z * b), z.mul_add(a, x * c)]
@@ -565,17 +579,19 @@ fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] 
     symmetric_product(R::splat(2.0), e, across)
 }
 
+/// a + b.
 #[inline(always)]
 fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// Whether an entry of a tangent may leave the range of R at a point whose strains are within it.
+/// Whether an entry of a tangent may overflow in `R` at a point whose strains are valid.
 ///
-/// In double precision none in space does without a longitudinal-shear stiffness. With the bounds of the properties (10²⁵, p ≤ 40)
-/// and of a point's strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is the pressure's,
-/// 20 · 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and what it is multiplied with is no larger than 1; those of D carry 1/s for each D. No
-/// factor is a product of 0 and infinity: where the compaction is so small that its reciprocal is large, its curvature is held.
+/// In double precision those of the spatial moduli do not if k_ld is 0. With the bounds of the properties (10²⁵, p ≤ 40) and of
+/// the strains (λ², 1/J below 10¹⁰⁰, |I_tc| ≤ 173, x and s below 10⁵⁰) the largest factor is that of the pressure, 20 ·
+/// 10²⁵ · 173³⁹ · 10¹⁰⁰ < 10²¹⁴, and the entries of the tensors that it multiplies are at most 1; the factors of D contain 1/s for
+/// each D. No factor is a product of 0 and infinity: where the reciprocal of the compaction would be large, the curvature is
+/// limited.
 #[inline(always)]
 pub(crate) fn may_overflow<R: Real>(measure: Measure, shear: bool) -> bool {
     shear || !R::HEADROOM || !matches!(measure, Measure::Truesdell | Measure::Jaumann)

@@ -2,8 +2,9 @@
 
 use super::number::real::Real;
 
-/// The indices of the six components 11 22 33 12 23 31, and the component of two indices.
+/// The two tensor indices of each of the six components 11 22 33 12 23 31.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+/// The component of two tensor indices: the inverse of [`PAIRS`].
 pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// s a⊗a, 11 22 33 12 23 31.
@@ -70,7 +71,7 @@ pub(super) fn added<R: Real>(x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
 pub struct Moduli<R>(pub [R; 21]);
 
 impl<R: Copy> Moduli<R> {
-    /// Where an entry stands in the upper triangle.
+    /// The index of an entry within the upper triangle.
     pub const fn place(row: usize, column: usize) -> usize {
         let (a, b) = if row < column { (row, column) } else { (column, row) };
         a * (11 - a) / 2 + b
@@ -98,7 +99,8 @@ impl<R> AsMut<[R]> for Moduli<R> {
     }
 }
 
-/// Calls an entry's function for the upper triangle, row by row, with the places known to the compiler.
+/// Calls `entry::<_, ROW, COLUMN>` for each entry of the upper triangle, row by row, so that the compiler knows its row and
+/// column.
 macro_rules! upper_triangle {
     ($entry:ident($($argument:expr),*)) => {
         [
@@ -115,7 +117,7 @@ macro_rules! upper_triangle {
 
 pub(super) use upper_triangle;
 
-/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, where there is one.
+/// An entry of 1⊙B with A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik; `None` for an entry that is 0 whatever B is.
 #[inline(always)]
 pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b: &[R; 6]) -> Option<R> {
     let ((i, j), (k, l)) = (PAIRS[ROW], PAIRS[COLUMN]);
@@ -123,10 +125,10 @@ pub(super) fn paired_with_one<R: Real, const ROW: usize, const COLUMN: usize>(b:
         return Some(if ROW < 3 { R::splat(4.0) * b[ROW] } else { b[VOIGT[i][i]] + b[VOIGT[j][j]] });
     }
     if ROW < 3 {
-        // i = j: an index of the column's is the row's, or none is.
+        // i = j: the entry is 0 unless i is one of the two indices of the column.
         return if COLUMN >= 3 && (k == i || l == i) { Some(b[COLUMN] + b[COLUMN]) } else { None };
     }
-    // Two different pairs of different indices share one; the others remain.
+    // Two different pairs of unequal indices have one index in common; the entry is the component of the other two.
     Some(
         b[if i == k {
             VOIGT[j][l]

@@ -1,4 +1,4 @@
-//! What an explicit solver's time step needs: a bound of the wave speed.
+//! An upper bound of the wave speed, for the time step of an explicit solver.
 //!
 //! For a direction n and a polarisation u the acoustic tensor times the reference density is
 //! u·ρ0 Q(n)u = c:(n⊗u)(n⊗u) + n·τn, with c the Truesdell modulus and τ the Kirchhoff stress. With y = (e·n)(e·u), mode
@@ -9,21 +9,21 @@
 //! - distortion:       ≤ ¼ k_td ((a/s) eᵃ + a)(1 − y²), a = 2 I_td, s = sinh a;
 //! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t eᵃ (1 − y²) + 4 |P b e|).
 //!
-//! The sum is linear in y² but for the last term, so that its maximum stands at y = 0 or y = 1:
+//! The sum is linear in y², so that its maximum is at y² = 0 or y² = 1:
 //!
 //! ρ0 c² ≤ max(k_el, k_el ⟨I_el⟩ + R) + L, where R gathers the factors of 1 − y² and L is the shear's last term.
 //!
-//! At rest, and along a stretched fibre, that is √(k_el/ρ0): slack or not, tension may come back within a step.
+//! At rest and along a stretched fibre c is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within a step.
 
 use super::error::Error;
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Strain};
 use super::number::real::Real;
 
-/// A reference density that a wave speed can be computed with.
+/// Checks a reference density that a wave speed is to be computed with.
 ///
 /// # Errors
-/// A density that is not a positive, normal, finite number.
+/// The density is not a positive, normal, finite number.
 pub fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
     let density = density.into();
     if density >= T::MIN_POSITIVE && density < f64::INFINITY {
@@ -32,7 +32,7 @@ pub fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
     Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0, not subnormal" })
 }
 
-/// √(modulus/density), in range for every modulus and density that are.
+/// √(modulus/density), as a quotient of roots: it does not overflow if modulus and density are normal numbers.
 #[inline(always)]
 pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
     modulus.sqrt() / density.sqrt()
@@ -50,7 +50,7 @@ impl<R: Real> Hyperelastic<R> {
         let grown = d.s + d.cosh; // eᵃ
         let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
-        // The stiffness stays out of the squares, which would leave the range.
+        // The stiffness is multiplied last: its square might overflow.
         let [on_q1, on_q2] = shear_components(d, R::splat(1.0));
         let coupling = R::splat(4.0) * k.shear * on_q1.mul_add(on_q1, on_q2 * on_q2).sqrt();
 

@@ -1,4 +1,4 @@
-//! The library about itself.
+//! The version of the library, and messages of status codes.
 
 use libc::{c_char, size_t};
 
@@ -19,10 +19,10 @@ pub extern "C" fn abi_version() -> i32 {
     TORON_ABI_VERSION
 }
 
-/// `toron_status_message` of the C interface, which says what its arguments are.
+/// `toron_status_message` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn status_message(status: i32, buffer: *mut c_char, capacity: size_t) -> size_t {
     // SAFETY: the caller's promise.

@@ -113,20 +113,20 @@ unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Blo
     }
 }
 
-/// `toron_hyperelastic_block_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_block_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_f64(values: *const f64, count: size_t, block: *const Block<f64>) -> i32 {
     // SAFETY: the caller's promise.
     entry(move || unsafe { self::block(values, count, block) })
 }
 
-/// `toron_hyperelastic_block_f32` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_block_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_f32(values: *const f32, count: size_t, block: *const Block<f32>) -> i32 {
     // SAFETY: the caller's promise.

@@ -1,4 +1,4 @@
-//! The numbers that a caller passes by name.
+//! The constants of the C interface that a caller passes by name.
 
 use crate::law::{parameters, state};
 

@@ -19,7 +19,7 @@ use super::tangents;
 use crate::host::border::write_text;
 use crate::host::border::{entry, properties, store};
 
-/// An array of a fixed size, or zeros for null.
+/// The array at `from`, or zeros if that is null.
 ///
 /// # Safety
 /// `from` is null or points to N values.
@@ -71,10 +71,10 @@ unsafe fn store_linear(point: &LinearPoint, state_new: *mut f64, stress: *mut f6
     point.status
 }
 
-/// `toron_linear_elastic_validate_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_validate_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_validate_f64(
     values: *const f64,
@@ -95,10 +95,10 @@ pub unsafe extern "C" fn linear_elastic_validate_f64(
     })
 }
 
-/// `toron_linear_elastic_axes_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_axes_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_axes_f64(values: *const f64, count: size_t, axes: *mut f64) -> i32 {
     if axes.is_null() {
@@ -163,10 +163,10 @@ unsafe fn linear_step(
     }
 }
 
-/// `toron_linear_elastic_step_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_step_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_step_f64(
@@ -187,10 +187,10 @@ pub unsafe extern "C" fn linear_elastic_step_f64(
     })
 }
 
-/// `toron_linear_elastic_step_tangent_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_step_tangent_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_step_tangent_f64(
@@ -214,10 +214,10 @@ pub unsafe extern "C" fn linear_elastic_step_tangent_f64(
     })
 }
 
-/// `toron_linear_elastic_increment_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_increment_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_increment_f64(
@@ -305,10 +305,10 @@ unsafe fn linear_block<T: Precision>(
     }
 }
 
-/// `toron_linear_elastic_block_f64` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_block_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_block_f64(
     values: *const f64,
@@ -321,10 +321,10 @@ pub unsafe extern "C" fn linear_elastic_block_f64(
     entry(move || unsafe { linear_block(values, count, block, rotation, criterion) })
 }
 
-/// `toron_linear_elastic_block_f32` of the C interface, which says what its arguments are.
+/// `toron_linear_elastic_block_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_block_f32(
     values: *const f32,

@@ -1,12 +1,12 @@
-//! The C interface of the laws themselves, for drivers and solvers of any language. Package `c` exports these functions under
-//! their C names and says what each of them wants.
+//! The C interface of the laws themselves, for drivers and solvers of any language. Package `toron-c` exports these functions
+//! under their C names and documents their arguments.
 //!
 //! | convention | |
 //! |---|---|
 //! | deformation gradient | 9 values by columns: F11 F21 F31 F12 F22 F32 F13 F23 F33 |
 //! | stress | Cauchy, 11 22 33 12 23 31 |
 //! | energies | per reference volume |
-//! | status | 0 is success, negative an error; outputs are untouched where the call itself is wrong (−1xx, −2xx) |
+//! | status | 0 is success, negative an error; outputs are untouched if the call itself is wrong (−1xx, −2xx) |
 //! | arrays | the caller's; read and written during the call only, never kept |
 //!
 //! Every function may be called from any thread at any time.

@@ -1,4 +1,4 @@
-//! The hyperelastic law's properties and one point of it.
+//! The hyperelastic law: its properties, and one point.
 
 use core::cell::Cell;
 
@@ -44,10 +44,10 @@ unsafe fn validate<T: Real + Into<f64>>(
     }
 }
 
-/// `toron_hyperelastic_validate_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_validate_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_validate_f64(
     values: *const f64,
@@ -60,10 +60,10 @@ pub unsafe extern "C" fn hyperelastic_validate_f64(
     in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
 }
 
-/// `toron_hyperelastic_validate_f32` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_validate_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_validate_f32(
     values: *const f32,
@@ -76,8 +76,8 @@ pub unsafe extern "C" fn hyperelastic_validate_f32(
     in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
 }
 
-/// What one call about one point gets beside its properties: F by columns, the fibre direction if it is not the properties', and
-/// the old state, whose place the new one may take.
+/// The arguments of a call for one point besides its properties: F by columns, the fibre direction unless it is that of the
+/// properties, and the old state, which the new one may overwrite.
 pub(super) struct PointArguments<'a, T> {
     pub f: &'a [[T; 3]; 3],
     pub fibre: Option<[T; 3]>,
@@ -85,10 +85,10 @@ pub(super) struct PointArguments<'a, T> {
 }
 
 impl<'a, T: Real> PointArguments<'a, T> {
-    /// With `fresh` in place of an old state that is null.
+    /// From the caller's pointers, with `fresh` in place of an old state that is null.
     ///
     /// # Safety
-    /// Every pointer is null or has as many values: 9, 3, 11.
+    /// The pointers are null or point to 9, 3 and 11 values.
     #[inline(always)]
     pub unsafe fn new(
         deformation_gradient: *const T,
@@ -105,7 +105,8 @@ impl<'a, T: Real> PointArguments<'a, T> {
     }
 }
 
-/// Where the answer for one point goes: the caller's arrays. Null is left out.
+/// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that `tangent`
+/// must not be null if there is a tangent.
 pub(in crate::host) struct PointAnswer<'a, T> {
     pub stress: *mut T,
     pub state: *mut T,
@@ -120,7 +121,7 @@ impl<T: Real> PointAnswer<'_, T> {
     #[inline(always)]
     fn put(self, point: &Point<T>) {
         *self.status = point.status;
-        // SAFETY: whoever makes the answer has arrays of these sizes, or null.
+        // SAFETY: the function that makes this has arrays of these sizes, or null.
         unsafe {
             store(&point.state, self.state);
             store(&point.stress, self.stress);
@@ -144,7 +145,7 @@ impl<T: Real> Sink<T, 0> for PointAnswer<'_, T> {
 impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
     #[inline(always)]
     fn take(self, point: Point<T>, moduli: [T; 21]) {
-        // SAFETY: whoever makes the answer has room for the matrix.
+        // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = Moduli(moduli).matrix() };
         self.put(&point);
     }
@@ -153,13 +154,13 @@ impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
 impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
     #[inline(always)]
     fn take(self, point: Point<T>, nominal: [T; 81]) {
-        // SAFETY: whoever makes the answer has room for the matrix.
+        // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = nominal };
         self.put(&point);
     }
 }
 
-/// The law between a caller's arrays.
+/// Evaluates the law at one point, from and to a caller's arrays.
 ///
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
@@ -215,10 +216,10 @@ unsafe fn point<T: Precision>(
     Ok(status)
 }
 
-/// `toron_hyperelastic_point_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_point_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_f64(
@@ -239,10 +240,10 @@ pub unsafe extern "C" fn hyperelastic_point_f64(
     })
 }
 
-/// `toron_hyperelastic_point_f32` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_point_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_f32(

@@ -36,6 +36,7 @@ pub struct TableRow {
     pub meaning: [c_char; 96],
 }
 
+/// A text as a null-terminated array, cut off if it is too long.
 fn text<const N: usize>(text: &str) -> [c_char; N] {
     let mut array = [0; N];
     // The last element stays 0, the terminator.
@@ -101,7 +102,7 @@ fn state_table(law: i32) -> Option<&'static [StateVariable]> {
     }
 }
 
-/// The row of an index, for either table.
+/// Writes the row of an index, for either table.
 ///
 /// # Safety
 /// `row` is null or writable.
@@ -120,6 +121,7 @@ where
     status::OK
 }
 
+/// A count or an index, or the status code of an unknown law or name.
 fn count_or(count: Option<usize>) -> i32 {
     count.map_or(status::UNKNOWN_NAME, |count| count as i32)
 }
@@ -130,20 +132,20 @@ pub extern "C" fn property_count(law: i32) -> i32 {
     count_or(property_table(law).map(<[_]>::len))
 }
 
-/// `toron_property` of the C interface, which says what its arguments are.
+/// `toron_property` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn property(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { write_row(property_table(law), index, row) }
 }
 
-/// `toron_property_index` of the C interface, which says what its arguments are.
+/// `toron_property_index` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn property_index(law: i32, property: *const c_char) -> i32 {
     // SAFETY: the caller's promise.
@@ -157,20 +159,20 @@ pub extern "C" fn state_count(law: i32) -> i32 {
     count_or(state_table(law).map(<[_]>::len))
 }
 
-/// `toron_state_variable` of the C interface, which says what its arguments are.
+/// `toron_state_variable` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn state_variable(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { write_row(state_table(law), index, row) }
 }
 
-/// `toron_state_index` of the C interface, which says what its arguments are.
+/// `toron_state_index` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char) -> i32 {
     // SAFETY: the caller's promise.
@@ -178,10 +180,10 @@ pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char) -> i32 {
     count_or(state_table(law).and_then(|table| table.iter().position(|row| Some(row.name) == wanted)))
 }
 
-/// `toron_preset_f64` of the C interface, which says what its arguments are.
+/// `toron_preset_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn preset_f64(
     preset: *const c_char,
@@ -224,10 +226,10 @@ unsafe fn preset(
     status::OK
 }
 
-/// `toron_preset_f32` of the C interface, which says what its arguments are.
+/// `toron_preset_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn preset_f32(
     preset: *const c_char,

@@ -79,10 +79,10 @@ unsafe fn point_tangent<T: Precision>(
     Ok(status)
 }
 
-/// `toron_hyperelastic_point_tangent_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_point_tangent_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_tangent_f64(
@@ -102,10 +102,10 @@ pub unsafe extern "C" fn hyperelastic_point_tangent_f64(
     })
 }
 
-/// `toron_hyperelastic_point_tangent_f32` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_point_tangent_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[allow(clippy::too_many_arguments)]
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_point_tangent_f32(
@@ -125,10 +125,10 @@ pub unsafe extern "C" fn hyperelastic_point_tangent_f32(
     })
 }
 
-/// `toron_hyperelastic_least_acoustic_eigenvalue_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_least_acoustic_eigenvalue_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
     values: *const f64,
@@ -175,10 +175,10 @@ unsafe fn block_tangent<T: Precision>(
     }
 }
 
-/// `toron_hyperelastic_block_tangent_f64` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_block_tangent_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_tangent_f64(
     values: *const f64,
@@ -191,10 +191,10 @@ pub unsafe extern "C" fn hyperelastic_block_tangent_f64(
     entry(move || unsafe { block_tangent(values, count, block, measure, tangent) })
 }
 
-/// `toron_hyperelastic_block_tangent_f32` of the C interface, which says what its arguments are.
+/// `toron_hyperelastic_block_tangent_f32` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As said there.
+/// As documented there.
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_block_tangent_f32(
     values: *const f32,

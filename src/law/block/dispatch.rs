@@ -1,4 +1,4 @@
-//! From a block to kernels: the widest registers first, and for the points left over narrower ones.
+//! The choice of kernels for a block: the widest registers first, then narrower ones for the remaining points.
 
 use core::ops::Range;
 
@@ -33,7 +33,7 @@ pub trait Precision: Registers {
     #[doc(hidden)]
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
 
-    /// The hyperelastic law of these properties at the points of a block one by one; no tangent.
+    /// Evaluates the hyperelastic law with these properties at the points of a block, one by one, without a tangent.
     ///
     /// # Errors
     /// The first property that is wrong; nothing is written.
@@ -52,7 +52,8 @@ pub trait Precision: Registers {
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<Self>, block: &LinearPointers<Self>) -> i32;
 }
 
-// Of their own and not generic, so that the kernels are compiled into this crate and not into those that use it.
+// An impl for each type and not a generic one, so that the kernels are compiled in this crate and not in the crates that use
+// it.
 impl Precision for f64 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Pointers<f64>, request: Request) -> i32 {
         // SAFETY: the caller's promise.
@@ -89,12 +90,12 @@ impl Precision for f32 {
     }
 }
 
-/// How many points a register holds.
+/// The number of points that a register holds.
 fn lanes<T: Registers, I: Instructions>() -> usize {
     <I::Lanes<T> as Lanes<T>>::COUNT
 }
 
-/// The points of a block that fill whole registers, from `first` on.
+/// The points from `first` on that fill whole registers, for a block of `n` points.
 fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> {
     first..n - (n - first) % lanes::<T, I>()
 }
@@ -128,7 +129,7 @@ unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Po
     }
 }
 
-/// Runs the kernel that is built for exactly what hosts usually ask for, or the one that looks up what the block asks for.
+/// Runs a kernel that is compiled for one of the usual requests, or else the general kernel.
 ///
 /// # Safety
 /// As for [`Precision::dispatch`], for points of the block that fill whole registers.
@@ -164,7 +165,7 @@ unsafe fn run<T: Registers, I: Instructions>(
     }
 }
 
-/// Runs the kernel that looks up what the block asks for.
+/// Runs the general kernel, which looks up at run time what the block requests.
 ///
 /// # Safety
 /// As for [`run`].
@@ -177,7 +178,7 @@ unsafe fn run_any<T: Registers, I: Instructions>(
     if points.is_empty() {
         return status::OK;
     }
-    // Beside the tangent the products with the frame that an aligned fibre saves weigh little.
+    // Compared with the tangent, the products with the frame that an aligned fibre saves take little time.
     let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
     // SAFETY: the caller's promise.
     unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block, points) } else { I::run::<T, ANY>(law, block, points) } }

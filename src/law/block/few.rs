@@ -1,5 +1,5 @@
-//! A block of a few points, with the properties: evaluated one by one, which takes less time than to prepare the law and to fill a
-//! register.
+//! Blocks of a few points whose properties come with the call: the points are evaluated one by one, which takes less time than
+//! preparing the law and filling a register.
 
 use super::pointers::Pointers;
 use crate::law::derivative::{Derivative, NoTangent, StressAndState};
@@ -12,11 +12,11 @@ use crate::law::state::{self, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::wave_speed;
 
-/// Up to so many points are a few.
+/// Blocks of up to this number of points are evaluated one by one.
 pub(super) const FEW: usize = 3;
 
-/// The law of these properties at every point of a block, one by one, in the operations of the lanes: a point's result does not
-/// depend on how many there are. Returns the worst status.
+/// Evaluates the law with these properties at every point of a block, one by one, by the same operations as in lanes: the
+/// results at a point do not depend on how many points there are. Returns the worst status.
 ///
 /// # Errors
 /// The first property that is wrong; nothing is written.
@@ -66,7 +66,7 @@ impl<T: Scalar> Pointers<T> {
     /// The columns of F at a point.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`], with i < n; so for the others.
+    /// As for [`Hyperelastic::raw_block`], with i < n.
     #[inline(always)]
     unsafe fn columns(&self, i: usize) -> [[T; 3]; 3] {
         // SAFETY: the caller's promise.
@@ -74,7 +74,10 @@ impl<T: Scalar> Pointers<T> {
         [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
     }
 
-    /// Its fibre direction, if it has one of its own.
+    /// The fibre direction of a point; `None` for that of the properties.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`], with i < n.
     #[inline(always)]
     unsafe fn direction(&self, i: usize) -> Option<[T; 3]> {
         let [m_1, m_2, m_3] = self.fibre;
@@ -82,7 +85,11 @@ impl<T: Scalar> Pointers<T> {
         if m_1.is_null() { None } else { Some(unsafe { [*m_1.add(i), *m_2.add(i), *m_3.add(i)] }) }
     }
 
-    /// Its old state as far as it is wanted and there is one, else zeros; the latch counts even where failure is not wanted.
+    /// The old state of a point, with 0 for what is not requested or not in the block. The latch is read even if failure is not
+    /// requested.
+    ///
+    /// # Safety
+    /// As for [`Hyperelastic::raw_block`], with i < n.
     #[inline(always)]
     unsafe fn old_state(&self, i: usize) -> [T; HYPERELASTIC_STATE] {
         let mut state = [T::splat(0.0); HYPERELASTIC_STATE];
@@ -108,7 +115,7 @@ impl<T: Scalar> Pointers<T> {
     }
 }
 
-/// Where the answer for one point of a block goes.
+/// The sink for one point of a block.
 struct OnePoint<'a, T> {
     block: &'a Pointers<T>,
     i: usize,
@@ -120,7 +127,7 @@ impl<T: Scalar> OnePoint<'_, T> {
     fn put(self, point: &Point<T>) {
         let OnePoint { block, i, code } = self;
         *code = point.status;
-        // SAFETY: whoever makes this has a block that can be evaluated, with i < n.
+        // SAFETY: `evaluate_each` makes this for a block that can be evaluated, with i < n.
         let store = |values: &[T], array: *mut T| unsafe {
             if !array.is_null() {
                 for (c, &value) in values.iter().enumerate() {

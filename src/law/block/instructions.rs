@@ -1,5 +1,5 @@
-//! What a set of instructions gives a block: registers, and the kernels compiled for it. Each set has a file of its own, so that the
-//! compiler builds them side by side.
+//! The sets of instructions that blocks are evaluated with: registers, and the kernels compiled for them. Each set has a file
+//! of its own, so that the compiler builds them in parallel.
 
 use core::ops::Range;
 
@@ -10,7 +10,9 @@ use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
 
+/// A set of instructions.
 pub(super) trait Instructions {
+    /// The widest registers of these instructions.
     type Lanes<T: Registers>: Lanes<T>;
 
     /// The kernel of the hyperelastic law that is built for `WANT`, see [`kernel`](super::kernel).

@@ -1,4 +1,4 @@
-//! The law at every point of a block: from Rust's slices, or from a host's pointers.
+//! The calls for blocks: with slices from Rust, or with a host's pointers.
 
 use core::marker::PhantomData;
 
@@ -15,13 +15,16 @@ use crate::law::number::level::Level;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-/// A block as Rust passes it: the state in place, old on entry and new on return.
+/// A block as slices. The state is updated in place: old on entry, new on return. The components of each array are listed in
+/// [`block`](super); what is `None` is neither read, computed nor written.
 #[derive(Debug, Default)]
 pub struct Arrays<'a, T> {
+    /// The number of points; and the leading dimension of all arrays, at least `n`.
     pub n: usize,
     pub leading_dimension: usize,
     pub deformation_gradient: &'a [T],
     pub fibre: Option<&'a [T]>,
+    /// The reference density; used only with `wave_speed`.
     pub density: T,
     pub stress: Option<&'a mut [T]>,
     pub energies: Option<&'a mut [T]>,
@@ -30,24 +33,28 @@ pub struct Arrays<'a, T> {
     pub modes: Option<&'a mut [T]>,
     pub wave_speed: Option<&'a mut [T]>,
     pub tangent: Option<&'a mut [T]>,
+    /// The measure of `tangent`.
     pub measure: Measure,
+    /// A status code for each point.
     pub status: Option<&'a mut [i32]>,
+    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
 }
 
-/// A block whose arrays have been checked. It can be cut into parts, which share no point and may go to other threads.
+/// A block whose arrays have been checked. It can be split into parts, which have no points in common and may be evaluated by
+/// different threads.
 #[derive(Debug)]
 pub struct Block<'a, T> {
     pointers: Pointers<T>,
     arrays: PhantomData<&'a mut T>,
 }
 
-// SAFETY: a block holds the arrays that it writes exclusively. Its parts hold different points, and with the leading
-// dimension no less than n different points stand at different places.
+// SAFETY: a block has exclusive access to the arrays that it writes. Its parts have different points, and with a leading
+// dimension no less than n different points are at different addresses.
 unsafe impl<T: Send + Sync> Send for Block<'_, T> {}
 
 impl<'a, T: Precision> Block<'a, T> {
-    /// Checks that the arrays hold the points.
+    /// Checks that each array is long enough for the points.
     ///
     /// # Errors
     /// An array that is too short, a leading dimension below n.
@@ -100,19 +107,19 @@ impl<'a, T: Precision> Block<'a, T> {
             },
             level: arrays.level,
         };
-        // Parts of columns that overlap would not be disjoint.
+        // If columns overlapped, the parts of a block would overlap too.
         if leading_dimension < n {
             return Err(leading_dimension_below(n, leading_dimension));
         }
         Ok(Block { pointers, arrays: PhantomData })
     }
 
-    /// How many points.
+    /// The number of points.
     pub fn points(&self) -> usize {
         self.pointers.n
     }
 
-    /// The first `count` points, all where there are no more, and the rest.
+    /// Splits the block into its first `count` points (all, if it has fewer) and the rest.
     pub fn split_at(self, count: usize) -> (Self, Self) {
         let count = count.min(self.pointers.n);
         let first = Pointers { n: count, ..self.pointers };
@@ -122,34 +129,33 @@ impl<'a, T: Precision> Block<'a, T> {
 }
 
 impl<T: Precision> Hyperelastic<T> {
-    /// The law at every point of a block; returns the worst (most negative) of their status codes.
+    /// Evaluates the law at every point of a block. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// An array that is too short, a leading dimension below n, a density that is not positive where the wave speed is
-    /// wanted.
+    /// An array that is too short, a leading dimension below n, a density that is not positive if the wave speed is requested.
     pub fn block(&self, arrays: Arrays<'_, T>) -> Result<i32, Error> {
         self.checked_block(Block::new(arrays)?)
     }
 
-    /// Likewise, for a block or a part of one.
+    /// As [`block`](Self::block), for a block that has been checked, or a part of one.
     ///
     /// # Errors
-    /// A density that is not positive where the wave speed is wanted.
+    /// A density that is not positive if the wave speed is requested.
     pub fn checked_block(&self, block: Block<'_, T>) -> Result<i32, Error> {
-        // SAFETY: every array is as long as the block needs; the state alone is read and written, through one pointer.
+        // SAFETY: `Block::new` has checked the lengths of the arrays; only the state is both read and written, through one
+        // pointer.
         unsafe { self.raw_block(&block.pointers) }
     }
 
-    /// The law at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
+    /// Evaluates the law at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, a leading dimension below n, a density that is not positive where the wave speed is
-    /// wanted.
+    /// A null deformation gradient, a leading dimension below n, a density that is not positive if the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
-    /// reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing but,
-    /// exactly, the old state they replace.
+    /// Every pointer that is not null points to as many values as the size of the block and the table of [`block`](super) say,
+    /// valid for reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing
+    /// but, exactly, the old state that they replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         let request = block.check()?;
         if block.n == 0 {
@@ -160,7 +166,8 @@ impl<T: Precision> Hyperelastic<T> {
             // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
             return Ok(unsafe { T::dispatch(level, self, block, request) });
         }
-        // An old state elsewhere is copied part by part: what has been copied is then still in the nearest cache.
+        // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when it is
+        // read.
         let mut worst = status::OK;
         for first in (0..block.n).step_by(COPIED) {
             let mut points = block.from(first);
@@ -175,11 +182,10 @@ impl<T: Precision> Hyperelastic<T> {
     }
 }
 
-/// The law of these properties at every point of a block, for a host that hands them over with it; otherwise as
-/// [`Hyperelastic::raw_block`].
+/// As [`Hyperelastic::raw_block`], for a host that passes the properties with every block.
 ///
 /// # Errors
-/// The first property that is wrong, or what `raw_block` says; nothing is written.
+/// The first property that is wrong, or an error of `raw_block`; nothing is written.
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
@@ -193,23 +199,24 @@ pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) 
         // SAFETY: the caller answers for the arrays, and the processor has the instructions.
         return unsafe { T::one_by_one(properties, block, request) };
     }
-    // What is wrong about the properties is reported before what is wrong about the block.
+    // Errors of the properties are reported before errors of the block.
     // SAFETY: the caller answers for the arrays.
     unsafe { Hyperelastic::new(properties)?.raw_block(block) }
 }
 
-/// How many points' old state is copied at a time: whole groups of registers in either precision.
+/// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
 const COPIED: usize = 2 * STAGED * WIDEST;
 
 impl<T: Precision> LinearElastic<T> {
-    /// The law over a step at every point of a block of raw arrays; returns the worst (most negative) of their status codes.
+    /// Evaluates a step at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, null axes for the spin, a leading dimension below n.
+    /// A null deformation gradient, null axes for [`Rotation::Spin`], a leading dimension below n.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as the block's size and the table above say, valid for
-    /// reading or writing; outputs overlap nothing but, exactly, the old state they replace.
+    /// Every pointer that is not null points to as many values as the size of the block and the table of
+    /// [`linear`](super::linear) say, valid for reading or writing; outputs overlap nothing but, exactly, the old state that
+    /// they replace.
     pub unsafe fn raw_block(&self, block: &LinearPointers<T>) -> Result<i32, Error> {
         if block.n == 0 {
             return Ok(status::OK);

@@ -1,4 +1,4 @@
-//! The kernel: the stages of the law, each over several registers of points before the next one.
+//! The kernel: each stage of the law is computed for several registers of points before the next stage.
 
 use core::mem::MaybeUninit;
 use core::ops::Range;
@@ -13,10 +13,10 @@ use crate::law::status;
 use crate::law::tangent::{Measure, may_overflow};
 use crate::law::wave_speed;
 
-// What a kernel is built for, so that its loops hold no decision about it. All but the last are for a law without longitudinal
-// shear.
+// The requests that a kernel is compiled for, so that its loops contain no branches about them. All but the last are for a law
+// without longitudinal shear.
 
-/// The stress alone, with the fibre direction of the properties; the others add to it.
+/// The stress alone, with the fibre direction of the properties; the other flags are added to this.
 pub(super) const STRESS: u8 = 0;
 /// Energies, invariants, failure and the latch as well.
 pub(super) const STATE: u8 = 1;
@@ -24,14 +24,15 @@ pub(super) const STATE: u8 = 1;
 pub(super) const FIBRES: u8 = 2;
 /// The fibre direction of the properties is the first axis.
 pub(super) const ALIGNED: u8 = 4;
-/// Whatever the block has arrays for, which the kernel looks up for each group of registers; and a longitudinal shear.
+/// All that the block has arrays for, which the kernel looks up at run time for each group of registers; and longitudinal
+/// shear.
 pub(super) const ANY: u8 = 8;
 
-/// The kernel, for points that fill whole registers.
+/// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
-/// a multiple of COUNT; `WANT` asks for nothing that the block leaves out.
+/// a multiple of COUNT; `WANT` requests nothing that the block has no array for.
 #[inline(always)]
 pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<T>,
@@ -50,7 +51,7 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(
     least_code(worst)
 }
 
-/// The least of the codes in the lanes, or 0.
+/// The least (worst) of the status codes in the lanes, or 0.
 #[inline(always)]
 pub(super) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
     let mut stored = [0; WIDEST];
@@ -63,14 +64,15 @@ pub(super) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
     code
 }
 
-/// The most lanes that there are.
+/// The number of lanes of the widest register.
 pub(super) const WIDEST: usize = 16;
 
-/// How many registers of points go through a stage before the next one: a point's own operations wait for one another, so
-/// that the processor needs several points in flight, and a whole evaluation is too long for it to look ahead.
+/// The number of registers of points that go through a stage before the next one. The operations of one point wait for one
+/// another, so that the processor needs several points to work on, and a whole evaluation is too long for it to look ahead to
+/// the next point.
 pub(super) const STAGED: usize = 6;
 
-/// What a stage leaves for the next ones.
+/// The results of a stage, one for each register.
 struct Stage<X>([MaybeUninit<X>; STAGED]);
 
 impl<X> Stage<X> {
@@ -80,7 +82,7 @@ impl<X> Stage<X> {
     }
 
     /// # Safety
-    /// k < STAGED: without bounds a stage's loop has one way out.
+    /// k < STAGED. This is not checked, so that the loop of a stage has a single exit.
     #[inline(always)]
     unsafe fn put(&mut self, k: usize, x: X) {
         // SAFETY: the caller's promise.
@@ -88,7 +90,7 @@ impl<X> Stage<X> {
     }
 
     /// # Safety
-    /// What stands at k has been put there.
+    /// [`put`](Self::put) has been called for k.
     #[inline(always)]
     unsafe fn get(&self, k: usize) -> &X {
         // SAFETY: the caller's promise.
@@ -96,8 +98,8 @@ impl<X> Stage<X> {
     }
 }
 
-/// What a stage hands to the next one and nobody else, in one place: what stages leave must stay in the nearest cache, with
-/// the points' own numbers.
+/// The results that only the next stage reads. They share one place, since the results of all stages have to stay in the
+/// first-level cache together with the data of the points.
 #[derive(Clone, Copy)]
 union Step<R: Real> {
     logarithms: Logarithms<R>,
@@ -138,8 +140,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     }
 }
 
-/// Evaluates `count` registers of points from `i` on, stage by stage. `axes` are those of a register, with where they are
-/// usable if that is not everywhere.
+/// Evaluates `count` registers of points from `i` on, stage by stage. `axes` gives the axes of a register, and where they are
+/// usable, `None` for everywhere.
 ///
 /// # Safety
 /// As for [`evaluate`].
@@ -157,7 +159,8 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let zero = R::splat(0.0);
     let mut check = zero;
     let at = |k: usize| i + k * R::COUNT;
-    // Without an array for them the status codes go to a scratch array: to ask at every store would cost more.
+    // If the block has no array for the status codes, they are stored to a scratch array, which costs less than a test at every
+    // store.
     let mut scratch = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
     let status = if block.status.is_null() { scratch.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
@@ -213,7 +216,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         for k in 0..count {
             check = add_to_check::<T, R, WANT>(block, at(k), outcomes.get(k).latch_or_nan, check);
         }
-        // Invalid points are rare. A number less itself is 0, unless it is NaN or infinite.
+        // Invalid points are rare, so that there is one test for all. A number minus itself is 0, unless it is NaN or infinite.
         #[allow(clippy::eq_op)]
         let all_finite = (check - check).le(zero);
         if R::any(!all_finite) {
@@ -255,7 +258,7 @@ unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3]
     }
 }
 
-/// The material frame, of the property or of the points, and where it is usable.
+/// The material frame, that of the properties or those of the points, and where it is usable.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
@@ -275,13 +278,13 @@ unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
     FibreFrame::new(direction)
 }
 
-/// Whether there is a longitudinal shear.
+/// Whether the law has a longitudinal shear stiffness and the kernel is compiled for it.
 #[inline(always)]
 fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
     WANT & ANY != 0 && law.shears
 }
 
-/// What a kernel is asked for.
+/// The results that are requested of a kernel.
 #[inline(always)]
 fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
     let asked = WANT & ANY != 0;
@@ -295,7 +298,7 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
     }
 }
 
-/// What the later stages need to know of a point.
+/// The results of [`respond`] that later stages need.
 struct Outcome<R: Real> {
     /// Whether it has a new state: it had not failed before and can be evaluated.
     updated: R::Mask,
@@ -303,8 +306,9 @@ struct Outcome<R: Real> {
     latch_or_nan: R,
 }
 
-/// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are to be reset. The state is stored by a
-/// stage of its own: every component lies in another page, and a processor stores to few pages at a time without waiting.
+/// Computes and stores the stress, modes, wave speed and tangent; those of invalid points are reset later. The state is stored
+/// in a stage of its own: each component is in a different memory page, and a processor can store to only a few pages at a time
+/// without waiting.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
@@ -325,7 +329,7 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
         let latch = latch::<T, R, WANT>(block, i);
-        // The modes and the tangent alone want the frame again.
+        // Only the modes and the tangent need the frame again.
         let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
@@ -351,7 +355,6 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         }
         if request.wave_modulus {
             let density = R::splat(block.density.into());
-            // The ratio of two numbers may leave the range; that of their roots does not.
             wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
         }
         Outcome { updated: r.updated, latch_or_nan: r.latch_or_nan }
@@ -372,16 +375,16 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
     unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
 }
 
-/// Whether a kernel is asked for the tangent: only those that ask, and are not built for an aligned fibre, ever are.
+/// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
 #[inline(always)]
 fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
     WANT & ANY != 0 && WANT & ALIGNED == 0 && !block.tangent.is_null()
 }
 
-/// Stores the tangent of the intact material. Returns 0 where all of it are finite numbers, else NaN.
+/// Stores the tangent of the intact material. Returns 0 where all its entries are finite, else NaN.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on of a block that wants the tangent.
+/// As for [`sweep`], for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
 unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
@@ -412,7 +415,7 @@ unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
     }
 }
 
-/// Sets the tangent of points to 0 that have failed before or cannot be evaluated.
+/// Sets the tangent to 0 at points that have failed before or cannot be evaluated.
 ///
 /// # Safety
 /// As for [`store_tangent`], after it.
@@ -431,8 +434,8 @@ unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, o
     }
 }
 
-/// `check` with what a register adds to it: the sum is no finite number where one of its points needs [`reset_invalid`], since it
-/// cannot be evaluated or its old state is not finite.
+/// Returns `check` plus the contribution of a register. The sum is not finite if one of the points needs [`reset_invalid`]: it
+/// cannot be evaluated, or its old state is not finite.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`respond`].
@@ -497,7 +500,7 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     }
 }
 
-/// Has the processor fetch what [`store_state`] will store to.
+/// Prefetches the components that [`store_state`] will store to.
 #[inline(always)]
 fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T, leading_dimension: usize, i: usize) {
     if wanted {
@@ -507,10 +510,10 @@ fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
-/// Puts 0 in place of what is not finite in an old state that is kept. Returns where it has.
+/// Replaces what is not finite in an old state that is kept by 0. Returns where it has done so.
 ///
 /// # Safety
-/// `place` has the lanes.
+/// `place` is valid for COUNT values.
 #[inline(always)]
 unsafe fn zero_if_not_finite<T: Scalar, R: Lanes<T>>(place: *mut T, updated: R::Mask) -> R::Mask {
     let zero = R::splat(0.0);
@@ -522,8 +525,8 @@ unsafe fn zero_if_not_finite<T: Scalar, R: Lanes<T>>(place: *mut T, updated: R::
     }
 }
 
-/// Sets the stress of points that have failed before or cannot be evaluated to 0, and so what is not finite in the old state that
-/// they keep. Returns their status codes.
+/// For points that have failed before or cannot be evaluated: sets the stress to 0, and what is not finite in the old state
+/// that they keep. Returns their status codes.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`respond`] and before [`store_state`].

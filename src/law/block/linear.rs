@@ -1,4 +1,4 @@
-//! The linear elastic law at many points at once, over component-major arrays as the yarn law's block.
+//! The linear elastic law at many points at once, over component-major arrays as for the yarn law.
 //!
 //! | array | components |
 //! |---|---|
@@ -17,9 +17,11 @@ use crate::law::number::vector::Matrix;
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-/// A block as a host passes it. Null is left out: an old state that is null is a fresh one, an output not wanted.
+/// A block as a host passes it. A null array is absent: a null old state stands for a fresh one (all 0), and an output that is
+/// null is not computed.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearPointers<T> {
+    /// The number of points; and the leading dimension of all arrays, at least `n`.
     pub n: usize,
     pub leading_dimension: usize,
     pub f_old: *const T,
@@ -28,14 +30,15 @@ pub struct LinearPointers<T> {
     pub state_old: *const T,
     pub state_new: *mut T,
     pub stress: *mut T,
+    /// A status code for each point.
     pub status: *mut i32,
     pub rotation: Rotation,
     pub criterion: Criterion,
-    /// The instructions to use, no better than the processor has; `None`: the best.
+    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
 }
 
-/// The kernel, for points that fill whole registers.
+/// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
 /// # Safety
 /// As for [`LinearElastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
@@ -60,7 +63,7 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     least_code(worst)
 }
 
-/// Evaluates the points of a register from `i` on; returns their codes.
+/// Evaluates the points of one register from `i` on. Returns their status codes.
 ///
 /// # Safety
 /// As for [`sweep_linear`], with i + COUNT ≤ n.
@@ -89,8 +92,10 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
     }
 }
 
+/// Loads a matrix by columns.
+///
 /// # Safety
-/// The array has nine components, and the lanes from i on.
+/// `array` is valid for nine components of the lanes from i on.
 #[inline(always)]
 unsafe fn columns<T, R: Lanes<T>>(array: *const T, stride: usize, i: usize) -> Matrix<R> {
     // SAFETY: the caller's promise.
@@ -98,8 +103,10 @@ unsafe fn columns<T, R: Lanes<T>>(array: *const T, stride: usize, i: usize) -> M
     [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
 }
 
+/// Stores the components of an array that is requested.
+///
 /// # Safety
-/// The array is null or has a component for each value, and the lanes from i on.
+/// `array` is null, or valid for a component for each value, in the lanes from i on.
 #[inline(always)]
 unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: usize) {
     if !array.is_null() {

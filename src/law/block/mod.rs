@@ -1,7 +1,7 @@
 //! Many points at once: the same law over component-major arrays.
 //!
-//! Component c of point i stands at `c * leading_dimension + i`, as LS-DYNA (nlq), Abaqus (nblock) and OpenRadioss (nel)
-//! lay their arrays out. What a caller leaves out is neither read, computed nor written.
+//! Component c of point i is at `c * leading_dimension + i`, as LS-DYNA (nlq), Abaqus (nblock) and OpenRadioss (nel) lay their
+//! arrays out. Arrays that a caller does not pass are neither read, computed nor written.
 //!
 //! | array | components |
 //! |---|---|

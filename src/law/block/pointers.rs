@@ -8,13 +8,15 @@ use crate::law::status;
 use crate::law::tangent::Measure;
 use crate::law::wave_speed;
 
-/// A block as a host passes it: null is left out.
+/// A block as a host passes it; an array is absent if its pointer is null.
 ///
-/// The deformation gradient, the fibre direction and the stress come as one pointer a component, since some hosts keep
-/// them in arrays of their own; the other arrays are component-major with the leading dimension. `energies_old`,
-/// `invariants_old` and `failure_old` are the old state, null a fresh one; they may be the same arrays as the new ones.
+/// The deformation gradient, the fibre direction and the stress have one pointer for each component, since some hosts keep
+/// components in separate arrays; the other arrays are component-major with the leading dimension. `energies_old`,
+/// `invariants_old` and `failure_old` are the old state, which is fresh (all 0) if they are null; they may be the same arrays
+/// as the new ones. The components of each array are listed in [`block`](super).
 #[derive(Clone, Copy, Debug)]
 pub struct Pointers<T> {
+    /// The number of points; and the leading dimension, at least `n`.
     pub n: usize,
     pub leading_dimension: usize,
     pub deformation_gradient: [*const T; 9],
@@ -31,12 +33,13 @@ pub struct Pointers<T> {
     pub wave_speed: *mut T,
     pub tangent: *mut T,
     pub measure: Measure,
+    /// A status code for each point.
     pub status: *mut i32,
-    /// The instructions to use, no better than the processor has; `None`: the best.
+    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
 }
 
-/// The pointers to the components of a component-major array; all null where the array is.
+/// The pointers to the components of a component-major array; all null if `array` is.
 #[inline(always)]
 pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
     let (mut pointers, mut c) = ([array; N], 1);
@@ -47,7 +50,7 @@ pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) 
     pointers
 }
 
-/// Likewise, for writing.
+/// The same for an array to be written.
 #[inline(always)]
 pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize) -> [*mut T; N] {
     let (mut pointers, mut c) = ([array; N], 1);
@@ -83,6 +86,7 @@ impl<T> Pointers<T> {
     }
 }
 
+/// The error of a leading dimension that is below n.
 pub(super) fn leading_dimension_below(n: usize, leading_dimension: usize) -> Error {
     Error::Count {
         code: status::BAD_LEADING_DIMENSION,
@@ -93,7 +97,7 @@ pub(super) fn leading_dimension_below(n: usize, leading_dimension: usize) -> Err
 }
 
 impl<T: Scalar> Pointers<T> {
-    /// What the block asks for, if it can be evaluated.
+    /// Checks the block. Returns the results that it requests.
     ///
     /// # Errors
     /// As for [`Hyperelastic::raw_block`].
@@ -124,7 +128,7 @@ impl<T: Scalar> Pointers<T> {
         self.level.unwrap_or(Level::Avx512).min(Level::best())
     }
 
-    /// Whether the old state, as far as it is wanted, is where the new one goes.
+    /// Whether the old state is in the arrays of the new one, as far as these are requested.
     pub(super) fn in_place(&self) -> bool {
         let pairs = [
             (self.energies_old, self.energies),

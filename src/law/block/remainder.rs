@@ -1,5 +1,6 @@
-//! The points of a block that do not fill a register: copied to a small block of their own that does, with the last point in the
-//! lanes left over. They go through the same operations as all others, so that a point's result does not depend on where it stands.
+//! The points of a block that do not fill a register. They are copied to a small block of their own that does, with the last
+//! point repeated in the unused lanes, and evaluated by the same operations as all others, so that the results at a point do
+//! not depend on its place in the block.
 
 use core::marker::PhantomData;
 use core::mem::MaybeUninit;
@@ -11,17 +12,18 @@ use crate::law::number::real::{Lanes, Scalar};
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-/// The widest register that a remainder goes to: AVX2 in single precision.
+/// The number of lanes of the widest register for a remainder: AVX2 in single precision.
 const WIDEST: usize = 8;
-/// F, fibre, energies, invariants, failure, stress, modes, wave speed and the largest tangent.
+/// The number of components: F, fibre, energies, invariants, failure, stress, modes, wave speed and the largest tangent.
 const COMPONENTS: usize = 9 + 3 + 4 + 4 + 3 + 6 + 24 + 1 + 81;
-/// F at both ends, axes, state at both ends and stress of the linear elastic law.
+/// The number of components for the linear elastic law: F at both ends, axes, state at both ends and stress.
 const LINEAR_COMPONENTS: usize = 9 + 9 + 9 + 2 * LINEAR_ELASTIC_STATE + 6;
 
-/// Component-major arrays for the points of one register, handed out one after the other.
+/// Component-major arrays for the points of one register, taken one after the other from a buffer.
 struct Padding<T, R> {
+    /// The rest of the buffer.
     next: *mut T,
-    /// The point in each lane.
+    /// The index in the block of the point in each lane.
     point: [usize; WIDEST],
     register: PhantomData<R>,
     leading_dimension: usize,
@@ -36,7 +38,7 @@ impl<T: Scalar, R: Lanes<T>> Padding<T, R> {
         Padding { next, point, register: PhantomData, leading_dimension }
     }
 
-    /// Room for so many components; null where the block's array is.
+    /// An array of `components` components; null if the block's array is.
     fn array(&mut self, of_block: *const T, components: usize) -> *mut T {
         if of_block.is_null() {
             return core::ptr::null_mut();
@@ -46,10 +48,10 @@ impl<T: Scalar, R: Lanes<T>> Padding<T, R> {
         array
     }
 
-    /// Brings a component of the points here.
+    /// Copies a component of the points from the block.
     ///
     /// # Safety
-    /// `from` is the block's component, `to` one of an [`array`](Self::array).
+    /// `from` is a component of the block, `to` one of an [`array`](Self::array).
     #[inline(always)]
     unsafe fn copy_in(&self, from: *const T, to: *mut T) {
         for lane in 0..R::COUNT {
@@ -58,21 +60,23 @@ impl<T: Scalar, R: Lanes<T>> Padding<T, R> {
         }
     }
 
-    /// Takes a component of the points back.
+    /// Copies a component of the points back to the block.
     ///
     /// # Safety
-    /// As for [`copy_in`](Self::copy_in), the other way.
+    /// As for [`copy_in`](Self::copy_in), with `from` and `to` exchanged.
     #[inline(always)]
     unsafe fn copy_out<X: Copy>(&self, from: *const X, to: *mut X) {
-        // The lanes left over store the last point's value again.
+        // The unused lanes store the value of the last point again.
         for lane in 0..R::COUNT {
             // SAFETY: the caller's promise.
             unsafe { *to.add(self.point[lane]) = *from.add(lane) };
         }
     }
 
+    /// Copies all components of an array that is not null from the block.
+    ///
     /// # Safety
-    /// As for [`copy_in`](Self::copy_in), for so many components of both.
+    /// As for [`copy_in`](Self::copy_in), for `components` components of both.
     #[inline(always)]
     unsafe fn copy_all_in(&self, from: *const T, to: *mut T, components: usize) {
         if !from.is_null() {
@@ -83,8 +87,10 @@ impl<T: Scalar, R: Lanes<T>> Padding<T, R> {
         }
     }
 
+    /// Copies all components of an array that is not null back to the block.
+    ///
     /// # Safety
-    /// As for [`copy_out`](Self::copy_out), for so many components of both.
+    /// As for [`copy_out`](Self::copy_out), for `components` components of both.
     #[inline(always)]
     unsafe fn copy_all_out(&self, from: *const T, to: *mut T, components: usize) {
         if !to.is_null() {
@@ -96,11 +102,11 @@ impl<T: Scalar, R: Lanes<T>> Padding<T, R> {
     }
 }
 
-/// Runs a kernel on `points`, fewer than `R` holds, of a block whose state is in place; returns what the kernel does.
+/// Runs a kernel on `points`, fewer than `R` holds, of a block whose state is in place. Returns the kernel's result.
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of the block;
-/// it holds at most [`WIDEST`].
+/// `R` holds at most [`WIDEST`] points.
 pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(
     block: &Pointers<T>,
     points: Range<usize>,
@@ -118,7 +124,7 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(
     let fibre = padding.array(block.fibre[0], 3);
     let energies = padding.array(block.energies, 4);
     let invariants = padding.array(block.invariants, 4);
-    // The latch counts even where failure is not wanted.
+    // The latch is read even if failure is not requested.
     let failure = padding.array(if block.failure.is_null() { block.failure_old } else { block.failure }, 3);
     let stress = padding.array(block.stress[0], 6);
     let of_register = Pointers {
@@ -176,11 +182,11 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(
     }
 }
 
-/// Likewise for the linear elastic law, whose old state may stand elsewhere than the new one.
+/// As [`padded`], for the linear elastic law, whose old state may be in another array than the new one.
 ///
 /// # Safety
 /// As for [`LinearElastic::raw_block`](crate::law::linear_elastic::LinearElastic::raw_block), for these points of the block;
-/// it holds at most [`WIDEST`].
+/// `R` holds at most [`WIDEST`] points.
 pub(super) unsafe fn padded_linear<T: Scalar, R: Lanes<T>>(
     block: &LinearPointers<T>,
     points: Range<usize>,

@@ -1,9 +1,9 @@
-//! The sets of instructions that the processor may have.
+//! Levels of instructions that the processor may have.
 
-/// A set of instructions to run the lanes with.
+/// A set of instructions that the kernels are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// What every processor of the architecture has.
+    /// Instructions that every processor of the architecture has.
     Baseline,
     /// AVX2 and FMA: x86-64-v3.
     Avx2,
@@ -24,11 +24,11 @@ impl Level {
         }
     }
 
-    /// The best one that this processor has.
+    /// The best level that this processor has.
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
-            // This and `has_fma` are the only global state of the library: what the processor can do, found out once.
+            // This and `has_fma` hold the only global state of the library: what the processor can do, determined once.
             cpufeatures::new!(has_avx512, "avx512f", "avx512dq", "avx512vl", "avx2", "fma");
             if has_avx512::get() {
                 return Level::Avx512;

@@ -1,4 +1,4 @@
-//! The numbers that the laws are written in: scalars and registers of several points, their elementary functions, vectors.
+//! The number types that the laws are written in, scalars and SIMD registers, with their elementary functions and vectors.
 
 pub(crate) mod elementary;
 pub(crate) mod level;

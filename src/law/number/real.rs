@@ -1,4 +1,4 @@
-//! The number that the laws are written in: one precision, one lane or many.
+//! The number type that the laws are written in: single or double precision, one lane or several.
 //!
 //! Every formula of the law is generic over [`Real`], so that a scalar call and a block of points run the same
 //! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
@@ -11,23 +11,24 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 pub trait Real:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// The answer to a comparison, lane by lane.
+    /// The result of a comparison, for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
     /// Smallest positive normal number.
     const MIN_POSITIVE: f64;
     /// The distance from 1 to the next number.
     const EPSILON: f64;
-    /// Exponents of two that leave room for a factor of some thousands on either side of the range.
+    /// The least and the greatest exponent of two, with a margin of 20 to the ends of the range.
     const EXPONENTS: (f64, f64);
-    /// Squares of stretches and of area ratios within which the law is evaluated: no intermediate result leaves the range.
+    /// The least and the greatest square of a stretch or of an area ratio for which the law is evaluated: no intermediate
+    /// result overflows or underflows.
     const SQUARES: (f64, f64);
-    /// Whether this range is so wide that no stress, but for the longitudinal shear's, can leave it.
+    /// Whether the range is so wide that no stress except that of the longitudinal shear can overflow.
     const HEADROOM: bool;
-    /// Whether what costs is the chain of operations, each of which waits for the one before, and not their number. Such a number
-    /// has room for a second one, see [`pair`](Self::pair).
+    /// Whether the time of a computation is that of its chain of dependent operations (latency), not that of their number
+    /// (throughput). Such a number has room for a second one, see [`pair`](Self::pair).
     const WAITS: bool = false;
-    /// Coefficients of the series of artanh, the logarithm and the exponential.
+    /// Coefficients of the polynomials for ½ artanh, the logarithm and the exponential.
     const HALF_ARTANH: &'static [f64];
     const LN: &'static [f64];
     const EXP: &'static [f64];
@@ -46,25 +47,25 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     fn lt(self, other: Self) -> Self::Mask;
     fn le(self, other: Self) -> Self::Mask;
-    /// `a` where the mask holds, `b` elsewhere; what stands in the other one, NaN included, has no influence.
+    /// `a` where the mask holds, `b` elsewhere; the value that is not selected has no influence, even if it is NaN.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
-    /// `(z, k)` with `self = z · 2^k`, z in [¾, 1½). For positive normal numbers; anything else gives some number.
+    /// `(z, k)` with `self = z · 2^k`, z in [¾, 1½), for positive normal numbers; unspecified for others.
     fn split_exponent(self) -> (Self, Self);
     /// The nearest integer, for |self| up to 2^20.
     fn round(self) -> Self;
     /// `self · 2^k` for an integer k and self in [½, 2], both within the range of normal numbers.
     fn times_power_of_two(self, k: Self) -> Self;
-    /// `1/self` to within 1 ulp, for normal numbers that are neither very small nor very large; some value or NaN for others.
+    /// `1/self` to within 1 ulp, for normal numbers that are neither very small nor very large; unspecified for others.
     #[inline(always)]
     fn reciprocal(self) -> Self {
         Self::splat(1.0) / self
     }
-    /// Two numbers side by side, to compute with at the cost of one; the first where there is no room for a second.
+    /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`WAITS` is false).
     #[inline(always)]
     fn pair(self, _other: Self) -> Self {
         self
     }
-    /// The numbers of a pair.
+    /// The two numbers of a [`pair`](Self::pair).
     #[inline(always)]
     fn apart(self) -> [Self; 2] {
         [self; 2]
@@ -76,8 +77,8 @@ pub trait Real:
     }
 }
 
-/// The number of a caller's arrays: f32 or f64. The block kernel relies on what these are (bytes all 0 are the number 0), so that
-/// there are no others.
+/// The number type of a caller's arrays: f32 or f64. Sealed, since the block kernel relies on their representation: all bytes 0
+/// is the number 0.
 pub trait Scalar: Real<Mask = bool> + Into<f64> + PartialEq + sealed::Sealed {}
 
 mod sealed {
@@ -89,7 +90,7 @@ mod sealed {
 impl Scalar for f32 {}
 impl Scalar for f64 {}
 
-/// A number that stands for one point, whose own numbers are T.
+/// A number type that holds one point, whose own numbers are of type T.
 pub trait Single<T>: Real {
     fn of(x: T) -> Self;
     fn value(self) -> T;
@@ -112,17 +113,21 @@ impl<T: Real<Mask = bool>> Single<T> for T {
     }
 }
 
-/// Points side by side in lanes that are loaded from and stored to arrays of T.
+/// A number type with one point in each lane, loaded from and stored to arrays of T.
 pub trait Lanes<T>: Real {
-    /// How many points.
+    /// The number of lanes.
     const COUNT: usize;
+    /// Loads the lanes from consecutive values.
+    ///
     /// # Safety
     /// `from` points to `COUNT` values.
     unsafe fn load(from: *const T) -> Self;
+    /// Stores the lanes to consecutive values.
+    ///
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store(self, to: *mut T);
-    /// Stores the points for which a mask holds.
+    /// Stores the lanes for which a mask holds.
     ///
     /// # Safety
     /// `to` points to `COUNT` values.
@@ -131,12 +136,12 @@ pub trait Lanes<T>: Real {
         // SAFETY: the caller's promise.
         unsafe { Self::select(mask, self, Self::load(to)).store(to) }
     }
-    /// Stores small integers.
+    /// Stores the lanes, which are small integers, to consecutive values.
     ///
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store_integers(self, to: *mut i32);
-    /// Has the processor fetch what is at an address, if there is anything.
+    /// Prefetches the cache line of an address, which need not be valid.
     fn prefetch(place: *const T);
     /// Whether a mask holds for any of the points.
     fn any(mask: Self::Mask) -> bool;

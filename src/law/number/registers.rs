@@ -1,22 +1,23 @@
-//! Which registers a precision is computed in.
+//! The registers that each precision is computed in.
 
 use super::real::{Lanes, Scalar, Single};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 
-/// The registers of a precision, for points side by side at each level of instructions, and for a single one.
+/// The number types of a precision: several points in lanes at each level of instructions, and a single point.
 pub trait Registers: Scalar {
-    /// Of every processor of the architecture.
+    /// Instructions that every processor of the architecture has.
     type Baseline: Lanes<Self>;
     /// AVX2 with fused multiply-add.
     #[cfg(target_arch = "x86_64")]
     type Avx2: Lanes<Self>;
+    /// AVX-512.
     #[cfg(target_arch = "x86_64")]
     type Avx512: Lanes<Self>;
-    /// One point in the operations of `Avx2`.
+    /// One point, computed by the same operations as `Avx2`.
     #[cfg(target_arch = "x86_64")]
     type One: Single<Self> + Lanes<Self>;
-    /// One point in the shortest chain of operations, AVX2 with fused multiply-add.
+    /// One point, computed by the shortest chain of dependent operations; AVX2 with fused multiply-add.
     #[cfg(target_arch = "x86_64")]
     type Point: Single<Self> + Lanes<Self>;
 }

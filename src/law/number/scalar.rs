@@ -1,4 +1,4 @@
-//! f32 and f64 themselves, without a fused multiply-add: what every processor computes.
+//! f32 and f64 as number types, without a fused multiply-add: every processor gives the same results.
 
 use super::real::{Lanes, Real};
 use super::series::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
@@ -16,8 +16,8 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
     (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
-/// The root by the processor's own instruction. libm's is written out for SSE2: among wider instructions it waits for the wide
-/// registers.
+/// The square root by the processor's instruction. That of libm is written for SSE2 and, called among AVX instructions, waits
+/// for the upper halves of the registers.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn root(x: f64) -> f64 {
@@ -85,7 +85,7 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn split_exponent(self) -> (Self, Self) {
-                // Shifting the exponent field so that it steps at ¾ instead of at a power of two.
+                // Shifted, the exponent field changes at ¾ instead of at a power of two.
                 const MANTISSA: u32 = $t::MANTISSA_DIGITS - 1;
                 const ONE: $bits = (1.0 as $t).to_bits();
                 const LEAST: $bits = (0.75 as $t).to_bits();
@@ -96,7 +96,7 @@ macro_rules! scalar {
             }
             #[inline(always)]
             fn round(self) -> Self {
-                // Adding 1.5 · 2^(digits − 1) leaves no room for a fraction.
+                // Adding 1.5 · 2^(digits − 1) leaves no bits for a fraction.
                 let shift = 1.5 * ((1 as $bits) << ($t::MANTISSA_DIGITS - 1)) as $t;
                 (self + shift) - shift
             }

@@ -1,4 +1,4 @@
-//! The coefficients of the elementary functions' series: minimax polynomials found by Remez exchange in 300-bit arithmetic.
+//! The coefficients of the polynomials of the elementary functions: minimax, found by Remez exchange in 300-bit arithmetic.
 
 /// ½ (artanh w − w)/w³ in powers of w², |w| ≤ 1/5; relative error of artanh 2^−55.9, 2^−28.4.
 pub(super) const HALF_ARTANH_F64: [f64; 7] = quartered([
@@ -12,10 +12,11 @@ pub(super) const HALF_ARTANH_F64: [f64; 7] = quartered([
 ]);
 pub(super) const HALF_ARTANH_F32: [f64; 3] = quartered([0.6666694752001328, 0.39957808364879166, 0.3036093709608493]);
 
-/// Likewise for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
+/// The same for ln((1 + s/2)/(1 − s/2)) = 2 artanh(s/2): (… − s)/s³ in powers of s², |s| ≤ 2/5.
 pub(super) const LN_F64: [f64; 7] = of_twice(HALF_ARTANH_F64);
 pub(super) const LN_F32: [f64; 3] = of_twice(HALF_ARTANH_F32);
 
+/// A quarter of each coefficient.
 const fn quartered<const N: usize>(mut c: [f64; N]) -> [f64; N] {
     let mut j = 0;
     while j < N {
@@ -25,6 +26,7 @@ const fn quartered<const N: usize>(mut c: [f64; N]) -> [f64; N] {
     c
 }
 
+/// The coefficients in powers of s² for 2 artanh(s/2), from those in powers of w² for ½ artanh w.
 const fn of_twice<const N: usize>(mut c: [f64; N]) -> [f64; N] {
     let (mut j, mut factor) = (0, 0.5);
     while j < N {

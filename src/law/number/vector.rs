@@ -36,13 +36,13 @@ pub fn scale<R: Real>(s: R, a: [R; 3]) -> [R; 3] {
     [s * a[0], s * a[1], s * a[2]]
 }
 
-/// The image of a vector under the matrix of these columns.
+/// The product of a matrix, given by its columns, and a vector.
 #[inline(always)]
 pub fn image<R: Real>(columns: &[[R; 3]; 3], v: [R; 3]) -> [R; 3] {
     along(along(scale(v[2], columns[2]), v[1], columns[1]), v[0], columns[0])
 }
 
-/// Three columns.
+/// A 3×3 matrix by columns.
 pub type Matrix<R> = [[R; 3]; 3];
 
 /// A B.
@@ -94,7 +94,7 @@ pub fn selected<R: Real>(mask: R::Mask, a: &Matrix<R>, b: &Matrix<R>) -> Matrix<
     [select(mask, a[0], b[0]), select(mask, a[1], b[1]), select(mask, a[2], b[2])]
 }
 
-/// Likewise for a vector.
+/// `a` where the mask holds, `b` elsewhere, for vectors.
 #[inline(always)]
 pub fn select<R: Real>(mask: R::Mask, a: [R; 3], b: [R; 3]) -> [R; 3] {
     [R::select(mask, a[0], b[0]), R::select(mask, a[1], b[1]), R::select(mask, a[2], b[2])]
@@ -108,7 +108,8 @@ pub fn is_finite<R: Real>(a: &Matrix<R>) -> R::Mask {
     (nothing[0] + nothing[1] + nothing[2]).le(zero)
 }
 
-/// A vector over its length; along an axis exactly that axis, which a product with the reciprocal would not be.
+/// A vector divided by its length. A vector along a coordinate axis becomes exactly that axis, which a product with the
+/// reciprocal would not.
 #[inline(always)]
 pub fn unit<R: Real>(v: [R; 3]) -> [R; 3] {
     let length = dot(v, v).sqrt();

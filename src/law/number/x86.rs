@@ -1,10 +1,10 @@
 //! The lanes of x86-64: SSE2, which every such processor has, AVX2 with FMA, and AVX-512.
 //!
-//! Each type is a register of numbers and every operation one or a few instructions; what they compute is written in
-//! [`Real`]. The operations may only run where the processor has the instructions: what makes these types (the block's dispatch,
-//! the dispatch of a single call, the tests) has looked.
+//! Each type is a register of numbers and every operation one or a few instructions; what they compute is documented in
+//! [`Real`]. The operations may only run if the processor has the instructions: whatever makes these types (the block's
+//! dispatch, the dispatch of a single call, the tests) has checked that.
 
-// In SSE2 the operations are safe on their own.
+// The intrinsics of SSE2 are safe functions on x86-64, so that the `unsafe` of the macros is unused for them.
 #![allow(unused_unsafe)]
 
 use core::arch::x86_64::*;
@@ -39,12 +39,12 @@ macro_rules! register {
         #[derive(Clone, Copy)]
         pub struct $name($f);
 
-        // SAFETY (all of the impls below): these values are made only after the instructions have been found.
+        // SAFETY (all of the impls below): these types are used only after the processor's instructions have been checked.
         impl Add for $name {
             type Output = Self;
             #[inline(always)]
             fn add(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $add(self.0, other.0) })
             }
         }
@@ -52,7 +52,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn sub(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $sub(self.0, other.0) })
             }
         }
@@ -60,7 +60,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn mul(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $mul(self.0, other.0) })
             }
         }
@@ -68,7 +68,7 @@ macro_rules! register {
             type Output = Self;
             #[inline(always)]
             fn div(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $div(self.0, other.0) })
             }
         }
@@ -78,7 +78,7 @@ macro_rules! register {
             fn neg(self) -> Self {
                 // A change of sign, zeros included, as for a scalar.
                 const SIGN: $bits = 1 << ($bits::BITS - 1);
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe {
                     let bits = $to(self.0);
                     let sign = $iset1(SIGN as _);
@@ -101,13 +101,13 @@ macro_rules! register {
 
             #[inline(always)]
             fn splat(x: f64) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $set1(x as $t) })
             }
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 let ($fa, $fb, $fc) = (self.0, a.0, b.0);
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $mul_add })
             }
             #[inline(always)]
@@ -116,41 +116,41 @@ macro_rules! register {
             }
             #[inline(always)]
             fn sqrt(self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $sqrt(self.0) })
             }
             #[inline(always)]
             fn abs(self) -> Self {
                 const MAGNITUDE: $bits = $bits::MAX >> 1;
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $from($iand($to(self.0), $iset1(MAGNITUDE as _))) })
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $max(self.0, other.0) })
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $min(self.0, other.0) })
             }
             #[inline(always)]
             fn lt(self, other: Self) -> $mask {
                 let ($l, $r) = (self.0, other.0);
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 unsafe { $lt }
             }
             #[inline(always)]
             fn le(self, other: Self) -> $mask {
                 let ($l, $r) = (self.0, other.0);
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 unsafe { $le }
             }
             #[inline(always)]
             fn select($m: $mask, a: Self, b: Self) -> Self {
                 let ($yes, $no) = (a.0, b.0);
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $name(unsafe { $select })
             }
             #[inline(always)]
@@ -183,29 +183,30 @@ macro_rules! register {
                 #[inline(always)]
                 fn pair(self, other: Self) -> Self {
                     let ($pa, $pb) = (self.0, other.0);
-                    // SAFETY: the dispatch has found the instructions.
+                    // SAFETY: the dispatch has checked that the processor has the instructions.
                     $name(unsafe { $pair })
                 }
                 #[inline(always)]
                 fn apart(self) -> [Self; 2] {
                     let $pxy = self.0;
-                    // SAFETY: the dispatch has found the instructions.
+                    // SAFETY: the dispatch has checked that the processor has the instructions.
                     unsafe { [$name($pfirst), $name($psecond)] }
                 }
             )?
         }
 
         impl $name {
-            /// Through the bits: shifting the exponent field so that it steps at ¾ instead of at a power of two.
+            /// [`Real::split_exponent`] by integer arithmetic on the bits: shifted, the exponent field changes at ¾ instead of
+            /// at a power of two.
             #[inline(always)]
             #[allow(dead_code)]
             fn split_bits(self) -> (Self, Self) {
                 const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
                 const ONE: $bits = (1.0 as $t).to_bits();
                 const LEAST: $bits = (0.75 as $t).to_bits();
-                // An integer below 2^MANTISSA is the mantissa of itself plus this power of two.
+                // Added to this power of two, an integer below 2^MANTISSA is the mantissa of the sum.
                 const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 unsafe {
                     let shifted = $iadd($to(self.0), $iset1((ONE - LEAST) as _));
                     let mantissa = $iand(shifted, $iset1((((1 as $bits) << MANTISSA) - 1) as _));
@@ -216,13 +217,13 @@ macro_rules! register {
                 }
             }
 
-            /// Through the bits of 2^k.
+            /// [`Real::times_power_of_two`] by making 2^k from its bits.
             #[inline(always)]
             #[allow(dead_code)]
             fn scale_bits(self, k: Self) -> Self {
                 const MANTISSA: i32 = $t::MANTISSA_DIGITS as i32 - 1;
                 const INTEGER: $t = ((1 as $bits) << MANTISSA) as $t;
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 unsafe {
                     let biased = $add(k.0, $set1(INTEGER + ($t::MAX_EXP - 1) as $t));
                     $name($mul(self.0, $from($sll::<{ MANTISSA as _ }>($to(biased)))))
@@ -234,26 +235,26 @@ macro_rules! register {
             const COUNT: usize = $count;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
-                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 $name(unsafe { $load(from) })
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
-                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 unsafe { $store(to, self.0) }
             }
             $(
                 #[inline(always)]
                 unsafe fn store_where(self, $wm: $mask, $wto: *mut $t) {
                     let $wx = self.0;
-                    // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
+                    // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                     unsafe { $store_where }
                 }
             )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
-                // SAFETY: the dispatch has found the instructions, and pointers are the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                 unsafe { $store_integers }
             }
             #[inline(always)]
@@ -263,7 +264,7 @@ macro_rules! register {
             }
             #[inline(always)]
             fn any($any_mask: $mask) -> bool {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 #[allow(unused_unsafe)]
                 unsafe { $any }
             }
@@ -276,12 +277,11 @@ macro_rules! wide_mask {
     ($mask:ident($f:ident), $and:ident $or:ident $xor:ident, $ones:expr) => {
         #[derive(Clone, Copy)]
         pub struct $mask($f);
-        // SAFETY: as for the registers.
         impl BitAnd for $mask {
             type Output = Self;
             #[inline(always)]
             fn bitand(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $mask(unsafe { $and(self.0, other.0) })
             }
         }
@@ -289,7 +289,7 @@ macro_rules! wide_mask {
             type Output = Self;
             #[inline(always)]
             fn bitor(self, other: Self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $mask(unsafe { $or(self.0, other.0) })
             }
         }
@@ -297,7 +297,7 @@ macro_rules! wide_mask {
             type Output = Self;
             #[inline(always)]
             fn not(self) -> Self {
-                // SAFETY: the dispatch has found the instructions.
+                // SAFETY: the dispatch has checked that the processor has the instructions.
                 $mask(unsafe { $xor(self.0, $ones) })
             }
         }
@@ -325,14 +325,14 @@ fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
     (-quotient).mul_add(divisor, x).mul_add(reciprocal, quotient)
 }
 
-// 1/x in AVX-512, correctly rounded as a division would have it, from an approximation y to 14 bits: with r = 1 − x y the
-// reciprocal is y (1 + r + r² + r³ …). So many terms of it are off by r⁴ ≤ 2^−56 (f32: r² ≤ 2^−28), less than an eighth of a unit in
-// the last place, before the last sum is rounded, upwards; then comes a Newton step, exact but for δ², δ the relative error that it
-// starts from (after Markstein, IBM J. Res. Dev. 34(1), 1990). Where 1/x lies next to halfway between two numbers the sum is the
-// upper one, and δ² too small to carry the step across the middle, for a mantissa of all ones too, where it would from below;
-// elsewhere there is no middle to cross.
+// 1/x in AVX-512, correctly rounded as by a division, from an approximation y of 14 bits. With r = 1 − x y the reciprocal is y
+// (1 + r + r² + r³ …). Three terms of the series (one in f32) leave an error of r⁴ ≤ 2^−56 (f32: r² ≤ 2^−28), less than an
+// eighth of a unit in the last place, before the last sum, which is rounded upwards. Then follows a Newton step, which is exact
+// but for δ², δ being the relative error of the value that it starts from (after Markstein, IBM J. Res. Dev. 34(1), 1990). If
+// 1/x is very close to halfway between two numbers, the sum is the upper one, and δ² is too small to carry the step across the
+// middle; from the lower one it would do so for a mantissa of all ones. Elsewhere no middle is near enough to be crossed.
 
-/// r + r² + …, so many terms, with r = 1 − x y.
+/// The first `TERMS` terms of r + r² + …, with r = 1 − x y.
 #[inline(always)]
 pub(crate) fn reciprocal_series<R: Real, const TERMS: u8>(x: R, y: R) -> R {
     let r = (-x).mul_add(y, R::splat(1.0));
@@ -349,17 +349,18 @@ pub(crate) fn newton_reciprocal<R: Real>(x: R, y: R) -> R {
     (-x).mul_add(y, R::splat(1.0)).mul_add(y, y)
 }
 
-/// x times this has the exponent of the power of two that brings x to [¾, 1½); its rounding is exact where it matters.
+/// The exponent of x times this is the k for which x/2^k is in [¾, 1½); the rounding of the product is such that this holds at
+/// the limits of the interval too.
 const FOUR_THIRDS: f64 = 4.0 / 3.0;
 
 /// The 26 leading bits of each number.
 #[inline(always)]
 fn leading_half(x: F64x2) -> F64x2 {
-    // SAFETY: as for the registers.
+    // SAFETY: as in `register!`: the processor has the instructions.
     F64x2(unsafe { _mm_and_pd(x.0, _mm_castsi128_pd(_mm_set1_epi64x(!0x7ff_ffff))) })
 }
 
-/// A product and its rounding error, as the scalar does it.
+/// A product and its rounding error, by the same operations as the scalar.
 #[inline(always)]
 fn two_product(a: F64x2, b: F64x2) -> (F64x2, F64x2) {
     let (a_high, b_high) = (leading_half(a), leading_half(b));
@@ -368,7 +369,7 @@ fn two_product(a: F64x2, b: F64x2) -> (F64x2, F64x2) {
     (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
 }
 
-/// a b − c d without a fused multiply-add, as the scalar does it.
+/// a b − c d without a fused multiply-add, by the same operations as the scalar.
 #[inline(always)]
 fn split_difference(a: F64x2, b: F64x2, c: F64x2, d: F64x2) -> F64x2 {
     let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
@@ -378,18 +379,18 @@ fn split_difference(a: F64x2, b: F64x2, c: F64x2, d: F64x2) -> F64x2 {
 /// a b − c d of two numbers in single precision, through double precision.
 #[inline(always)]
 fn widened_half(a: __m128, b: __m128, c: __m128, d: __m128) -> __m128 {
-    // SAFETY: as for the registers.
+    // SAFETY: as in `register!`: the processor has the instructions.
     unsafe {
         let (a, b, c, d) = (_mm_cvtps_pd(a), _mm_cvtps_pd(b), _mm_cvtps_pd(c), _mm_cvtps_pd(d));
         _mm_cvtpd_ps(_mm_sub_pd(_mm_mul_pd(a, b), _mm_mul_pd(c, d)))
     }
 }
 
-/// a b − c d in single precision, through double precision as the scalar does it.
+/// a b − c d in single precision, through double precision as for the scalar.
 #[inline(always)]
 fn widened_difference(a: F32x4, b: F32x4, c: F32x4, d: F32x4) -> F32x4 {
     let (F32x4(a), F32x4(b), F32x4(c), F32x4(d)) = (a, b, c, d);
-    // SAFETY: as for the registers.
+    // SAFETY: as in `register!`: the processor has the instructions.
     F32x4(unsafe {
         let high = widened_half(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c), _mm_movehl_ps(d, d));
         _mm_movelh_ps(widened_half(a, b, c, d), high)
@@ -454,7 +455,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    // By bytes: the compiler would make a masked store of the select, which AMD's processors before Zen 4 execute in microcode.
+    // A blend of bytes: a select would be compiled to a masked store, which AMD's processors before Zen 4 execute in microcode.
     store_where (mask, x, to) {
         let old = _mm256_castpd_si256(_mm256_loadu_pd(to));
         let new = _mm256_blendv_epi8(old, _mm256_castpd_si256(x), _mm256_castpd_si256(mask.0));
@@ -501,18 +502,18 @@ register! {
     mul_add (a, b, c) _mm512_fmadd_pd(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
     split (x) (
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         F64x8(unsafe { _mm512_getmant_pd::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
         F64x8(unsafe { _mm512_getexp_pd(_mm512_mul_pd(x.0, _mm512_set1_pd(FOUR_THIRDS))) })
     );
-    // SAFETY: as for the registers.
+    // SAFETY: as in `register!`: the processor has the instructions.
     scale (x, k) F64x8(unsafe { _mm512_scalef_pd(x.0, k.0) });
     reciprocal (x) {
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         let y = F64x8(unsafe { _mm512_rcp14_pd(x.0) });
         let series = reciprocal_series::<_, 3>(x, y);
         const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         newton_reciprocal(x, F64x8(unsafe { _mm512_fmadd_round_pd::<UPWARDS>(series.0, y.0, y.0) }))
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
@@ -534,18 +535,18 @@ register! {
     mul_add (a, b, c) _mm512_fmadd_ps(a, b, c);
     difference (a, b, c, d) fused_difference(a, b, c, d);
     split (x) (
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         F32x16(unsafe { _mm512_getmant_ps::<_MM_MANT_NORM_P75_1P5, _MM_MANT_SIGN_ZERO>(x.0) }),
         F32x16(unsafe { _mm512_getexp_ps(_mm512_mul_ps(x.0, _mm512_set1_ps(FOUR_THIRDS as f32))) })
     );
-    // SAFETY: as for the registers.
+    // SAFETY: as in `register!`: the processor has the instructions.
     scale (x, k) F32x16(unsafe { _mm512_scalef_ps(x.0, k.0) });
     reciprocal (x) {
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         let y = F32x16(unsafe { _mm512_rcp14_ps(x.0) });
         let series = reciprocal_series::<_, 1>(x, y);
         const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
-        // SAFETY: as for the registers.
+        // SAFETY: as in `register!`: the processor has the instructions.
         newton_reciprocal(x, F32x16(unsafe { _mm512_fmadd_round_ps::<UPWARDS>(series.0, y.0, y.0) }))
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
@@ -554,8 +555,8 @@ register! {
 }
 
 register! {
-    /// One point of double precision in all lanes of a register, AVX2 with FMA: for the points of a block that fill no wider
-    /// register.
+    /// One point of double precision in all lanes of a register, AVX2 with FMA, by the same operations as [`F64x4`]: for a
+    /// block of a few points.
     F64x1: f64 as u64 x 1 in __m128d / __m128i;
     mask Mask64x2;
     arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
@@ -575,7 +576,7 @@ register! {
 }
 
 register! {
-    /// Likewise in single precision.
+    /// One point of single precision in all lanes of a register, by the same operations as [`F32x8`].
     F32x1: f32 as u32 x 1 in __m128 / __m128i;
     mask Mask32x4;
     arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
@@ -595,8 +596,9 @@ register! {
 }
 
 register! {
-    /// One point of double precision, AVX2 with FMA, evaluated by the shortest chain of operations: for a call with one point.
-    /// A select of such is no branch, and the compiler does not rearrange what computes with them.
+    /// One point of double precision, AVX2 with FMA, evaluated by the shortest chain of dependent operations: for a call with
+    /// one point. Unlike with `f64`, a select is never compiled to a branch, and the compiler does not rearrange the
+    /// operations.
     F64Point: f64 as u64 x 1 in __m128d / __m128i;
     mask Mask64x2;
     arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
@@ -617,7 +619,7 @@ register! {
 }
 
 register! {
-    /// Likewise in single precision.
+    /// One point of single precision, as [`F64Point`].
     F32Point: f32 as u32 x 1 in __m128 / __m128i;
     mask Mask32x4;
     arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
@@ -642,12 +644,12 @@ macro_rules! single {
         impl Single<$t> for $name {
             #[inline(always)]
             fn of(x: $t) -> Self {
-                // SAFETY: as for the registers.
+                // SAFETY: as in `register!`: the processor has the instructions.
                 unsafe { Self::load(&x) }
             }
             #[inline(always)]
             fn value(self) -> $t {
-                // SAFETY: as for the registers.
+                // SAFETY: as in `register!`: the processor has the instructions.
                 unsafe { $first(self.0) }
             }
             #[inline(always)]

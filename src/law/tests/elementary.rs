@@ -27,7 +27,7 @@ fn reference(x: f64) -> Reference {
 /// A precision and its measure of errors.
 trait Number: Registers + Debug {
     type Exact;
-    /// How far this is from the exact number.
+    /// The error against the exact number, in units in the last place.
     fn ulps(self, exact: &Self::Exact) -> f64;
     fn exact(self) -> Self::Exact;
 }
@@ -66,7 +66,7 @@ trait Function<const I: usize, const O: usize> {
     fn of<R: Real>(&self, x: [R; I]) -> [R; O];
 }
 
-/// Its results in lanes; those left over repeat the last argument.
+/// The results of a function in lanes; unused lanes repeat the last argument.
 fn in_lanes<T: Number, R: Lanes<T>, const I: usize, const O: usize>(
     function: &impl Function<I, O>,
     arguments: &[[T; I]],
@@ -87,7 +87,7 @@ fn in_lanes<T: Number, R: Lanes<T>, const I: usize, const O: usize>(
     results
 }
 
-/// Its results as a scalar and at every level.
+/// The results of a function as a scalar and at every level.
 fn everywhere<T: Number, const I: usize, const O: usize>(
     function: &impl Function<I, O>,
     arguments: &[[T; I]],
@@ -112,7 +112,7 @@ fn everywhere<T: Number, const I: usize, const O: usize>(
     results
 }
 
-/// Asserts that each result stays within its bound, to which `spare` adds by argument.
+/// Asserts that the error of each result is within its bound plus `spare`, which depends on the argument.
 fn within<T: Number, const I: usize, const O: usize>(
     what: [(&str, f64); O],
     function: &impl Function<I, O>,
@@ -342,8 +342,8 @@ fn powers_at_the_ends_of_the_range() {
     }
 }
 
-// The contract, double and single precision: what the table of `law/elementary.rs` says. For the power, (a, b) stands
-// for a + b q.
+// The bounds in double and single precision, as in the table of `law/number/elementary.rs`. For the power, (a, b) stands for
+// a + b q.
 const LN_SUM: (f64, f64) = (3.0, 3.0);
 const LN_1P: (f64, f64) = (3.0, 3.0);
 const ASINH: (f64, f64) = (4.5, 4.5);
@@ -365,7 +365,7 @@ impl Function<2, 1> for Scaled {
     }
 }
 
-/// The seams of the reduction and the powers of two, with what lies beside them, and some numbers in between.
+/// The limits of the reduced interval and the powers of two, with their neighbours, and some numbers in between.
 macro_rules! splitting {
     ($name:ident, $t:ident) => {
         #[test]
@@ -543,20 +543,20 @@ const HALFWAY: [u64; 86] = [
     0x1ffb8a8b628dbc,
 ];
 
-/// Those, both ends of the mantissas' range, and some in between.
+/// These mantissas, those at both ends of the range, and some in between.
 fn hard_mantissas() -> Vec<f64> {
     let ends = (0..64).flat_map(|k| [(1_u64 << 53) - 1 - k, (1 << 52) + k]);
     let hard = HALFWAY.into_iter().chain(ends).map(|mantissa| mantissa as f64 / (1_u64 << 52) as f64);
     hard.chain(samples(1.0..2.0, 20_000)).collect()
 }
 
-/// Likewise in single precision: each of some hundred thousand, both ends among them.
+/// In single precision, some hundred thousand mantissas, those at both ends of the range among them.
 fn mantissas_single() -> Vec<f32> {
     let ends = (0..64).flat_map(|k| [(1_u32 << 24) - 1 - k, (1 << 23) + k]);
     ends.chain((1 << 23..1 << 24).step_by(61)).map(|mantissa| mantissa as f32 / (1_u32 << 23) as f32).collect()
 }
 
-/// Reciprocals are the same at every level: as a division rounds them.
+/// Reciprocals are the same at every level: those of a correctly rounded division.
 #[test]
 fn reciprocals_are_those_of_a_division() {
     let sizes = [1.0, -1.0, 2f64.powi(-300), 2f64.powi(300)];

@@ -1,4 +1,4 @@
-//! Tests of what the laws are made of; the laws themselves are tested from outside.
+//! Unit tests of what the laws are built from; the laws themselves are tested in `tests/law`.
 
 mod elementary;
 mod failure;
