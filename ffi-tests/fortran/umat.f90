@@ -56,7 +56,7 @@ program umat_test
   call refused('number of properties: 10 given, 11 needed', 10, 12, 3)
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)
-  call refused('a count is not what this entry can serve', 11, 12, 2)
+  call refused('a count that this function does not support', 11, 12, 2)
   props(9:11) = real([0.6, 0.0, 0.8], c_double)
   call refused('neither in the plane', 11, 12, 1)
   call check_written(7, 'material FIBRE:')

@@ -60,7 +60,7 @@ program vumat_test
   call refused('number of properties: 10 given, 11 needed', 10, nstatev, 3)
   props(3) = 2
   call refused('fewer state variables', 11, 10, 3)
-  call refused('a count is not what this entry can serve', 11, nstatev, 1)
+  call refused('a count that this function does not support', 11, nstatev, 1)
   call check_written(7, 'material FIBRE:')
   call finish
 

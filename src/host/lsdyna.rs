@@ -20,6 +20,8 @@ use crate::law::derivative::SixBySix;
 use crate::law::derivative::StressAndState;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::real::Scalar;
+use crate::law::number::registers::Registers;
 use crate::law::number::vector::dot;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
@@ -60,7 +62,7 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
 /// zeros. Before the first call of an element, F is a rotation or nearly one, which two of its columns show. After a call,
 /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0. NHV from 14 to 19 is not
 /// detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
-fn is_plausible<T: Precision>(history: impl Fn(usize) -> T) -> bool {
+fn is_plausible<T: Scalar>(history: impl Fn(usize) -> T) -> bool {
     const F: usize = HYPERELASTIC_STATE;
     let h = |j: usize| -> f64 { history(j).into() };
     if (F..F + 9).all(|j| h(j) == 0.0) {
@@ -144,7 +146,7 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
-unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
+unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
     if nhv != HYPERELASTIC_STATE as i32 {
         return Err(Error::Plain(status::STATE_COUNT));
     }
@@ -167,7 +169,7 @@ struct Element<'a, T> {
     status: &'a mut i32,
 }
 
-impl<T: Precision> Sink<T, 0> for Element<'_, T> {
+impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
     #[inline(always)]
     fn take(self, mut point: Point<T>, _: [T; 0]) {
         *self.status = point.status;
@@ -186,7 +188,7 @@ impl<T: Precision> Sink<T, 0> for Element<'_, T> {
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Precision>(
+unsafe fn scalar<T: Registers>(
     cm: *const T,
     sig: *mut T,
     hsv: *mut T,
@@ -317,7 +319,7 @@ pub unsafe extern "C" fn umat_vector_f32(
 
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
+unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
     if cm.is_null() || hsv.is_null() || es.is_null() {
         return Err(Error::Plain(status::NULL_ARGUMENT));
     }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other quantities as
-//! in [`kinematics`](super::kinematics). It is Eq. 4.14 of the thesis pushed forward, without its quotient 0/0: 2 I_td/ŝ is
+//! in `kinematics`. It is Eq. 4.14 of the thesis pushed forward, without its quotient 0/0: 2 I_td/ŝ is
 //! smooth through ŝ = 0.
 
 use super::bounds::{check, limits, within};

@@ -64,7 +64,7 @@ pub struct LinearPoint {
     pub stress: [f64; 6],
     /// The new state, in the order of [`state::LINEAR_ELASTIC`](super::state::LINEAR_ELASTIC).
     pub state: [f64; LINEAR_ELASTIC_STATE],
-    /// 0, or the [`status`](super::status) code of the reason why the point could not be evaluated; then the stress is 0 and
+    /// 0, or the [`status`] code of the reason why the point could not be evaluated; then the stress is 0 and
     /// the state is the old one.
     pub status: i32,
 }

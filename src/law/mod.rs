@@ -10,7 +10,7 @@ pub mod hyperelastic;
 pub(crate) mod kinematics;
 pub mod linear_elastic;
 pub mod linear_tangent;
-pub mod number;
+pub(crate) mod number;
 pub mod parameters;
 pub mod point;
 pub mod response;

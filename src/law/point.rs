@@ -31,7 +31,7 @@ pub struct Point<T> {
     pub modes: [[T; 6]; 4],
     /// ρ0 c² for an upper bound c of the wave speed.
     pub wave_modulus: T,
-    /// 0, or the [`status`](super::status) code of the reason why the point could not be evaluated.
+    /// 0, or the [`status`] code of the reason why the point could not be evaluated.
     pub status: i32,
 }
 

@@ -47,7 +47,7 @@ pub const INCREMENT_TOO_LARGE: i32 = -306;
 pub const TABLE: [(i32, &str, &str); 19] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
-    (BAD_COUNT, "bad_count", "a count is not what this entry can serve"),
+    (BAD_COUNT, "bad_count", "a count that this function does not support"),
     (BAD_LEADING_DIMENSION, "bad_leading_dimension", "the leading dimension is less than the number of points"),
     (UNKNOWN_NAME, "unknown_name", "no such name, index, law, preset or unit system"),
     (BAD_ARGUMENT, "bad_argument", "a scalar argument is outside what is allowed"),
@@ -56,7 +56,7 @@ pub const TABLE: [(i32, &str, &str); 19] = [
         "no_deformation_gradient",
         "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11",
     ),
-    (PROPERTY_COUNT, "property_count", "the number of properties is not the table's"),
+    (PROPERTY_COUNT, "property_count", "the number of properties differs from the table"),
     (PROPERTY_NOT_FINITE, "property_not_finite", "a property is NaN or infinite"),
     (PROPERTY_OUT_OF_BOUNDS, "property_out_of_bounds", "a property is outside its bounds"),
     (PROPERTY_DIRECTION, "property_direction", "a direction among the properties has no length or is not independent"),
@@ -65,8 +65,8 @@ pub const TABLE: [(i32, &str, &str); 19] = [
         "fibre_out_of_plane",
         "the fibre direction (properties 9 to 11) is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
     ),
-    (STATE_COUNT, "state_count", "there are fewer state variables than the table's"),
-    (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to nothing"),
+    (STATE_COUNT, "state_count", "there are fewer state variables than the law needs"),
+    (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),
     (
         OVERFLOW,

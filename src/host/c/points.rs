@@ -5,11 +5,11 @@ use core::cell::Cell;
 use libc::{c_char, size_t};
 
 use crate::host::environment::in_default_environment;
-use crate::law::block::Precision;
 use crate::law::derivative::{NoTangent, StressAndState};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::real::Real;
+use crate::law::number::registers::Registers;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, cells, evaluate_call};
 use crate::law::response::Request;
@@ -166,7 +166,7 @@ impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
 /// As for `toron_hyperelastic_point_f64`.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-unsafe fn point<T: Precision>(
+unsafe fn point<T: Registers>(
     values: *const T,
     count: size_t,
     deformation_gradient: *const T,

@@ -6,6 +6,7 @@ use crate::law::block::{Pointers, Precision};
 use crate::law::derivative::{NineByNine, SixBySix};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::registers::Registers;
 use crate::law::parameters;
 use crate::law::point::{Call, cells, evaluate_call};
 use crate::law::response::Request;
@@ -35,7 +36,7 @@ pub(super) fn measure(measure: i32) -> Result<Measure, Error> {
 /// # Safety
 /// As for `toron_hyperelastic_point_tangent_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn point_tangent<T: Precision>(
+unsafe fn point_tangent<T: Registers>(
     values: *const T,
     count: size_t,
     deformation_gradient: *const T,

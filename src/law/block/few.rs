@@ -66,7 +66,7 @@ impl<T: Scalar> Pointers<T> {
     /// The columns of F at a point.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`], with i < n.
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), with i < n.
     #[inline(always)]
     unsafe fn columns(&self, i: usize) -> [[T; 3]; 3] {
         // SAFETY: the caller's promise.
@@ -77,7 +77,7 @@ impl<T: Scalar> Pointers<T> {
     /// The fibre direction of a point; `None` for that of the properties.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`], with i < n.
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), with i < n.
     #[inline(always)]
     unsafe fn direction(&self, i: usize) -> Option<[T; 3]> {
         let [m_1, m_2, m_3] = self.fibre;
@@ -89,7 +89,7 @@ impl<T: Scalar> Pointers<T> {
     /// requested.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`], with i < n.
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), with i < n.
     #[inline(always)]
     unsafe fn old_state(&self, i: usize) -> [T; HYPERELASTIC_STATE] {
         let mut state = [T::splat(0.0); HYPERELASTIC_STATE];

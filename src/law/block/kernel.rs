@@ -313,7 +313,6 @@ struct Outcome<R: Real> {
 /// # Safety
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
@@ -386,7 +385,6 @@ fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
 /// # Safety
 /// As for [`sweep`], for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,

@@ -100,7 +100,7 @@ impl<T: Scalar> Pointers<T> {
     /// Checks the block. Returns the results that it requests.
     ///
     /// # Errors
-    /// As for [`Hyperelastic::raw_block`].
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block).
     #[inline(always)]
     pub(super) fn check(&self) -> Result<Request, Error> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
@@ -141,7 +141,7 @@ impl<T: Scalar> Pointers<T> {
     /// Copies the old state, or zeros where there is none, to the arrays of the new one: the kernel works in place.
     ///
     /// # Safety
-    /// As for [`Hyperelastic::raw_block`].
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block).
     pub(super) unsafe fn copy_old_state(&mut self) {
         let (n, stride) = (self.n, self.leading_dimension);
         let groups = [

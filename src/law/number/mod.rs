@@ -3,7 +3,7 @@
 pub(crate) mod elementary;
 pub(crate) mod level;
 pub mod real;
-pub mod registers;
+pub(crate) mod registers;
 mod scalar;
 mod series;
 pub(crate) mod vector;
