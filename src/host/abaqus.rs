@@ -18,8 +18,7 @@
 use core::cell::Cell;
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
-use crate::law::derivative::JaumannModulus;
-use crate::law::derivative::StressAndState;
+use crate::law::derivative::{Derivative, JaumannModulus, StressAndState};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::real::Real;
 use crate::law::number::vector::{cross, dot};
@@ -48,13 +47,13 @@ fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
     }
 }
 
-/// `toron_abaqus_umat_tangent_f64` of the C interface; package `toron-c` documents its arguments.
+/// Checks the arguments of a UMAT, evaluates its point with or without DDSDDE and stores the results. Returns the status code.
 ///
 /// # Safety
-/// As documented there.
+/// As documented for `toron_abaqus_umat_tangent_f64` in package `toron-c`; `ddsdde` is not null if `tangent` is DDSDDE.
 #[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_tangent_f64(
+#[inline(always)]
+unsafe fn umat<D: Derivative<N>, const N: usize>(
     stress: *mut f64,
     statev: *mut f64,
     ddsdde: *mut f64,
@@ -67,7 +66,11 @@ pub unsafe extern "C" fn umat_tangent_f64(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
-) -> i32 {
+    tangent: D,
+) -> i32
+where
+    for<'a> Umat<'a>: Sink<f64, N>,
+{
     let pointers = [stress.cast_const(), statev, sse, pnewdt, dfgrd1, props];
     if pointers.iter().any(|pointer| pointer.is_null()) {
         return status::NULL_ARGUMENT;
@@ -101,22 +104,67 @@ pub unsafe extern "C" fn umat_tangent_f64(
             return code;
         }
     }
-    // Two calls, each compiled for its own request. The structures are built inside the closures, so that their fields need not
-    // be copied as a whole.
-    if ddsdde.is_null() {
-        in_default_environment(move || {
-            let mut status = status::OK;
-            let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
-            let call = Call { properties, f, fibre: None, state, tangent: StressAndState, sink };
-            evaluate_call(call).map_or_else(|error| error.code(), |()| status)
-        })
-    } else {
-        in_default_environment(move || {
-            let mut status = status::OK;
-            let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
-            let call = Call { properties, f, fibre: None, state, tangent: JaumannModulus, sink };
-            evaluate_call(call).map_or_else(|error| error.code(), |()| status)
-        })
+    // The structures are built inside the closure, so that their fields need not be copied as a whole.
+    in_default_environment(move || {
+        let mut status = status::OK;
+        let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
+        let call = Call { properties, f, fibre: None, state, tangent, sink };
+        evaluate_call(call).map_or_else(|error| error.code(), |()| status)
+    })
+}
+
+/// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[allow(clippy::too_many_arguments)]
+#[inline(never)]
+pub unsafe extern "C" fn umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> i32 {
+    let ddsdde = core::ptr::null_mut();
+    // SAFETY: the caller's promise.
+    unsafe {
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, StressAndState)
+    }
+}
+
+/// `toron_abaqus_umat_tangent_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[allow(clippy::too_many_arguments)]
+#[inline(never)]
+pub unsafe extern "C" fn umat_tangent_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if ddsdde.is_null() {
+            return umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom);
+        }
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, JaumannModulus)
     }
 }
 
@@ -202,30 +250,6 @@ impl Sink<f64, 21> for Umat<'_> {
 #[inline(always)]
 fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
     [c11, c22, c33, c12, c31, c23]
-}
-
-/// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_f64(
-    stress: *mut f64,
-    statev: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-) -> i32 {
-    let none = core::ptr::null_mut();
-    // SAFETY: the caller's promise.
-    unsafe { umat_tangent_f64(stress, statev, none, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom) }
 }
 
 /// The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.

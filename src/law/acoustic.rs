@@ -14,7 +14,7 @@ use super::state::HYPERELASTIC_STATE;
 use super::status;
 use super::stress::principal_axes;
 use super::tangent::Measure;
-use super::voigt::VOIGT;
+use super::voigt::{VOIGT, columns};
 
 /// The directions to start from have whole numbers up to this one as components: 109 directions, none farther than 14° from the
 /// next.
@@ -180,7 +180,7 @@ fn extreme_axis(s: &[f64; 6], sign: f64) -> (f64, [f64; 3]) {
 
 /// v·sv of a symmetric tensor s, 11 22 33 12 23 31.
 fn quadratic(s: &[f64; 6], v: [f64; 3]) -> f64 {
-    dot(v, [dot([s[0], s[3], s[5]], v), dot([s[3], s[1], s[4]], v), dot([s[5], s[4], s[2]], v)])
+    dot(v, columns(s).map(|column| dot(column, v)))
 }
 
 fn normalised(v: [f64; 3]) -> [f64; 3] {

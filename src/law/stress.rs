@@ -4,8 +4,8 @@
 use nalgebra::Matrix3;
 
 use super::number::real::Real;
-use super::number::vector::{Matrix, cross, dot, image, product, select, transposed, unit};
-use super::voigt::{Moduli, PAIRS, paired_with_one, upper_triangle};
+use super::number::vector::{Matrix, cofactors, cross, dot, image, product, select, transposed, unit};
+use super::voigt::{Moduli, PAIRS, columns, paired_with_one, upper_triangle};
 
 /// The symmetric matrix of six components 11 22 33 12 23 31.
 pub fn matrix(s: &[f64; 6]) -> Matrix3<f64> {
@@ -20,29 +20,15 @@ pub fn components(s: &Matrix3<f64>) -> [f64; 6] {
 /// Q s Qᵀ of a symmetric tensor s, 11 22 33 12 23 31.
 #[inline(always)]
 pub fn turned<R: Real>(q: &Matrix<R>, s: &[R; 6]) -> [R; 6] {
-    let moved = product(q, &[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]]);
+    let moved = product(q, &columns(s));
     let (a, b) = (transposed(&moved), transposed(q));
     [dot(a[0], b[0]), dot(a[1], b[1]), dot(a[2], b[2]), dot(a[0], b[1]), dot(a[1], b[2]), dot(a[2], b[0])]
 }
 
-/// The matrix of cofactors, J F⁻ᵀ, which exists for every F.
-pub fn cofactors(f: &Matrix3<f64>) -> Matrix3<f64> {
-    Matrix3::new(
-        f.m22 * f.m33 - f.m23 * f.m32,
-        f.m23 * f.m31 - f.m21 * f.m33,
-        f.m21 * f.m32 - f.m22 * f.m31,
-        f.m13 * f.m32 - f.m12 * f.m33,
-        f.m11 * f.m33 - f.m13 * f.m31,
-        f.m12 * f.m31 - f.m11 * f.m32,
-        f.m12 * f.m23 - f.m13 * f.m22,
-        f.m13 * f.m21 - f.m11 * f.m23,
-        f.m11 * f.m22 - f.m12 * f.m21,
-    )
-}
-
 /// The first Piola–Kirchhoff stress P = JσF⁻ᵀ of a Cauchy stress 11 22 33 12 23 31: force per reference area.
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
-    matrix(cauchy) * cofactors(f)
+    // J F⁻ᵀ is the matrix of cofactors, which exists for every F.
+    matrix(cauchy) * Matrix3::from(cofactors(&f.data.0).1)
 }
 
 /// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no particular order, and an orthonormal axis for each, by Jacobi
@@ -102,7 +88,7 @@ pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let apart = apart(half * dot([a, d, f], cross([d, b, e], [f, e, c])));
     let (u, v, w) = ([a - apart, d, f], [d, b - apart, e], [f, e, c - apart]);
     let n = unit(longer(longer(cross(v, w), cross(w, u)), cross(u, v)));
-    let alone = dot(n, image(&[[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]], n));
+    let alone = dot(n, image(&columns(s), n));
     // Without its component along that axis and its mean in the plane across it, the deviator has the eigenvalues 0 and ± half
     // the distance between the other two.
     let (drop, middle) = (R::splat(-1.5) * apart, half * apart);

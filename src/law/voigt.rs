@@ -1,11 +1,18 @@
 //! Symmetric tensors as six components, 11 22 33 12 23 31, and symmetric 6×6 matrices on them.
 
 use super::number::real::Real;
+use super::number::vector::Matrix;
 
 /// The two tensor indices of each of the six components 11 22 33 12 23 31.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
 /// The component of two tensor indices: the inverse of [`PAIRS`].
 pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+
+/// The symmetric tensor as columns.
+#[inline(always)]
+pub(crate) fn columns<R: Real>(s: &[R; 6]) -> Matrix<R> {
+    [[s[0], s[3], s[5]], [s[3], s[1], s[4]], [s[5], s[4], s[2]]]
+}
 
 /// s a⊗a, 11 22 33 12 23 31.
 #[inline(always)]
