@@ -80,6 +80,7 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    type(c_ptr) :: active = c_null_ptr
     integer(c_int32_t) :: level = toron_level_best
   end type
 
@@ -99,6 +100,7 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: status = c_null_ptr
+    type(c_ptr) :: active = c_null_ptr
     integer(c_int32_t) :: level = toron_level_best
   end type
 

@@ -302,6 +302,10 @@ typedef struct {
    */
   int32_t *status;
   /*
+   Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+   */
+  double *active;
+  /*
    In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
    is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
    */
@@ -370,6 +374,10 @@ typedef struct {
    Out: a status code for each point.
    */
   int32_t *status;
+  /*
+   Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+   */
+  float *active;
   /*
    In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
    is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.

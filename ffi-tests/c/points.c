@@ -161,7 +161,7 @@ static void wrong_tangents(void)
 /* Guarded arrays of a block: `ld` is more than n, so that there are gaps nobody may write to. */
 typedef struct {
     size_t n, ld;
-    real *f, *fibre, *state, *stress, *modes, *speed;
+    real *f, *fibre, *state, *stress, *modes, *speed, *active;
     int32_t *status;
 } arrays_of_block;
 
@@ -169,7 +169,7 @@ static arrays_of_block allocate(size_t n)
 {
     size_t ld = n + 3;
     arrays_of_block a = {n,         ld,           reals(9 * ld), reals(3 * ld), reals(STATE * ld), reals(6 * ld),
-                         reals(24 * ld), reals(ld), guarded(ld * sizeof(int32_t))};
+                         reals(24 * ld), reals(ld), reals(ld), guarded(ld * sizeof(int32_t))};
     for (size_t j = 0; j < STATE; j++)
         for (size_t i = 0; i < n; i++)
             a.state[j * ld + i] = 0;
@@ -190,13 +190,14 @@ static toron_block arguments(const arrays_of_block *a)
     return (toron_block){.n = a->n, .leading_dimension = a->ld, .deformation_gradient = a->f, .fibre = a->fibre,
                          .energies_old = w, .invariants_old = invariants, .failure_old = failure, .density = density,
                          .stress = a->stress, .energies = w, .invariants = invariants, .failure = failure,
-                         .modes = a->modes, .wave_speed = a->speed, .status = a->status};
+                         .modes = a->modes, .wave_speed = a->speed, .status = a->status, .active = a->active};
 }
 
 static void check_gaps(const arrays_of_block *a)
 {
     const struct { const real *array; size_t components; } all[] = {{a->f, 9}, {a->fibre, 3}, {a->state, STATE},
-                                                                    {a->stress, 6}, {a->modes, 24}, {a->speed, 1}};
+                                                                    {a->stress, 6}, {a->modes, 24}, {a->speed, 1},
+                                                                    {a->active, 1}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         for (size_t c = 0; c < all[k].components; c++)
             CHECK(untouched(all[k].array + c * a->ld + a->n, (a->ld - a->n) * sizeof(real)), "array %d", (int)k);
@@ -231,6 +232,7 @@ static void blocks(void)
         for (int i = 0; i < n; i++) {
             check_tangent(&cases[first + i], tangent + i, a.ld, NULL, 0);
             CHECK(a.status[i] == TORON_OK, "case %d: %d", cases[first + i].id, a.status[i]);
+            CHECK(a.active[i] == 1 - a.state[FAILED * a.ld + (size_t)i], "case %d", cases[first + i].id);
             check_stress(&cases[first + i], a.stress + i, a.ld);
             check_state(&cases[first + i], a.state + i, a.ld);
         }
@@ -263,6 +265,7 @@ static void bad_points(void)
     CHECK(worst == TORON_FIBRE_DIRECTION, "%d", worst);
     for (size_t i = 0; i < N; i++) {
         CHECK(a.status[i] == wanted[i], "point %d: %d", (int)i, a.status[i]);
+        CHECK(a.active[i] == (wanted[i] == 0 ? 1 - a.state[FAILED * a.ld + i] : 0), "point %d", (int)i);
         for (size_t c = 0; wanted[i] != 0 && c < 6; c++)
             CHECK(a.stress[c * a.ld + i] == 0, "point %d", (int)i);
         if (wanted[i] == 0)

@@ -22,7 +22,7 @@ class Block(ctypes.Structure):
         for name in "deformation_gradient fibre energies_old invariants_old failure_old density "
         "stress energies invariants failure modes wave_speed".split()
     ]
-    _fields_ += [("status", ctypes.POINTER(ctypes.c_int32)), ("level", ctypes.c_int32)]
+    _fields_ += [("status", ctypes.POINTER(ctypes.c_int32)), ("active", _pointer), ("level", ctypes.c_int32)]
 
 
 def _address(array):

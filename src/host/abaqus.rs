@@ -26,7 +26,6 @@ use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use crate::law::status;
-use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
 
 use super::border::properties;
@@ -394,24 +393,16 @@ unsafe fn stretched<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: us
         let row = |c: usize| c.wrapping_mul(n).wrapping_add(start);
         let [u11, u22, u33, u12, u23, u31] = components(block.stretch_new.wrapping_add(start), n);
         let pointers = Pointers {
-            n: CHUNK.min(n - start),
-            leading_dimension: n,
             deformation_gradient: [u11, u12, u31, u12, u22, u23, u31, u23, u33],
-            fibre: [core::ptr::null(); 3],
             energies_old: block.state_old.wrapping_add(row(ENERGIES)),
             invariants_old: block.state_old.wrapping_add(row(INVARIANTS)),
             failure_old: block.state_old.wrapping_add(row(FAILURE_INDEX)),
-            density: T::splat(1.0),
             stress: components_mut(block.stress_new.wrapping_add(start), n),
             energies: block.state_new.wrapping_add(row(ENERGIES)),
             invariants: block.state_new.wrapping_add(row(INVARIANTS)),
             failure: block.state_new.wrapping_add(row(FAILURE_INDEX)),
-            modes: core::ptr::null_mut(),
-            wave_speed: core::ptr::null_mut(),
-            tangent: core::ptr::null_mut(),
-            measure: Measure::Jaumann,
             status: codes.as_mut_ptr(),
-            level: None,
+            ..Pointers::without_arrays(CHUNK.min(n - start), n)
         };
         // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
         match unsafe { law.raw_block(&pointers) } {

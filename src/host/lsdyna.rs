@@ -99,24 +99,16 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
         let mut codes = [status::OK; CHUNK];
         let row = |variable: usize| elements.history.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
         let pointers = Pointers {
-            n,
-            leading_dimension: stride,
             deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
-            fibre: [core::ptr::null(); 3],
             energies_old: row(ENERGIES),
             invariants_old: row(INVARIANTS),
             failure_old: row(FAILURE_INDEX),
-            density: T::splat(1.0),
             stress: elements.stress.map(|component| component.wrapping_add(start)),
             energies: row(ENERGIES),
             invariants: row(INVARIANTS),
             failure: row(FAILURE_INDEX),
-            modes: core::ptr::null_mut(),
-            wave_speed: core::ptr::null_mut(),
-            tangent: core::ptr::null_mut(),
-            measure: Measure::Truesdell,
             status: codes.as_mut_ptr(),
-            level: None,
+            ..Pointers::without_arrays(n, stride)
         };
         // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
         worst = worst.min(unsafe { law.raw_block(&pointers) }?);
@@ -383,26 +375,12 @@ unsafe fn vector_tangent<T: Precision>(
     }
     let (start, stride) = ((lft - 1) as usize, nlq as usize);
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
-    let none = core::ptr::null_mut;
     let pointers = Pointers {
-        n: (llt - lft + 1) as usize,
-        leading_dimension: stride,
         deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
-        fibre: [core::ptr::null(); 3],
-        energies_old: core::ptr::null(),
-        invariants_old: core::ptr::null(),
         failure_old: row(FAILURE_INDEX),
-        density: T::splat(1.0),
-        stress: [none(); 6],
-        energies: none(),
-        invariants: none(),
-        failure: none(),
-        modes: none(),
-        wave_speed: none(),
         tangent: dsave.wrapping_add(start),
         measure: Measure::Truesdell,
-        status: core::ptr::null_mut(),
-        level: None,
+        ..Pointers::without_arrays((llt - lft + 1) as usize, stride)
     };
     // SAFETY: the caller's promise.
     unsafe {

@@ -4,7 +4,6 @@ use std::fmt::Debug;
 
 use nalgebra::Matrix3;
 use toron::Level;
-use toron::Measure;
 use toron::Real;
 use toron::law::block::{Pointers, Precision, components, components_mut};
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
@@ -271,8 +270,6 @@ pub fn run<T: Number>(law: &Hyperelastic<T>, inputs: &[Input<T>], call: &Call<T>
         Old::Null => [std::ptr::null_mut(); 3],
     };
     let block = Pointers {
-        n,
-        leading_dimension: stride,
         deformation_gradient: components(gradient.pointer(0, true), stride),
         fibre: components(fibre.pointer(0, call.fibres), stride),
         energies_old,
@@ -285,10 +282,9 @@ pub fn run<T: Number>(law: &Hyperelastic<T>, inputs: &[Input<T>], call: &Call<T>
         failure,
         modes: modes.pointer(0, asked.modes),
         wave_speed: wave.pointer(0, asked.wave_speed),
-        tangent: std::ptr::null_mut(),
-        measure: Measure::Jaumann,
         status: if asked.status { codes[call.offset..].as_mut_ptr() } else { std::ptr::null_mut() },
         level: Some(call.level),
+        ..Pointers::without_arrays(n, stride)
     };
     // SAFETY: every array has its components with this leading dimension, and only the state may stand twice.
     let worst = unsafe { law.raw_block(&block) }.expect("a good call");

@@ -17,6 +17,7 @@ use toron::Measure;
 use toron::Point;
 use toron::Real;
 use toron::host::c;
+use toron::law::block::Pointers;
 use toron::law::parameters::PRESETS;
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
@@ -853,26 +854,7 @@ fn a_null_gradient_is_refused_and_no_points_are_none() {
     for missing in 0..9 {
         let mut deformation_gradient = toron::law::block::components(owned.gradient.as_ptr(), 3);
         deformation_gradient[missing] = std::ptr::null();
-        let block = toron::law::block::Pointers {
-            n: 3,
-            leading_dimension: 3,
-            deformation_gradient,
-            fibre: [std::ptr::null(); 3],
-            energies_old: std::ptr::null(),
-            invariants_old: std::ptr::null(),
-            failure_old: std::ptr::null(),
-            density: 1.0,
-            stress,
-            energies: std::ptr::null_mut(),
-            invariants: std::ptr::null_mut(),
-            failure: std::ptr::null_mut(),
-            modes: std::ptr::null_mut(),
-            wave_speed: std::ptr::null_mut(),
-            tangent: std::ptr::null_mut(),
-            measure: Measure::Jaumann,
-            status: std::ptr::null_mut(),
-            level: None,
-        };
+        let block = Pointers { deformation_gradient, stress, ..Pointers::without_arrays(3, 3) };
         // SAFETY: each pointer is null or has three values a component.
         assert_eq!(unsafe { law.raw_block(&block) }, Err(Error::Plain(status::NULL_ARGUMENT)));
         assert!(owned.stress.iter().all(|&x| x == 0.0));

@@ -5,6 +5,7 @@ mod common;
 
 mod block;
 mod energy;
+mod layouts;
 mod linear_block;
 mod linear_elastic;
 mod parameters;

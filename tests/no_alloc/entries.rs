@@ -148,6 +148,7 @@ macro_rules! both_precisions {
                         quiet!($point_tangent, yarn, P, f.as_ptr(), direction, old, n, s, measure, c);
                         quiet!($point_tangent, yarn, P, null(), null(), old, n, s, measure, null_mut());
                     }
+                    let mut active = 0.0;
                     let block = Block {
                         n: 1,
                         leading_dimension: 1,
@@ -164,6 +165,7 @@ macro_rules! both_precisions {
                         modes: m,
                         wave_speed: &mut speed,
                         status: &mut code,
+                        active: &mut active,
                         level: TORON_LEVEL_BEST,
                     };
                     quiet!($block, yarn, P, &block);

@@ -140,6 +140,7 @@ fn stress_arrays<'a, T: Real>(
         tangent: None,
         measure: Measure::Jaumann,
         status: Some(status),
+        active: None,
         level: Some(level),
     }
 }

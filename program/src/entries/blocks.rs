@@ -59,6 +59,7 @@ pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBloc
         modes: null_mut(),
         wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
         status: status.as_mut_ptr(),
+        active: null_mut(),
         level: c::TORON_LEVEL_BEST,
     };
     // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly.

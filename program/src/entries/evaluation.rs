@@ -124,6 +124,7 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
         modes: modes.as_mut_ptr(),
         wave_speed: null_mut(),
         status: codes.as_mut_ptr(),
+        active: null_mut(),
         level: c::TORON_LEVEL_BEST,
     };
     let mut rows = array(36);

@@ -5,9 +5,9 @@ use libc::size_t;
 use crate::law::block::{Pointers, Precision, components, components_mut, raw_block_of};
 use crate::law::error::Error;
 use crate::law::number::level::Level;
+use crate::law::number::real::Scalar;
 use crate::law::parameters;
 use crate::law::status;
-use crate::law::tangent::Measure;
 
 use super::constants::{TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST};
 use crate::host::border::{entry, properties};
@@ -50,6 +50,8 @@ pub struct Block<T> {
     pub wave_speed: *mut T,
     /// Out: a status code for each point.
     pub status: *mut i32,
+    /// Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+    pub active: *mut T,
     /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
     /// is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
     pub level: i32,
@@ -70,16 +72,11 @@ pub(super) fn level(level: i32) -> Result<Option<Level>, Error> {
     }
 }
 
-impl<T> Block<T> {
+impl<T: Scalar> Block<T> {
     #[inline(always)]
-    pub(super) fn pointers(&self) -> Result<Pointers<T>, Error>
-    where
-        T: Copy,
-    {
+    pub(super) fn pointers(&self) -> Result<Pointers<T>, Error> {
         let stride = self.leading_dimension;
         Ok(Pointers {
-            n: self.n,
-            leading_dimension: stride,
             deformation_gradient: components(self.deformation_gradient, stride),
             fibre: components(self.fibre, stride),
             energies_old: self.energies_old,
@@ -92,10 +89,10 @@ impl<T> Block<T> {
             failure: self.failure,
             modes: self.modes,
             wave_speed: self.wave_speed,
-            tangent: core::ptr::null_mut(),
-            measure: Measure::Material,
             status: self.status,
+            active: self.active,
             level: level(self.level)?,
+            ..Pointers::without_arrays(self.n, stride)
         })
     }
 }

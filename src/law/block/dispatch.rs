@@ -7,13 +7,13 @@ use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
 use super::baseline::Baseline;
+use super::copies::{padded, padded_linear};
 #[cfg(target_arch = "x86_64")]
 use super::few;
 use super::instructions::Instructions;
 use super::kernel::{ALIGNED, ANY, FIBRES, STATE, STRESS};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
-use super::remainder::{padded, padded_linear};
 #[cfg(target_arch = "x86_64")]
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
@@ -143,7 +143,7 @@ unsafe fn run<T: Registers, I: Instructions>(
         return status::OK;
     }
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
-    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && !law.shears;
+    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && block.active.is_null() && !law.shears;
     let state = energies && invariants && failure;
     let stress_alone = !energies && !invariants && !failure && block.failure_old.is_null();
     let fibres = !block.fibre[0].is_null();

@@ -128,18 +128,18 @@ impl<T: Scalar> OnePoint<'_, T> {
         let OnePoint { block, i, code } = self;
         *code = point.status;
         // SAFETY: `evaluate_each` makes this for a block that can be evaluated, with i < n.
-        let store = |values: &[T], array: *mut T| unsafe {
+        let store = |values: &[T], array: *mut T, leading_dimension: usize| unsafe {
             if !array.is_null() {
                 for (c, &value) in values.iter().enumerate() {
-                    *array.add(c * block.leading_dimension + i) = value;
+                    *array.add(c * leading_dimension + i) = value;
                 }
             }
         };
         let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive] = point.state;
-        store(&[w_el, w_tc, w_td, w_ld], block.energies);
-        store(&[i_el, i_tc, i_td, i_ld], block.invariants);
-        store(&[index, failed, alive], block.failure);
-        store(point.modes.as_flattened(), block.modes);
+        store(&[w_el, w_tc, w_td, w_ld], block.energies, block.leading_dimension);
+        store(&[i_el, i_tc, i_td, i_ld], block.invariants, block.leading_dimension);
+        store(&[index, failed, alive], block.failure, block.leading_dimension);
+        store(point.modes.as_flattened(), block.modes, block.modes_leading_dimension);
         // SAFETY: as above.
         unsafe {
             if !block.stress[0].is_null() {
@@ -152,6 +152,9 @@ impl<T: Scalar> OnePoint<'_, T> {
             }
             if !block.status.is_null() {
                 *block.status.add(i) = point.status;
+            }
+            if !block.active.is_null() {
+                *block.active.add(i) = if point.status == status::OK { alive } else { T::splat(0.0) };
             }
         }
     }

@@ -2,12 +2,13 @@
 
 use core::marker::PhantomData;
 
+use super::copies::copied;
 use super::dispatch::Precision;
 #[cfg(target_arch = "x86_64")]
 use super::few::FEW;
 use super::kernel::{STAGED, WIDEST};
 use super::linear::LinearPointers;
-use super::pointers::{Pointers, components, components_mut, leading_dimension_below};
+use super::pointers::{Pointers, Strides, components, components_mut, leading_dimension_below};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
@@ -37,6 +38,8 @@ pub struct Arrays<'a, T> {
     pub measure: Measure,
     /// A status code for each point.
     pub status: Option<&'a mut [i32]>,
+    /// For each point 1, or 0 if it has failed or cannot be evaluated.
+    pub active: Option<&'a mut [T]>,
     /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
 }
@@ -87,6 +90,9 @@ impl<'a, T: Precision> Block<'a, T> {
         let pointers = Pointers {
             n,
             leading_dimension,
+            modes_leading_dimension: leading_dimension,
+            tangent_leading_dimension: leading_dimension,
+            strides: Strides::UNIT,
             deformation_gradient: components(arrays.deformation_gradient.as_ptr(), leading_dimension),
             fibre: components(input("entries of fibre", arrays.fibre, 3)?, leading_dimension),
             energies_old: energies,
@@ -105,6 +111,7 @@ impl<'a, T: Precision> Block<'a, T> {
                 Some(array) => check("entries of status", array.len(), 1).map(|()| array.as_mut_ptr())?,
                 None => core::ptr::null_mut(),
             },
+            active: output("entries of active", arrays.active, 1)?,
             level: arrays.level,
         };
         // If columns overlapped, the parts of a block would overlap too.
@@ -162,6 +169,18 @@ impl<T: Precision> Hyperelastic<T> {
             return Ok(status::OK);
         }
         let level = block.level();
+        if block.strides != Strides::UNIT {
+            let mut worst = status::OK;
+            for first in (0..block.n).step_by(COPIED_APART) {
+                let points = first..block.n.min(first + COPIED_APART);
+                // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+                let code = unsafe {
+                    copied::<T, COPIED_APART>(block, points, |points| T::dispatch(level, self, points, request))
+                };
+                worst = worst.min(code);
+            }
+            return Ok(worst);
+        }
         if block.in_place() {
             // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
             return Ok(unsafe { T::dispatch(level, self, block, request) });
@@ -192,6 +211,7 @@ impl<T: Precision> Hyperelastic<T> {
 pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
     #[cfg(target_arch = "x86_64")]
     if (1..=FEW).contains(&block.n)
+        && block.strides == Strides::UNIT
         && block.tangent.is_null()
         && block.level() > Level::Baseline
         && let Ok(request) = block.check()
@@ -203,6 +223,9 @@ pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) 
     // SAFETY: the caller answers for the arrays.
     unsafe { Hyperelastic::new(properties)?.raw_block(block) }
 }
+
+/// How many points that are not next to each other are copied at a time.
+const COPIED_APART: usize = 32;
 
 /// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
 const COPIED: usize = 2 * STAGED * WIDEST;

@@ -323,7 +323,7 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
 ) -> Outcome<R> {
     let Kinematics { stretch: d, strain, .. } = kinematics;
     let request = request::<T, WANT>(block);
-    let stride = block.leading_dimension;
+    let stride = block.modes_leading_dimension;
 
     // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
     unsafe {
@@ -397,7 +397,7 @@ unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
             // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
-            unsafe { entry.store(block.tangent.add(c * block.leading_dimension + i)) };
+            unsafe { entry.store(block.tangent.add(c * block.tangent_leading_dimension + i)) };
         }
     };
     if block.measure == Measure::Nominal {
@@ -426,7 +426,7 @@ unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, o
     for c in 0..block.measure.components() {
         // SAFETY: the array has the component, and the lanes from i on.
         unsafe {
-            let place = block.tangent.add(c * block.leading_dimension + i);
+            let place = block.tangent.add(c * block.tangent_leading_dimension + i);
             R::select(outcome.updated, R::load(place), zero).store(place);
         }
     }
@@ -459,7 +459,7 @@ unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     check + sum
 }
 
-/// Stores the new state of the points that have one, and the latch of all.
+/// Stores the new state of the points that have one, the latch of all, and which are active.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`respond`].
@@ -494,6 +494,10 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
             r.failure_index.store_where(outcome.updated, block.failure.add(i));
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
+        }
+        if WANT & ANY != 0 && !block.active.is_null() {
+            let (zero, one) = (R::splat(0.0), R::splat(1.0));
+            R::select(outcome.updated, one - r.failed, zero).store(block.active.add(i));
         }
     }
 }

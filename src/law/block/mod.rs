@@ -20,6 +20,7 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod baseline;
+mod copies;
 mod dispatch;
 #[cfg(target_arch = "x86_64")]
 mod few;
@@ -28,9 +29,8 @@ mod interface;
 mod kernel;
 pub mod linear;
 mod pointers;
-mod remainder;
 
 pub use dispatch::Precision;
 pub(crate) use interface::raw_block_of;
 pub use interface::{Arrays, Block};
-pub use pointers::{Pointers, components, components_mut};
+pub use pointers::{Pointers, Strides, components, components_mut};

@@ -1,5 +1,7 @@
 //! A block of points as hosts hold it: a pointer for each array, or each component.
 
+use core::ptr::{null, null_mut};
+
 use crate::law::error::Error;
 use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
@@ -16,9 +18,15 @@ use crate::law::wave_speed;
 /// as the new ones. The components of each array are listed in [`block`](super).
 #[derive(Clone, Copy, Debug)]
 pub struct Pointers<T> {
-    /// The number of points; and the leading dimension, at least `n`.
+    /// The number of points.
     pub n: usize,
+    /// The distance from one component to the next in the energies, invariants and failure, in the modes and in the tangent; at
+    /// least `n` where points are next to each other.
     pub leading_dimension: usize,
+    pub modes_leading_dimension: usize,
+    pub tangent_leading_dimension: usize,
+    /// The distance from one point to the next.
+    pub strides: Strides,
     pub deformation_gradient: [*const T; 9],
     pub fibre: [*const T; 3],
     pub energies_old: *const T,
@@ -35,8 +43,28 @@ pub struct Pointers<T> {
     pub measure: Measure,
     /// A status code for each point.
     pub status: *mut i32,
+    /// For each point 1, or 0 if it has failed or cannot be evaluated.
+    pub active: *mut T,
     /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
     pub level: Option<Level>,
+}
+
+/// The distance from one point to the next in each group of arrays; what has one number for a point (wave speed, status, active) is
+/// contiguous.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Strides {
+    pub deformation_gradient: usize,
+    pub fibre: usize,
+    /// Of energies, invariants and failure, old and new.
+    pub state: usize,
+    pub stress: usize,
+    pub modes: usize,
+    pub tangent: usize,
+}
+
+impl Strides {
+    /// Points next to each other: component-major arrays.
+    pub const UNIT: Strides = Strides { deformation_gradient: 1, fibre: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
 }
 
 /// The pointers to the components of a component-major array; all null if `array` is.
@@ -64,23 +92,25 @@ pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize
 impl<T> Pointers<T> {
     /// The points from `first` ≤ n on.
     pub(super) fn from(self, first: usize) -> Self {
-        let input = |p: *const T| if p.is_null() { p } else { p.wrapping_add(first) };
-        let output = |p: *mut T| if p.is_null() { p } else { p.wrapping_add(first) };
+        let input = |p: *const T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
+        let output = |p: *mut T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
+        let Strides { deformation_gradient, fibre, state, stress, modes, tangent } = self.strides;
         Pointers {
             n: self.n - first,
-            deformation_gradient: self.deformation_gradient.map(input),
-            fibre: self.fibre.map(input),
-            energies_old: input(self.energies_old),
-            invariants_old: input(self.invariants_old),
-            failure_old: input(self.failure_old),
-            stress: self.stress.map(output),
-            energies: output(self.energies),
-            invariants: output(self.invariants),
-            failure: output(self.failure),
-            modes: output(self.modes),
-            wave_speed: output(self.wave_speed),
-            tangent: output(self.tangent),
+            deformation_gradient: self.deformation_gradient.map(|p| input(p, deformation_gradient)),
+            fibre: self.fibre.map(|p| input(p, fibre)),
+            energies_old: input(self.energies_old, state),
+            invariants_old: input(self.invariants_old, state),
+            failure_old: input(self.failure_old, state),
+            stress: self.stress.map(|p| output(p, stress)),
+            energies: output(self.energies, state),
+            invariants: output(self.invariants, state),
+            failure: output(self.failure, state),
+            modes: output(self.modes, modes),
+            wave_speed: output(self.wave_speed, 1),
+            tangent: output(self.tangent, tangent),
             status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
+            active: output(self.active, 1),
             ..self
         }
     }
@@ -97,6 +127,36 @@ pub(super) fn leading_dimension_below(n: usize, leading_dimension: usize) -> Err
 }
 
 impl<T: Scalar> Pointers<T> {
+    /// A block of `n` points next to each other, with one leading dimension for all groups and no arrays yet: for the fields that a
+    /// host does not name.
+    #[inline(always)]
+    pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
+        Pointers {
+            n,
+            leading_dimension,
+            modes_leading_dimension: leading_dimension,
+            tangent_leading_dimension: leading_dimension,
+            strides: Strides::UNIT,
+            deformation_gradient: [null(); 9],
+            fibre: [null(); 3],
+            energies_old: null(),
+            invariants_old: null(),
+            failure_old: null(),
+            density: T::splat(0.0),
+            stress: [null_mut(); 6],
+            energies: null_mut(),
+            invariants: null_mut(),
+            failure: null_mut(),
+            modes: null_mut(),
+            wave_speed: null_mut(),
+            tangent: null_mut(),
+            measure: Measure::Jaumann,
+            status: null_mut(),
+            active: null_mut(),
+            level: None,
+        }
+    }
+
     /// Checks the block. Returns the results that it requests.
     ///
     /// # Errors
@@ -106,8 +166,17 @@ impl<T: Scalar> Pointers<T> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
             return Err(Error::Plain(status::NULL_ARGUMENT));
         }
-        if self.leading_dimension < self.n {
-            return Err(leading_dimension_below(self.n, self.leading_dimension));
+        // Where points are next to each other, components would overlap. Absent arrays have none.
+        let state = [self.energies, self.invariants, self.failure].iter().any(|array| !array.is_null());
+        let groups = [
+            (state, self.strides.state, self.leading_dimension),
+            (!self.modes.is_null(), self.strides.modes, self.modes_leading_dimension),
+            (!self.tangent.is_null(), self.strides.tangent, self.tangent_leading_dimension),
+        ];
+        for (present, stride, leading_dimension) in groups {
+            if present && stride == 1 && leading_dimension < self.n {
+                return Err(leading_dimension_below(self.n, leading_dimension));
+            }
         }
         if self.n > 0 && !self.wave_speed.is_null() {
             wave_speed::check_density(self.density)?;
