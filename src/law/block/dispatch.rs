@@ -143,9 +143,9 @@ unsafe fn run<T: Registers, I: Instructions>(
         return status::OK;
     }
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
-    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && block.active.is_null() && !law.shears;
+    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && !law.shears;
     let state = energies && invariants && failure;
-    let stress_alone = !energies && !invariants && !failure && block.failure_old.is_null();
+    let stress_alone = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
     let fibres = !block.fibre[0].is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;

@@ -159,10 +159,13 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let zero = R::splat(0.0);
     let mut check = zero;
     let at = |k: usize| i + k * R::COUNT;
-    // If the block has no array for the status codes, they are stored to a scratch array, which costs less than a test at every
-    // store.
-    let mut scratch = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
-    let status = if block.status.is_null() { scratch.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
+    // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
+    // than a test at every store.
+    let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
+    let status =
+        if block.status.is_null() { no_status.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
+    let mut no_active = [const { MaybeUninit::<T>::uninit() }; STAGED * WIDEST];
+    let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
     // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
     // what the ones before have put.
     unsafe {
@@ -230,7 +233,9 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         if WANT & (STATE | ANY) != 0 {
             for k in 0..count {
                 let (d, strain) = (stretches.get(k), strains.get(k));
-                store_state::<T, R, WANT>(law, block, at(k), d, strain, steps.get(k).powered, outcomes.get(k));
+                let power = steps.get(k).powered;
+                let is_active = store_state::<T, R, WANT>(law, block, at(k), d, strain, power, outcomes.get(k));
+                is_active.store(active.wrapping_add(at(k)));
             }
         }
         if wants_tangent::<T, WANT>(block) {
@@ -459,7 +464,7 @@ unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     check + sum
 }
 
-/// Stores the new state of the points that have one, the latch of all, and which are active.
+/// Stores the new state of the points that have one and the latch of all. Returns 1 for the points that are active, else 0.
 ///
 /// # Safety
 /// As for [`sweep`], for the lanes from i on, after [`respond`].
@@ -472,7 +477,7 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     strain: &Strain<R>,
     power: R,
     outcome: &Outcome<R>,
-) {
+) -> R {
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
     // SAFETY: the arrays have the components, and the lanes from i on.
@@ -495,10 +500,7 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
             r.failed.store(block.failure.add(stride + i));
             (R::splat(1.0) - r.failed).store(block.failure.add(2 * stride + i));
         }
-        if WANT & ANY != 0 && !block.active.is_null() {
-            let (zero, one) = (R::splat(0.0), R::splat(1.0));
-            R::select(outcome.updated, one - r.failed, zero).store(block.active.add(i));
-        }
+        R::select(outcome.updated, R::splat(1.0) - r.failed, R::splat(0.0))
     }
 }
 
