@@ -170,8 +170,9 @@ fn kernel<'a>(functions: &'a BTreeMap<String, Function>, precision: &str, level:
     functions.get(&format!("<{name}>")).or_else(|| functions.get(&name)).unwrap_or_else(|| panic!("no function {name}"))
 }
 
-/// Stress and stress with the state: for any fibre of the properties, for fibre directions of points, for the first axis.
-const USUAL: [u8; 6] = [0, 1, 2, 3, 4, 5];
+/// Stress and stress with the state: for any fibre of the properties, for fibre directions of points, for the first axis; and with
+/// the state and a longitudinal shear.
+const USUAL: [u8; 9] = [0, 1, 2, 3, 4, 5, 17, 19, 21];
 /// The kernel that looks up what the block asks for.
 const ANY: u8 = 8;
 

@@ -11,7 +11,7 @@ use super::copies::{padded, padded_linear};
 #[cfg(target_arch = "x86_64")]
 use super::few;
 use super::instructions::Instructions;
-use super::kernel::{ALIGNED, ANY, FIBRES, STATE, STRESS};
+use super::kernel::{ALIGNED, ANY, FIBRES, SHEAR, STATE, STRESS};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
 #[cfg(target_arch = "x86_64")]
@@ -143,23 +143,30 @@ unsafe fn run<T: Registers, I: Instructions>(
         return status::OK;
     }
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
-    let usual = stress && !modes && !wave_modulus && block.tangent.is_null() && !law.shears;
-    let state = energies && invariants && failure;
-    let stress_alone = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
+    let usual = stress && !modes && !wave_modulus && block.tangent.is_null();
+    let state = usual && energies && invariants && failure;
+    let nothing_else = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
+    let stress_alone = usual && nothing_else && !law.shears;
     let fibres = !block.fibre[0].is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
+    const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
+    const SHEAR_STATE_ALIGNED: u8 = SHEAR + STATE + ALIGNED;
+    const SHEAR_STATE: u8 = SHEAR + STATE;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
     // SAFETY: the caller's promise.
     unsafe {
-        match (usual && state, usual && stress_alone) {
-            (true, _) if fibres => I::run::<T, STATE_FIBRES>(law, block, points),
-            (true, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block, points),
-            (true, _) => I::run::<T, STATE>(law, block, points),
-            (_, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block, points),
-            (_, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block, points),
-            (_, true) => I::run::<T, STRESS>(law, block, points),
+        match (state, law.shears, stress_alone) {
+            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block, points),
+            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block, points),
+            (true, false, _) => I::run::<T, STATE>(law, block, points),
+            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, block, points),
+            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, block, points),
+            (true, true, _) => I::run::<T, SHEAR_STATE>(law, block, points),
+            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block, points),
+            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block, points),
+            (_, _, true) => I::run::<T, STRESS>(law, block, points),
             _ => run_any::<T, I>(law, block, points),
         }
     }

@@ -13,8 +13,7 @@ use crate::law::status;
 use crate::law::tangent::{Measure, may_overflow};
 use crate::law::wave_speed;
 
-// The requests that a kernel is compiled for, so that its loops contain no branches about them. All but the last are for a law
-// without longitudinal shear.
+// The requests that a kernel is compiled for, so that its loops contain no branches about them.
 
 /// The stress alone, with the fibre direction of the properties; the other flags are added to this.
 pub(super) const STRESS: u8 = 0;
@@ -24,9 +23,11 @@ pub(super) const STATE: u8 = 1;
 pub(super) const FIBRES: u8 = 2;
 /// The fibre direction of the properties is the first axis.
 pub(super) const ALIGNED: u8 = 4;
-/// All that the block has arrays for, which the kernel looks up at run time for each group of registers; and longitudinal
-/// shear.
+/// All that the block has arrays for and, if the law has one, longitudinal shear: the kernel looks these up at run time for each
+/// group of registers.
 pub(super) const ANY: u8 = 8;
+/// Longitudinal shear, compiled with the state alone: it is rarely used.
+pub(super) const SHEAR: u8 = 16;
 
 /// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
@@ -286,7 +287,7 @@ unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
 /// Whether the law has a longitudinal shear stiffness and the kernel is compiled for it.
 #[inline(always)]
 fn shears<R: Real, const WANT: u8>(law: &Hyperelastic<R>) -> bool {
-    WANT & ANY != 0 && law.shears
+    WANT & SHEAR != 0 || (WANT & ANY != 0 && law.shears)
 }
 
 /// The results that are requested of a kernel.
