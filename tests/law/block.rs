@@ -466,7 +466,7 @@ fn hard_volumes<T: Number>() -> Vec<Input<T>> {
 }
 
 /// Every level with fused multiply-add gives the same bits: the answer does not depend on the processor. What this machine's
-/// does not have is left out; `reciprocals` in `law/block/tests.rs` are checked for all of them.
+/// does not have is left out; `reciprocals` in `src/law/tests/elementary.rs` are checked for all of them.
 fn fused_levels_agree<T: Number>() {
     let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
     let truth = cases();

@@ -14,6 +14,11 @@
 //! | `modes` | S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31 (second Piola–Kirchhoff) |
 //! | `wave_speed` | a bound of the wave speed, at the reference density `density` |
 //! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; all of it, symmetric |
+//! | `active` | 1, or 0 if the point has failed or cannot be evaluated |
+//!
+//! [`Pointers`] has a pointer for each component of F, fibre and stress, and a leading dimension for each other group of arrays.
+//! Points need not be next to each other ([`Strides`]): those of an array with a row for each point, as NumPy keeps them, are copied
+//! part by part to component-major arrays, and their results back.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
