@@ -687,7 +687,8 @@ size_t toron_hyperelastic_validate_f32(const float *values,
    current element lengths for the stable time step (a bulk viscosity computed with it damps more than with the exact
    speed). Each of these three may be null.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and modes are 0, the wave
+ speed is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
  */
 int32_t toron_hyperelastic_point_f64(const double *values,
                                      size_t count,
@@ -727,7 +728,8 @@ int32_t toron_hyperelastic_point_f32(const float *values,
  The call that detects failure returns the intact tangent, later calls return zeros. At a kink (I_el = 0 or I_tc = 0) the
  tangent is that of loading.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is
+ unchanged but for `alive`).
  */
 int32_t toron_hyperelastic_point_tangent_f64(const double *values,
                                              size_t count,
@@ -845,7 +847,7 @@ int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double
  - `axes`: 9 values, in and out, the current material axes, used only for `TORON_ROTATION_SPIN`; initialise them with
    `toron_linear_elastic_axes_f64`. May be null for the other frames.
 
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged but for `alive`).
  */
 int32_t toron_linear_elastic_step_f64(const double *values,
                                       size_t count,

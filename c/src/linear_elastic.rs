@@ -37,7 +37,7 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(values: *const f64, count
 /// - `axes`: 9 values, in and out, the current material axes, used only for `TORON_ROTATION_SPIN`; initialise them with
 ///   `toron_linear_elastic_axes_f64`. May be null for the other frames.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged but for `alive`).
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_linear_elastic_step_f64(

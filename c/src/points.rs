@@ -47,7 +47,8 @@ pub unsafe extern "C" fn toron_hyperelastic_validate_f32(
 ///   current element lengths for the stable time step (a bulk viscosity computed with it damps more than with the exact
 ///   speed). Each of these three may be null.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and modes are 0, the wave
+/// speed is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_f64(

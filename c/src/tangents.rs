@@ -15,7 +15,8 @@ use toron::host::c::Block;
 /// The call that detects failure returns the intact tangent, later calls return zeros. At a kink (I_el = 0 or I_tc = 0) the
 /// tangent is that of loading.
 ///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged).
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is
+/// unchanged but for `alive`).
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_hyperelastic_point_tangent_f64(

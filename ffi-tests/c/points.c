@@ -315,6 +315,8 @@ static void wrong_calls(void)
     refused(properties, PROPERTIES, block, a, TORON_NULL_ARGUMENT);
     block = good, block.leading_dimension = 1;
     refused(properties, PROPERTIES, block, a, TORON_BAD_LEADING_DIMENSION);
+    block = (toron_block){.n = 2, .leading_dimension = 1, .deformation_gradient = a.f, .stress = a.stress};
+    refused(properties, PROPERTIES, block, a, TORON_BAD_LEADING_DIMENSION);
     block = good, block.density = 0;
     refused(properties, PROPERTIES, block, a, TORON_BAD_ARGUMENT);
     block = good, block.n = 0;

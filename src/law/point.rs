@@ -244,6 +244,7 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     ///
     /// # Errors
     /// The first property that is wrong; the sink is not called.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
         evaluate::<T, R, &[T], D, S, N>(self.properties, self.f, self.fibre, self.state, self.tangent, self.sink)

@@ -65,7 +65,7 @@ pub const TABLE: [(i32, &str, &str); 19] = [
         "fibre_out_of_plane",
         "the fibre direction (properties 9 to 11) is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
     ),
-    (STATE_COUNT, "state_count", "there are fewer state variables than the law needs"),
+    (STATE_COUNT, "state_count", "there are fewer state variables than the law needs (LS-DYNA: NHV is not 11)"),
     (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),
     (

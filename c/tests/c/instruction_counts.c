@@ -80,6 +80,20 @@ int main(int argc, char **argv)
     }
     if (strcmp(entry, "block-stress-f32") == 0)
         return toron_hyperelastic_block_f32(values_single, PROPERTIES, &single) != 0;
+    if (strcmp(entry, "linear-block-f64") == 0) {
+        /* From rest to the deformation in one step. */
+        static double rest[9][N], linear_state[TORON_LINEAR_ELASTIC_STATE][N];
+        double linear[TORON_LINEAR_ELASTIC_PROPERTIES];
+        if (toron_preset_f64("kevlar-km2-600-linear", "mm-tonne-s", linear, TORON_LINEAR_ELASTIC_PROPERTIES, NULL) != 0)
+            return 2;
+        for (int i = 0; i < N; i++)
+            rest[0][i] = rest[4][i] = rest[8][i] = 1;
+        toron_linear_block_f64 steps = {.n = N, .leading_dimension = N, .f_old = rest[0], .f_new = gradient[0],
+                                        .state_old = linear_state[0], .state_new = linear_state[0], .stress = stress[0],
+                                        .status = status};
+        return toron_linear_elastic_block_f64(linear, TORON_LINEAR_ELASTIC_PROPERTIES, &steps, TORON_ROTATION_FIBRE,
+                                              TORON_CRITERION_PRINCIPAL) != 0;
+    }
     fprintf(stderr, "%s: no such entry\n", entry);
     return 2;
 }

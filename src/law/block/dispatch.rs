@@ -11,7 +11,9 @@ use super::copies::{padded, padded_linear};
 #[cfg(target_arch = "x86_64")]
 use super::few;
 use super::instructions::Instructions;
-use super::kernel::{ALIGNED, ANY, FIBRES, SHEAR, STATE, STRESS};
+use super::kernel::{ALIGNED, ANY};
+#[cfg(target_arch = "x86_64")]
+use super::kernel::{FIBRES, SHEAR, STATE, STRESS};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
 #[cfg(target_arch = "x86_64")]
@@ -102,6 +104,7 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 
 /// # Safety
 /// As for [`Precision::dispatch`].
+#[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // only kernels of wider instructions depend on the request
 unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
     let n = block.n;
     // SAFETY: the caller's promise.
@@ -129,10 +132,12 @@ unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Po
     }
 }
 
-/// Runs a kernel that is compiled for one of the usual requests, or else the general kernel.
+/// Runs a kernel that is compiled for one of the usual requests, or else the general kernel; none if there are no points, since the
+/// processor may not have the instructions.
 ///
 /// # Safety
 /// As for [`Precision::dispatch`], for points of the block that fill whole registers.
+#[cfg(target_arch = "x86_64")]
 unsafe fn run<T: Registers, I: Instructions>(
     law: &Hyperelastic<T>,
     block: &Pointers<T>,
@@ -201,9 +206,9 @@ unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, bl
             Level::Baseline => {
                 let part = whole::<T, Baseline>(0, n);
                 let rest = part.end..n;
-                let worst = Baseline::run_linear(law, block, part);
+                let worst = run_linear::<T, Baseline>(law, block, part);
                 worst.min(padded_linear::<T, T::Baseline>(block, rest, |points| {
-                    Baseline::run_linear(law, points, 0..points.n)
+                    run_linear::<T, Baseline>(law, points, 0..points.n)
                 }))
             }
             #[cfg(target_arch = "x86_64")]
@@ -211,11 +216,29 @@ unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, bl
                 let wide = if level == Level::Avx512 { whole::<T, Avx512>(0, n) } else { 0..0 };
                 let part = whole::<T, Avx2>(wide.end, n);
                 let rest = part.end..n;
-                let worst = Avx512::run_linear(law, block, wide).min(Avx2::run_linear(law, block, part));
-                worst.min(padded_linear::<T, T::Avx2>(block, rest, |points| Avx2::run_linear(law, points, 0..points.n)))
+                let worst = run_linear::<T, Avx512>(law, block, wide).min(run_linear::<T, Avx2>(law, block, part));
+                worst.min(padded_linear::<T, T::Avx2>(block, rest, |points| {
+                    run_linear::<T, Avx2>(law, points, 0..points.n)
+                }))
             }
             #[cfg(not(target_arch = "x86_64"))]
-            Level::Avx2 | Level::Avx512 => Baseline::run_linear(law, block, 0..n),
+            Level::Avx2 | Level::Avx512 => run_linear::<T, Baseline>(law, block, 0..n),
         }
     }
+}
+
+/// Runs the kernel of the linear elastic law; not if there are no points, since the processor may not have the instructions.
+///
+/// # Safety
+/// As for [`Precision::dispatch_linear`], for points of the block that fill whole registers.
+unsafe fn run_linear<T: Registers, I: Instructions>(
+    law: &LinearElastic<T>,
+    block: &LinearPointers<T>,
+    points: Range<usize>,
+) -> i32 {
+    if points.is_empty() {
+        return status::OK;
+    }
+    // SAFETY: the caller's promise.
+    unsafe { I::run_linear(law, block, points) }
 }

@@ -157,11 +157,12 @@ impl<T: Precision> Hyperelastic<T> {
     /// Evaluates the law at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, a leading dimension below n, a density that is not positive if the wave speed is requested.
+    /// A null deformation gradient, a leading dimension below n where points are next to each other, a density that is not positive
+    /// if the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as the size of the block and the table of [`block`](super) say,
-    /// valid for reading or writing; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing
+    /// Every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and the table of
+    /// [`block`](super) say, valid for reading or writing; with these, different entries are at different places; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing
     /// but, exactly, the old state that they replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         let request = block.check()?;

@@ -16,6 +16,7 @@ use crate::law::wave_speed;
 // The requests that a kernel is compiled for, so that its loops contain no branches about them.
 
 /// The stress alone, with the fibre direction of the properties; the other flags are added to this.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
 pub(super) const STRESS: u8 = 0;
 /// Energies, invariants, failure and the latch as well.
 pub(super) const STATE: u8 = 1;

@@ -15,7 +15,6 @@ use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Scalar};
 use crate::law::number::vector::Matrix;
 use crate::law::state::LINEAR_ELASTIC_STATE;
-use crate::law::status;
 
 /// A block as a host passes it. A null array is absent: a null old state stands for a fresh one (all 0), and an output that is
 /// null is not computed.
@@ -49,11 +48,8 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     block: &LinearPointers<T>,
     points: Range<usize>,
 ) -> i32 {
-    let mut worst = R::splat(0.0);
-    if points.is_empty() {
-        return status::OK;
-    }
     let lanes = law.lanes::<R>();
+    let mut worst = R::splat(0.0);
     let mut i = points.start;
     while i < points.end {
         // SAFETY: i + COUNT ≤ the end, and the caller's promise.

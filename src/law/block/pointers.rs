@@ -166,10 +166,9 @@ impl<T: Scalar> Pointers<T> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
             return Err(Error::Plain(status::NULL_ARGUMENT));
         }
-        // Where points are next to each other, components would overlap. Absent arrays have none.
-        let state = [self.energies, self.invariants, self.failure].iter().any(|array| !array.is_null());
+        // Where points are next to each other, components would overlap. Hosts use the first leading dimension for F and the stress too.
         let groups = [
-            (state, self.strides.state, self.leading_dimension),
+            (true, self.strides.state, self.leading_dimension),
             (!self.modes.is_null(), self.strides.modes, self.modes_leading_dimension),
             (!self.tangent.is_null(), self.strides.tangent, self.tangent_leading_dimension),
         ];

@@ -1,6 +1,8 @@
 //! The registers that each precision is computed in.
 
-use super::real::{Lanes, Scalar, Single};
+#[cfg(target_arch = "x86_64")]
+use super::real::Single;
+use super::real::{Lanes, Scalar};
 #[cfg(target_arch = "x86_64")]
 use super::x86;
 
