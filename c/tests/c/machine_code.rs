@@ -171,8 +171,8 @@ fn kernel<'a>(functions: &'a BTreeMap<String, Function>, precision: &str, level:
 }
 
 /// Stress and stress with the state: for any fibre of the properties, for fibre directions of points, for the first axis; and with
-/// the state and a longitudinal shear.
-const USUAL: [u8; 9] = [0, 1, 2, 3, 4, 5, 17, 19, 21];
+/// the state and a longitudinal shear or the wave speed.
+const USUAL: [u8; 11] = [0, 1, 2, 3, 4, 5, 17, 19, 21, 35, 37];
 /// The kernel that looks up what the block asks for.
 const ANY: u8 = 8;
 

@@ -13,7 +13,7 @@ use super::few;
 use super::instructions::Instructions;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
-use super::kernel::{FIBRES, SHEAR, STATE, STRESS};
+use super::kernel::{FIBRES, SHEAR, STATE, STRESS, WAVE};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
 #[cfg(target_arch = "x86_64")]
@@ -148,16 +148,19 @@ unsafe fn run<T: Registers, I: Instructions>(
         return status::OK;
     }
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
-    let usual = stress && !modes && !wave_modulus && block.tangent.is_null();
-    let state = usual && energies && invariants && failure;
+    let usual = stress && !modes && block.tangent.is_null();
+    let state = usual && energies && invariants && failure && !wave_modulus;
+    let explicit = usual && energies && invariants && failure && wave_modulus && !law.shears;
     let nothing_else = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
-    let stress_alone = usual && nothing_else && !law.shears;
+    let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
     let fibres = !block.fibre[0].is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
     const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
     const SHEAR_STATE_ALIGNED: u8 = SHEAR + STATE + ALIGNED;
     const SHEAR_STATE: u8 = SHEAR + STATE;
+    const WAVE_STATE_FIBRES: u8 = WAVE + STATE + FIBRES;
+    const WAVE_STATE_ALIGNED: u8 = WAVE + STATE + ALIGNED;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
     // SAFETY: the caller's promise.
@@ -172,6 +175,8 @@ unsafe fn run<T: Registers, I: Instructions>(
             (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block, points),
             (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block, points),
             (_, _, true) => I::run::<T, STRESS>(law, block, points),
+            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, block, points),
+            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, block, points),
             _ => run_any::<T, I>(law, block, points),
         }
     }

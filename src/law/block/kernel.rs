@@ -29,6 +29,8 @@ pub(super) const ALIGNED: u8 = 4;
 pub(super) const ANY: u8 = 8;
 /// Longitudinal shear, compiled with the state alone: it is rarely used.
 pub(super) const SHEAR: u8 = 16;
+/// The wave speed, compiled with the state alone: what explicit solvers request in every step.
+pub(super) const WAVE: u8 = 32;
 
 /// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
@@ -301,7 +303,7 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
         invariants: if asked { !block.invariants.is_null() } else { WANT & STATE != 0 },
         failure: if asked { !block.failure.is_null() } else { WANT & STATE != 0 },
         modes: asked && !block.modes.is_null(),
-        wave_modulus: asked && !block.wave_speed.is_null(),
+        wave_modulus: if asked { !block.wave_speed.is_null() } else { WANT & WAVE != 0 },
     }
 }
 
