@@ -5,7 +5,7 @@ set -eu
 cd "$(dirname "$0")"
 
 missing=""
-for tool in gcc:gcc gfortran:gfortran objdump:binutils valgrind:valgrind make:make dpkg-source:dpkg-dev; do
+for tool in gcc:gcc g++:g++ gfortran:gfortran cmake:cmake pkg-config:pkg-config objdump:binutils valgrind:valgrind make:make dpkg-source:dpkg-dev; do
     command -v "${tool%%:*}" >/dev/null 2>&1 || missing="$missing ${tool#*:}"
 done
 for package in libarpack2-dev libspooles-dev liblapack-dev; do

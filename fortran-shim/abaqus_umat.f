@@ -12,7 +12,7 @@
      &  nprops, coords, drot, pnewdt, celent, dfgrd0, dfgrd1, noel, npt,
      &  layer, kspt, jstep, kinc)
       use, intrinsic :: iso_c_binding, only: c_char, c_double,
-     &  c_int32_t, c_size_t
+     &  c_int32_t, c_null_char, c_size_t
       implicit none
       character(len=80) :: cmname
       integer :: ndi, nshr, ntens, nstatv, nprops, noel, npt, layer
@@ -25,35 +25,23 @@
       real(c_double) :: coords(3), drot(3, 3), pnewdt, celent
       real(c_double) :: dfgrd0(3, 3), dfgrd1(3, 3)
       integer(c_int32_t) :: status
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char, len=capacity) :: message
 
       interface
         function toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
      &    sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr,
-     &    nlgeom) bind(c) result(status)
-          import :: c_double, c_int32_t
+     &    nlgeom, message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(inout) :: stress(*), statev(*)
           real(c_double), intent(inout) :: ddsdde(*), sse, pnewdt
           real(c_double), intent(in) :: dfgrd1(*), props(*)
           integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
           integer(c_int32_t), value :: nlgeom
-          integer(c_int32_t) :: status
-        end function
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
+          character(kind=c_char), intent(inout) :: message(*)
           integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
+          integer(c_int32_t) :: status
         end function
       end interface
 
@@ -63,7 +51,8 @@
       status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
      &  sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),
      &  int(nstatv, c_int32_t), int(ndi, c_int32_t),
-     &  int(nshr, c_int32_t), int(jstep(3), c_int32_t))
+     &  int(nshr, c_int32_t), int(jstep(3), c_int32_t), message,
+     &  capacity)
 !     Below -300 the point is at fault, and the library has lowered
 !     PNEWDT; above, the deck is.
       if (status < 0 .and. status > -300) call refuse
@@ -71,20 +60,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char, len=capacity) :: text
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      integer :: unit
-      length = toron_hyperelastic_validate_f64(props,
-     &  int(nprops, c_size_t), text, capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
+      integer :: length, unit
+      length = index(message, c_null_char) - 1
 !     The .dat and the .msg file.
       do unit = 6, 7
         write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),
-     &    ': ', text(1:length)
+     &    ': ', message(1:length)
       end do
       call xit
       end subroutine

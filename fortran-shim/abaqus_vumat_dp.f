@@ -13,7 +13,7 @@
      &  enerinelasold, tempnew, stretchnew, defgradnew, fieldnew,
      &  stressnew, statenew, enerinternnew, enerinelasnew)
       use, intrinsic :: iso_c_binding, only: c_char, c_double,
-     &  c_int32_t, c_loc, c_ptr, c_size_t
+     &  c_int32_t, c_loc, c_null_char, c_ptr, c_size_t, c_sizeof
       implicit none
       character(len=80) :: cmname
       integer :: nblock, ndir, nshr, nstatev, nfieldv, nprops, lanneal
@@ -31,7 +31,9 @@
       real(c_double), target :: enerinternnew(*), enerinelasnew(*)
 
       type, bind(c) :: arguments
+        integer(c_size_t) :: size
         integer(c_int32_t) :: nblock, ndir, nshr, nstatev, nprops
+        integer(c_int32_t) :: level
         real(c_double) :: step_time, total_time
         type(c_ptr) :: props, density, strain_inc
         type(c_ptr) :: stretch_old, stretch_new, stress_old, state_old
@@ -41,37 +43,30 @@
       end type
       type(arguments) :: block
       integer(c_int32_t) :: status
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char, len=capacity) :: message
 
       interface
-        function toron_abaqus_vumat_f64(block) bind(c) result(status)
-          import :: arguments, c_int32_t
-          type(arguments), intent(in) :: block
-          integer(c_int32_t) :: status
-        end function
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
+        function toron_abaqus_vumat_f64(block, message, capacity)
+     &    bind(c) result(status)
+          import :: arguments, c_char, c_int32_t, c_size_t
+!         A target: the library writes to what its members point to.
+          type(arguments), target, intent(in) :: block
+          character(kind=c_char), intent(inout) :: message(*)
           integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
+          integer(c_int32_t) :: status
         end function
       end interface
 
+      block%size = c_sizeof(block)
       block%nblock = int(nblock, c_int32_t)
       block%ndir = int(ndir, c_int32_t)
       block%nshr = int(nshr, c_int32_t)
       block%nstatev = int(nstatev, c_int32_t)
       block%nprops = int(nprops, c_int32_t)
+!     The widest instructions that the processor has.
+      block%level = 0
       block%step_time = steptime
       block%total_time = totaltime
       block%props = c_loc(props)
@@ -87,7 +82,7 @@
       block%state_new = c_loc(statenew)
       block%ener_intern_new = c_loc(enerinternnew)
       block%ener_inelas_new = c_loc(enerinelasnew)
-      status = toron_abaqus_vumat_f64(block)
+      status = toron_abaqus_vumat_f64(block, message, capacity)
 !     Below -300 a point is at fault, and the library has deleted it;
 !     above, the deck is.
       if (status < 0 .and. status > -300) call refuse
@@ -95,20 +90,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char, len=capacity) :: text
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      integer :: unit
-      length = toron_hyperelastic_validate_f64(props,
-     &  int(nprops, c_size_t), text, capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
+      integer :: length, unit
+      length = index(message, c_null_char) - 1
 !     The .log or .sta and the .msg file.
       do unit = 6, 7
         write (unit, '(1x, 4a)') 'toron, material ', trim(cmname),
-     &    ': ', text(1:length)
+     &    ': ', message(1:length)
       end do
       call xplb_exit
       end subroutine

@@ -17,7 +17,7 @@
       subroutine umat41(cm, eps, sig, epsp, hsv, dt1, capa, etype, tt,
      &  temper, failel, crv, nnpcrv, cma, qmat, elsiz, idele, reject)
       use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
-     &  c_int, c_int32_t, c_int64_t, c_size_t
+     &  c_int, c_int32_t, c_int64_t, c_null_char, c_size_t
       implicit none
       real :: cm(*), eps(6), sig(6), epsp, hsv(*), dt1, capa, tt, temper
       real :: crv(*), cma(*), qmat(3, 3), elsiz
@@ -25,67 +25,44 @@
       logical :: failel, reject
       integer :: nnpcrv(*)
       integer(c_int64_t) :: idele
-      integer(c_size_t), parameter :: number_of_properties = 11
 !     What the library needs, not what the card says: LS-DYNA hands NHV
 !     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
       integer(c_int) :: failed
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char) :: message(capacity)
 
 !     The default kind of REAL picks the precision.
       interface toron_umat
-        function toron_lsdyna_umat_f64(cm, sig, hsv, nhv, failel)
-     &    bind(c) result(status)
-          import :: c_double, c_int, c_int32_t
+        function toron_lsdyna_umat_f64(cm, sig, hsv, nhv, failel,
+     &    message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int, c_int32_t, c_size_t
           real(c_double), intent(in) :: cm(*)
           real(c_double), intent(inout) :: sig(*), hsv(*)
           integer(c_int32_t), value :: nhv
           integer(c_int), intent(inout) :: failel
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_umat_f32(cm, sig, hsv, nhv, failel)
-     &    bind(c) result(status)
-          import :: c_float, c_int, c_int32_t
+        function toron_lsdyna_umat_f32(cm, sig, hsv, nhv, failel,
+     &    message, capacity) bind(c) result(status)
+          import :: c_char, c_float, c_int, c_int32_t, c_size_t
           real(c_float), intent(in) :: cm(*)
           real(c_float), intent(inout) :: sig(*), hsv(*)
           integer(c_int32_t), value :: nhv
           integer(c_int), intent(inout) :: failel
-          integer(c_int32_t) :: status
-        end function
-      end interface
-      interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_hyperelastic_validate_f32(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_float, c_int32_t, c_size_t
-          real(c_float), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-      end interface
-      interface
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
+          character(kind=c_char), intent(inout) :: message(*)
           integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
+          integer(c_int32_t) :: status
         end function
       end interface
 
       failed = 0
-      status = toron_umat(cm, sig, hsv, nhv, failed)
+      status = toron_umat(cm, sig, hsv, nhv, failed, message,
+     &  capacity)
 !     Below -300 the element is at fault, and fails; above, the deck is.
       if (status < 0 .and. status > -300) then
         call refuse
@@ -96,16 +73,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char) :: text(capacity)
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,
-     &  capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
-      write (*, '(1x, *(a))') 'toron: ', text(1:length)
+      integer :: length
+      length = 0
+      do while (message(length + 1) /= c_null_char)
+        length = length + 1
+      end do
+      write (*, '(1x, *(a))') 'toron: ', message(1:length)
       call adios(2)
       end subroutine
       end subroutine

@@ -16,7 +16,7 @@
      &  tt, temps, failels, nlqa, crv, nnpcrv, cma, qmat, elsizv,
      &  idelev, reject)
       use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
-     &  c_int, c_int32_t, c_int64_t, c_size_t
+     &  c_int, c_int32_t, c_int64_t, c_null_char, c_size_t
       implicit none
       real :: cm(*), d1(*), d2(*), d3(*), d4(*), d5(*), d6(*)
       real :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*)
@@ -26,75 +26,51 @@
       character(len=5) :: etype
       logical :: failels(*), reject
       integer(c_int64_t) :: idelev(*)
-      integer(c_size_t), parameter :: number_of_properties = 11
 !     What the library needs, not what the card says: LS-DYNA hands NHV
 !     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
       integer(c_int) :: failed(nlqa)
       integer :: i
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char) :: message(capacity)
 
 !     The default kind of REAL picks the precision.
       interface toron_umat_vector
         function toron_lsdyna_umat_vector_f64(cm, sig1, sig2, sig3,
-     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
-     &    bind(c) result(status)
-          import :: c_double, c_int, c_int32_t
+     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels,
+     &    message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int, c_int32_t, c_size_t
           real(c_double), intent(in) :: cm(*)
           real(c_double), intent(inout) :: sig1(*), sig2(*), sig3(*)
           real(c_double), intent(inout) :: sig4(*), sig5(*), sig6(*)
           real(c_double), intent(inout) :: hsvs(*)
           integer(c_int32_t), value :: nhv, lft, llt, nlq
           integer(c_int), intent(inout) :: failels(*)
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
         function toron_lsdyna_umat_vector_f32(cm, sig1, sig2, sig3,
-     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
-     &    bind(c) result(status)
-          import :: c_float, c_int, c_int32_t
+     &    sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels,
+     &    message, capacity) bind(c) result(status)
+          import :: c_char, c_float, c_int, c_int32_t, c_size_t
           real(c_float), intent(in) :: cm(*)
           real(c_float), intent(inout) :: sig1(*), sig2(*), sig3(*)
           real(c_float), intent(inout) :: sig4(*), sig5(*), sig6(*)
           real(c_float), intent(inout) :: hsvs(*)
           integer(c_int32_t), value :: nhv, lft, llt, nlq
           integer(c_int), intent(inout) :: failels(*)
-          integer(c_int32_t) :: status
-        end function
-      end interface
-      interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_hyperelastic_validate_f32(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_float, c_int32_t, c_size_t
-          real(c_float), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-      end interface
-      interface
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
+          character(kind=c_char), intent(inout) :: message(*)
           integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
+          integer(c_int32_t) :: status
         end function
       end interface
 
       status = toron_umat_vector(cm, sig1, sig2, sig3, sig4, sig5, sig6,
      &  hsvs, nhv, int(lft, c_int32_t), int(llt, c_int32_t),
-     &  int(nlqa, c_int32_t), failed)
+     &  int(nlqa, c_int32_t), failed, message, capacity)
 !     Below -300 an element is at fault, and fails; above, the deck is.
       if (status < 0 .and. status > -300) then
         call refuse
@@ -107,16 +83,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char) :: text(capacity)
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,
-     &  capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
-      write (*, '(1x, *(a))') 'toron: ', text(1:length)
+      integer :: length
+      length = 0
+      do while (message(length + 1) /= c_null_char)
+        length = length + 1
+      end do
+      write (*, '(1x, *(a))') 'toron: ', message(1:length)
       call adios(2)
       end subroutine
       end subroutine

@@ -13,70 +13,46 @@
       subroutine utan41(cm, eps, sig, epsp, hsv, dt1, unsym, capa,
      &  etype, tt, temper, es, crv, nnpcrv, failel, cma, qmat)
       use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
-     &  c_int32_t, c_size_t
+     &  c_int32_t, c_null_char, c_size_t
       implicit none
       real :: cm(*), eps(6), sig(6), epsp, hsv(*), dt1, capa, tt, temper
       real :: es(*), crv(*), cma(*), qmat(3, 3)
       character(len=5) :: etype
       logical :: unsym, failel
       integer :: nnpcrv(*)
-      integer(c_size_t), parameter :: number_of_properties = 11
 !     What the library needs, not what the card says: LS-DYNA hands NHV
 !     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char) :: message(capacity)
 
 !     The default kind of REAL picks the precision.
       interface toron_utan
-        function toron_lsdyna_utan_f64(cm, hsv, nhv, es)
-     &    bind(c) result(status)
-          import :: c_double, c_int32_t
+        function toron_lsdyna_utan_f64(cm, hsv, nhv, es, message,
+     &    capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: cm(*), hsv(*)
           integer(c_int32_t), value :: nhv
           real(c_double), intent(inout) :: es(*)
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
-        function toron_lsdyna_utan_f32(cm, hsv, nhv, es)
-     &    bind(c) result(status)
-          import :: c_float, c_int32_t
+        function toron_lsdyna_utan_f32(cm, hsv, nhv, es, message,
+     &    capacity) bind(c) result(status)
+          import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: cm(*), hsv(*)
           integer(c_int32_t), value :: nhv
           real(c_float), intent(inout) :: es(*)
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
       end interface
-      interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_hyperelastic_validate_f32(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_float, c_int32_t, c_size_t
-          real(c_float), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-      end interface
-      interface
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
-        end function
-      end interface
 
-      status = toron_utan(cm, hsv, nhv, es)
+      status = toron_utan(cm, hsv, nhv, es, message, capacity)
 !     Below -300 the element is at fault, and has no stiffness; above,
 !     the deck is.
       if (status < 0 .and. status > -300) call refuse
@@ -84,16 +60,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char) :: text(capacity)
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,
-     &  capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
-      write (*, '(1x, *(a))') 'toron: ', text(1:length)
+      integer :: length
+      length = 0
+      do while (message(length + 1) /= c_null_char)
+        length = length + 1
+      end do
+      write (*, '(1x, *(a))') 'toron: ', message(1:length)
       call adios(2)
       end subroutine
       end subroutine

@@ -14,7 +14,7 @@
      &  sig4, sig5, sig6, epsps, hsvs, unsym, lft, llt, dt1siz, capa,
      &  etype, tt, temps, dsave, nlqa, crv, nnpcrv, failels, cma, qmat)
       use, intrinsic :: iso_c_binding, only: c_char, c_double, c_float,
-     &  c_int32_t, c_size_t
+     &  c_int32_t, c_null_char, c_size_t
       implicit none
       real :: cm(*), d1(*), d2(*), d3(*), d4(*), d5(*), d6(*)
       real :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*)
@@ -23,64 +23,41 @@
       integer :: lft, llt, nlqa, nnpcrv(*)
       character(len=5) :: etype
       logical :: unsym, failels(*)
-      integer(c_size_t), parameter :: number_of_properties = 11
 !     What the library needs, not what the card says: LS-DYNA hands NHV
 !     to no routine. With another one F is not where it is read.
       integer(c_int32_t), parameter :: nhv = 11
       integer(c_int32_t) :: status
+!     Room for any message of the library.
+      integer(c_size_t), parameter :: capacity = 512
+      character(kind=c_char) :: message(capacity)
 
 !     The default kind of REAL picks the precision.
       interface toron_utan_vector
         function toron_lsdyna_utan_vector_f64(cm, hsvs, nhv, lft, llt,
-     &    nlq, dsave) bind(c) result(status)
-          import :: c_double, c_int32_t
+     &    nlq, dsave, message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int32_t, c_size_t
           real(c_double), intent(in) :: cm(*), hsvs(*)
           integer(c_int32_t), value :: nhv, lft, llt, nlq
           real(c_double), intent(inout) :: dsave(*)
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
         function toron_lsdyna_utan_vector_f32(cm, hsvs, nhv, lft, llt,
-     &    nlq, dsave) bind(c) result(status)
-          import :: c_float, c_int32_t
+     &    nlq, dsave, message, capacity) bind(c) result(status)
+          import :: c_char, c_float, c_int32_t, c_size_t
           real(c_float), intent(in) :: cm(*), hsvs(*)
           integer(c_int32_t), value :: nhv, lft, llt, nlq
           real(c_float), intent(inout) :: dsave(*)
-          integer(c_int32_t) :: status
-        end function
-      end interface
-      interface toron_validate
-        function toron_hyperelastic_validate_f64(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_double, c_int32_t, c_size_t
-          real(c_double), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-        function toron_hyperelastic_validate_f32(values, count, text,
-     &    capacity, status) bind(c) result(length)
-          import :: c_char, c_float, c_int32_t, c_size_t
-          real(c_float), intent(in) :: values(*)
-          integer(c_size_t), value :: count, capacity
-          character(kind=c_char), intent(inout) :: text(*)
-          integer(c_int32_t), intent(inout) :: status
-          integer(c_size_t) :: length
-        end function
-      end interface
-      interface
-        function toron_status_message(status, text, capacity)
-     &    bind(c) result(length)
-          import :: c_char, c_int32_t, c_size_t
-          integer(c_int32_t), value :: status
-          character(kind=c_char), intent(inout) :: text(*)
+          character(kind=c_char), intent(inout) :: message(*)
           integer(c_size_t), value :: capacity
-          integer(c_size_t) :: length
+          integer(c_int32_t) :: status
         end function
       end interface
 
       status = toron_utan_vector(cm, hsvs, nhv, int(lft, c_int32_t),
-     &  int(llt, c_int32_t), int(nlqa, c_int32_t), dsave)
+     &  int(llt, c_int32_t), int(nlqa, c_int32_t), dsave,
+     &  message, capacity)
 !     Below -300 the elements are at fault and have no stiffness; above,
 !     the deck is.
       if (status < 0 .and. status > -300) call refuse
@@ -88,16 +65,12 @@
       contains
 
       subroutine refuse
-      integer(c_size_t), parameter :: capacity = 300
-      character(kind=c_char) :: text(capacity)
-      integer(c_size_t) :: length
-      integer(c_int32_t) :: code
-      length = toron_validate(cm, number_of_properties, text,
-     &  capacity, code)
-      if (code /= status)
-     &  length = toron_status_message(status, text, capacity)
-      length = min(length, capacity - 1)
-      write (*, '(1x, *(a))') 'toron: ', text(1:length)
+      integer :: length
+      length = 0
+      do while (message(length + 1) /= c_null_char)
+        length = length + 1
+      end do
+      write (*, '(1x, *(a))') 'toron: ', message(1:length)
       call adios(2)
       end subroutine
       end subroutine

@@ -1,9 +1,17 @@
 /* toron: a transversely isotropic hyperelastic yarn law, and its linear elastic baseline.
  *
- * Generated from the library's source: do not edit. Deformation gradients are passed by columns, F11 F21 F31 F12 F22 F32
- * F13 F23 F33; stresses as 11 22 33 12 23 31 unless a host has its own order. Status codes: 0 is success, a negative
- * number an error. Every function may be called from any thread; none allocates, locks or keeps a pointer. Arrays must not
+ * Generated from the library's source: do not edit. docs/c.md shows how it is used.
+ *
+ * Deformation gradients are passed by columns, F11 F21 F31 F12 F22 F32 F13 F23 F33; stresses as 11 22 33 12 23 31 unless a host has
+ * its own order. Status codes: 0 is success, a negative number an error; functions that return a count or an index return that, or
+ * a negative number. Every function may be called from any thread; none allocates, locks or keeps a pointer. Arrays must not
  * overlap, except that the old and the new state may be the same array. The reference placement is the undeformed one.
+ *
+ * A structure begins with its size, which the caller sets, and 0 stands for what is left out:
+ *     toron_block_f64 block = {.size = sizeof block, .n = n, ...};
+ *
+ * The last two arguments of every function that can fail are a buffer for a message and its size: at most `capacity` bytes are
+ * written, with a terminating null, and only if there is an error; null and 0 for none. TORON_MESSAGE_CAPACITY is always enough.
  */
 
 #ifndef TORON_H
@@ -46,6 +54,21 @@
  The host passes no deformation gradient: a small-strain analysis, F = 0, or F not stored where it is read.
  */
 #define TORON_NO_DEFORMATION_GRADIENT -106
+
+/*
+ A prepared law that its prepare function has not written, or that of another law or precision.
+ */
+#define TORON_NOT_PREPARED -107
+
+/*
+ The size of a structure is not set, or is not that of any version of the structure.
+ */
+#define TORON_BAD_SIZE -108
+
+/*
+ A structure of a newer interface requests what this version of the library does not know.
+ */
+#define TORON_UNKNOWN_FIELD -109
 
 /*
  The number of properties differs from that in the table of properties.
@@ -99,7 +122,7 @@
 #define TORON_STATE_NOT_FINITE -304
 
 /*
- The fibre direction given for this point is zero, NaN or infinite.
+ The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic law.
  */
 #define TORON_FIBRE_DIRECTION -305
 
@@ -109,9 +132,9 @@
 #define TORON_INCREMENT_TOO_LARGE -306
 
 /*
- Version of the binary interface. It changes when a caller compiled with an older header would no longer work.
+ Version of the binary interface. A program built against it runs with every later library of the same number.
  */
-#define TORON_ABI_VERSION 1
+#define TORON_ABI_VERSION 2
 
 /*
  Selects the hyperelastic yarn law in the functions for tables.
@@ -205,9 +228,18 @@
 #define TORON_LEVEL_AVX512 3
 
 /*
- A row of the tables of properties and state variables. Texts are null-terminated UTF-8.
+ Room for any message, its terminating null included.
  */
-typedef struct {
+#define TORON_MESSAGE_CAPACITY 512
+
+/*
+ A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated UTF-8.
+ */
+typedef struct toron_table_row {
+  /*
+   The size of this structure.
+   */
+  size_t size;
   /*
    The name used in decks and messages, and the symbol used in the documentation.
    */
@@ -236,30 +268,218 @@ typedef struct {
    The allowed values in words, and the meaning of the quantity.
    */
   char allowed[80];
-  char meaning[96];
+  char meaning[100];
 } toron_table_row;
 
 /*
- A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
-
- Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
- same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
- component-major state array of 11 components, starting at components 0, 4 and 8.
+ The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
+ copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
+ library's own; its size is the same in all versions of this interface.
  */
-typedef struct {
+typedef struct toron_hyperelastic_f64 {
   /*
-   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
    */
-  size_t n;
-  size_t leading_dimension;
+  uint64_t tag;
+  uint64_t size;
+  double values[62];
+} toron_hyperelastic_f64;
+
+/*
+ The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
+ copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
+ library's own; its size is the same in all versions of this interface.
+ */
+typedef struct toron_hyperelastic_f32 {
   /*
-   In, 9 components: F by columns. Must not be null.
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
+   */
+  uint64_t tag;
+  uint64_t size;
+  float values[62];
+} toron_hyperelastic_f32;
+
+/*
+ A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+ output that is left out is not computed. The arrays of the old and the new state may be the same.
+ */
+typedef struct toron_point_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+   */
+  int32_t measure;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it.
+   */
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9: F by columns. Must not be null.
    */
   const double *deformation_gradient;
   /*
-   In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
+   In, 3: the fibre direction, of any length; if null, that of the properties.
    */
   const double *fibre;
+  /*
+   In, 11: the old state; if null, all 0.
+   */
+  const double *state_old;
+  /*
+   Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   */
+  double *state_new;
+  /*
+   Out, 6: Cauchy stress 11 22 33 12 23 31.
+   */
+  double *stress;
+  /*
+   Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+   */
+  double *modes;
+  /*
+   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
+   rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+   */
+  double *wave_speed;
+  /*
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
+   column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
+   engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
+
+   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
+   0) it is that of loading.
+   */
+  double *tangent;
+} toron_point_f64;
+
+/*
+ A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+ output that is left out is not computed. The arrays of the old and the new state may be the same.
+ */
+typedef struct toron_point_f32 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+   */
+  int32_t measure;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it.
+   */
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9: F by columns. Must not be null.
+   */
+  const float *deformation_gradient;
+  /*
+   In, 3: the fibre direction, of any length; if null, that of the properties.
+   */
+  const float *fibre;
+  /*
+   In, 11: the old state; if null, all 0.
+   */
+  const float *state_old;
+  /*
+   Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   */
+  float *state_new;
+  /*
+   Out, 6: Cauchy stress 11 22 33 12 23 31.
+   */
+  float *stress;
+  /*
+   Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+   */
+  float *modes;
+  /*
+   Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
+   rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+   */
+  float *wave_speed;
+  /*
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
+   column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
+   engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
+
+   The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
+   0) it is that of loading.
+   */
+  float *tangent;
+} toron_point_f32;
+
+/*
+ Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All 0: as the
+ block says.
+ */
+typedef struct toron_layout {
+  /*
+   From one component to the next; 0: that of the block, or 1 if a stride is set (points in rows). Not read where every
+   component has a pointer.
+   */
+  size_t leading_dimension;
+  /*
+   From one point to the next; 0: 1. Points next to each other take the least time: others are copied part by part.
+   */
+  size_t stride;
+} toron_layout;
+
+/*
+ A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+ out, and an output that is left out is not computed.
+
+ Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
+ have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
+ the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
+ and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
+ */
+typedef struct toron_block_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   The number of points.
+   */
+  size_t n;
+  /*
+   In numbers, from one component to the next; 0: n.
+   */
+  size_t leading_dimension;
+  /*
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+   */
+  int32_t measure;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
+   AVX-512 give identical bits; the baseline differs in the last digits.
+   */
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 components: F by columns. The first must not be null.
+   */
+  const double *deformation_gradient[9];
+  /*
+   In, 3 components: the fibre direction of each point, of any length; if null, that of the properties.
+   */
+  const double *fibre[3];
   /*
    In, 4, 4 and 3 components: the old state; if null, all 0.
    */
@@ -267,13 +487,9 @@ typedef struct {
   const double *invariants_old;
   const double *failure_old;
   /*
-   In: reference density; used only if wave_speed is not null.
+   Out, 6 components: Cauchy stress 11 22 33 12 23 31.
    */
-  double density;
-  /*
-   Out, 6: Cauchy stress 11 22 33 12 23 31.
-   */
-  double *stress;
+  double *stress[6];
   /*
    Out, 4: W_el W_tc W_td W_ld.
    */
@@ -283,8 +499,7 @@ typedef struct {
    */
   double *invariants;
   /*
-   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
-   failed.
+   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   double *failure;
   /*
@@ -292,47 +507,76 @@ typedef struct {
    */
   double *modes;
   /*
-   Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
-   along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
-   exact speed.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
+   + column); else as in `toron_point_f64`.
+   */
+  double *tangent;
+  /*
+   Out, a number for each point: an upper bound of the wave speed, as in `toron_point_f64`.
    */
   double *wave_speed;
   /*
-   Out: a status code for each point.
-   */
-  int32_t *status;
-  /*
-   Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
    */
   double *active;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
+   Out, a number for each point: its status code.
    */
-  int32_t level;
+  int32_t *status;
+  /*
+   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+   */
+  struct toron_layout deformation_gradient_layout;
+  struct toron_layout fibre_layout;
+  struct toron_layout state_layout;
+  struct toron_layout stress_layout;
+  struct toron_layout modes_layout;
+  struct toron_layout tangent_layout;
 } toron_block_f64;
 
 /*
- A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
+ A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+ out, and an output that is left out is not computed.
 
- Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
- same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
- component-major state array of 11 components, starting at components 0, 4 and 8.
+ Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
+ have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
+ the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
+ and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
  */
-typedef struct {
+typedef struct toron_block_f32 {
   /*
-   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   The number of points.
    */
   size_t n;
+  /*
+   In numbers, from one component to the next; 0: n.
+   */
   size_t leading_dimension;
   /*
-   In, 9 components: F by columns. Must not be null.
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
    */
-  const float *deformation_gradient;
+  int32_t measure;
   /*
-   In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
+   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
+   AVX-512 give identical bits; the baseline differs in the last digits.
    */
-  const float *fibre;
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 components: F by columns. The first must not be null.
+   */
+  const float *deformation_gradient[9];
+  /*
+   In, 3 components: the fibre direction of each point, of any length; if null, that of the properties.
+   */
+  const float *fibre[3];
   /*
    In, 4, 4 and 3 components: the old state; if null, all 0.
    */
@@ -340,13 +584,9 @@ typedef struct {
   const float *invariants_old;
   const float *failure_old;
   /*
-   In: reference density; used only if wave_speed is not null.
+   Out, 6 components: Cauchy stress 11 22 33 12 23 31.
    */
-  float density;
-  /*
-   Out, 6: Cauchy stress 11 22 33 12 23 31.
-   */
-  float *stress;
+  float *stress[6];
   /*
    Out, 4: W_el W_tc W_td W_ld.
    */
@@ -356,8 +596,7 @@ typedef struct {
    */
   float *invariants;
   /*
-   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
-   failed.
+   Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
    */
   float *failure;
   /*
@@ -365,122 +604,445 @@ typedef struct {
    */
   float *modes;
   /*
-   Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
-   along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
-   exact speed.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
+   + column); else as in `toron_point_f64`.
+   */
+  float *tangent;
+  /*
+   Out, a number for each point: an upper bound of the wave speed, as in `toron_point_f64`.
    */
   float *wave_speed;
   /*
-   Out: a status code for each point.
-   */
-  int32_t *status;
-  /*
-   Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
    */
   float *active;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
+   Out, a number for each point: its status code.
    */
-  int32_t level;
+  int32_t *status;
+  /*
+   Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+   */
+  struct toron_layout deformation_gradient_layout;
+  struct toron_layout fibre_layout;
+  struct toron_layout state_layout;
+  struct toron_layout stress_layout;
+  struct toron_layout modes_layout;
+  struct toron_layout tangent_layout;
 } toron_block_f32;
 
 /*
- A block of points of the linear elastic law: component-major arrays, component c of point i at
- `c * leading_dimension + i`.
-
- Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
- as that of the new state.
+ The linear elastic law, prepared by `toron_linear_elastic_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
  */
-typedef struct {
+typedef struct toron_linear_elastic_f64 {
   /*
-   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
    */
-  size_t n;
-  size_t leading_dimension;
+  uint64_t tag;
+  uint64_t size;
+  double values[30];
+} toron_linear_elastic_f64;
+
+/*
+ The linear elastic law, prepared by `toron_linear_elastic_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
+ */
+typedef struct toron_linear_elastic_f32 {
   /*
-   In, 9 components each: F by columns at both ends of the step. Must not be null.
+   Tells law, precision and layout; the size of the structure; the library's own numbers.
+   */
+  uint64_t tag;
+  uint64_t size;
+  float values[30];
+} toron_linear_elastic_f32;
+
+/*
+ A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+ output that is left out is not computed. The arrays of the old and the new state may be the same.
+ */
+typedef struct toron_linear_point_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
+   stress that is compared with the strength, one of `TORON_CRITERION_...`.
+   */
+  int32_t rotation;
+  int32_t criterion;
+  /*
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+   */
+  int32_t measure;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`, as in `toron_block_f64`.
+   */
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 each: F by columns at both ends of the step. Must not be null.
    */
   const double *f_old;
   const double *f_new;
   /*
-   In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
-   for `TORON_ROTATION_SPIN`; not used for the other frames.
+   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
+   the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+   */
+  const double *fibre;
+  const double *second_axis;
+  /*
+   In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
    */
   double *axes;
   /*
-   In, 10: the old state; null: all 0.
+   In, 10: the old state; if null, all 0.
    */
   const double *state_old;
   /*
-   Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 10: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   */
+  double *state_new;
+  /*
+   Out, 6: Cauchy stress in global axes, 11 22 33 12 23 31.
+   */
+  double *stress;
+  /*
+   Out, 1: an upper bound of the wave speed at the end of the step, to be used with current element lengths.
+   */
+  double *wave_speed;
+  /*
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
+   `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
+   precision, and so are then all other results.
+   */
+  double *tangent;
+} toron_linear_point_f64;
+
+/*
+ A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+ output that is left out is not computed. The arrays of the old and the new state may be the same.
+ */
+typedef struct toron_linear_point_f32 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
+   stress that is compared with the strength, one of `TORON_CRITERION_...`.
+   */
+  int32_t rotation;
+  int32_t criterion;
+  /*
+   In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+   */
+  int32_t measure;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`, as in `toron_block_f64`.
+   */
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 each: F by columns at both ends of the step. Must not be null.
+   */
+  const float *f_old;
+  const float *f_new;
+  /*
+   In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
+   the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+   */
+  const float *fibre;
+  const float *second_axis;
+  /*
+   In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+   */
+  float *axes;
+  /*
+   In, 10: the old state; if null, all 0.
+   */
+  const float *state_old;
+  /*
+   Out, 10: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+   */
+  float *state_new;
+  /*
+   Out, 6: Cauchy stress in global axes, 11 22 33 12 23 31.
+   */
+  float *stress;
+  /*
+   Out, 1: an upper bound of the wave speed at the end of the step, to be used with current element lengths.
+   */
+  float *wave_speed;
+  /*
+   Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
+   `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
+   precision, and so are then all other results.
+   */
+  float *tangent;
+} toron_linear_point_f32;
+
+/*
+ A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
+ is 0.
+ */
+typedef struct toron_linear_increment_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: one of `TORON_CRITERION_...`.
+   */
+  int32_t criterion;
+  /*
+   0.
+   */
+  int32_t reserved;
+  /*
+   In: the volume ratio J, a factor of the work per reference volume; 0: 1, not known.
+   */
+  double jacobian;
+  /*
+   In, 6: tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be null.
+   */
+  const double *strain;
+  /*
+   In, 10: the old state; if null, all 0.
+   */
+  const double *state_old;
+  /*
+   Out, 10: the new state; null: it is not returned.
+   */
+  double *state_new;
+  /*
+   Out, 6: Cauchy stress in the material axes.
+   */
+  double *stress;
+} toron_linear_increment_f64;
+
+/*
+ A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
+ is 0.
+ */
+typedef struct toron_linear_increment_f32 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   In: one of `TORON_CRITERION_...`.
+   */
+  int32_t criterion;
+  /*
+   0.
+   */
+  int32_t reserved;
+  /*
+   In: the volume ratio J, a factor of the work per reference volume; 0: 1, not known.
+   */
+  double jacobian;
+  /*
+   In, 6: tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be null.
+   */
+  const float *strain;
+  /*
+   In, 10: the old state; if null, all 0.
+   */
+  const float *state_old;
+  /*
+   Out, 10: the new state; null: it is not returned.
+   */
+  float *state_new;
+  /*
+   Out, 6: Cauchy stress in the material axes.
+   */
+  float *stress;
+} toron_linear_increment_f32;
+
+/*
+ A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+ out, and an output that is left out is not computed.
+
+ Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
+ */
+typedef struct toron_linear_block_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   The number of points.
+   */
+  size_t n;
+  /*
+   In numbers, from one component to the next; 0: n.
+   */
+  size_t leading_dimension;
+  /*
+   In: one of `TORON_ROTATION_...`, `TORON_CRITERION_...`, `TORON_TANGENT_...` and `TORON_LEVEL_...`.
+   */
+  int32_t rotation;
+  int32_t criterion;
+  int32_t measure;
+  int32_t level;
+  /*
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 components each: F by columns at both ends of the step. The first must not be null.
+   */
+  const double *f_old[9];
+  const double *f_new[9];
+  /*
+   In, 3 components each: fibre direction and second axis of each point.
+   */
+  const double *fibre[3];
+  const double *second_axis[3];
+  /*
+   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
+   */
+  double *axes;
+  /*
+   In, 10 components: the old state; if null, all 0.
+   */
+  const double *state_old;
+  /*
+   Out, 10 components: the new state.
    */
   double *state_new;
   /*
    Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
    */
-  double *stress;
+  double *stress[6];
   /*
-   Out: a status code for each point.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): the tangent.
+   */
+  double *tangent;
+  /*
+   Out, a number for each point: an upper bound of the wave speed.
+   */
+  double *wave_speed;
+  /*
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated.
+   */
+  double *active;
+  /*
+   Out, a number for each point: its status code.
    */
   int32_t *status;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
+   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
+   the state for the old and the new one.
    */
-  int32_t level;
+  struct toron_layout deformation_gradient_layout;
+  struct toron_layout fibre_layout;
+  struct toron_layout axes_layout;
+  struct toron_layout state_layout;
+  struct toron_layout stress_layout;
+  struct toron_layout tangent_layout;
 } toron_linear_block_f64;
 
 /*
- A block of points of the linear elastic law: component-major arrays, component c of point i at
- `c * leading_dimension + i`.
+ A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+ out, and an output that is left out is not computed.
 
- Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
- as that of the new state.
+ Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
  */
-typedef struct {
+typedef struct toron_linear_block_f32 {
   /*
-   Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+   The size of this structure.
+   */
+  size_t size;
+  /*
+   The number of points.
    */
   size_t n;
+  /*
+   In numbers, from one component to the next; 0: n.
+   */
   size_t leading_dimension;
   /*
-   In, 9 components each: F by columns at both ends of the step. Must not be null.
+   In: one of `TORON_ROTATION_...`, `TORON_CRITERION_...`, `TORON_TANGENT_...` and `TORON_LEVEL_...`.
    */
-  const float *f_old;
-  const float *f_new;
+  int32_t rotation;
+  int32_t criterion;
+  int32_t measure;
+  int32_t level;
   /*
-   In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
-   for `TORON_ROTATION_SPIN`; not used for the other frames.
+   In: reference density; read if `wave_speed` is not null.
+   */
+  double density;
+  /*
+   In, 9 components each: F by columns at both ends of the step. The first must not be null.
+   */
+  const float *f_old[9];
+  const float *f_new[9];
+  /*
+   In, 3 components each: fibre direction and second axis of each point.
+   */
+  const float *fibre[3];
+  const float *second_axis[3];
+  /*
+   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
    */
   float *axes;
   /*
-   In, 10: the old state; null: all 0.
+   In, 10 components: the old state; if null, all 0.
    */
   const float *state_old;
   /*
-   Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
+   Out, 10 components: the new state.
    */
   float *state_new;
   /*
    Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
    */
-  float *stress;
+  float *stress[6];
   /*
-   Out: a status code for each point.
+   Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): the tangent.
+   */
+  float *tangent;
+  /*
+   Out, a number for each point: an upper bound of the wave speed.
+   */
+  float *wave_speed;
+  /*
+   Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated.
+   */
+  float *active;
+  /*
+   Out, a number for each point: its status code.
    */
   int32_t *status;
   /*
-   In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-   is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
+   Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
+   the state for the old and the new one.
    */
-  int32_t level;
+  struct toron_layout deformation_gradient_layout;
+  struct toron_layout fibre_layout;
+  struct toron_layout axes_layout;
+  struct toron_layout state_layout;
+  struct toron_layout stress_layout;
+  struct toron_layout tangent_layout;
 } toron_linear_block_f32;
 
 /*
  The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
-typedef struct {
+typedef struct toron_vumat_f64 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
   /*
    Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
    (11).
@@ -490,6 +1052,10 @@ typedef struct {
   int32_t nshr;
   int32_t nstatev;
   int32_t nprops;
+  /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`; 0: the best.
+   */
+  int32_t level;
   /*
    If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
    */
@@ -531,7 +1097,11 @@ typedef struct {
 /*
  The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
-typedef struct {
+typedef struct toron_vumat_f32 {
+  /*
+   The size of this structure.
+   */
+  size_t size;
   /*
    Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
    (11).
@@ -542,10 +1112,14 @@ typedef struct {
   int32_t nstatev;
   int32_t nprops;
   /*
+   In: the instruction set to use, one of `TORON_LEVEL_...`; 0: the best.
+   */
+  int32_t level;
+  /*
    If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
    */
-  float step_time;
-  float total_time;
+  double step_time;
+  double total_time;
   /*
    In: properties, nprops.
    */
@@ -594,165 +1168,175 @@ const char *toron_version(void);
 int32_t toron_abi_version(void);
 
 /*
- Writes the meaning of a status code as a sentence.
+ Writes the meaning of a status code as a sentence to `message`.
 
- Writes at most `capacity` bytes to `buffer`, always null-terminated; returns the full length without the terminating
- null. `buffer` may be null and `capacity` 0.
+ Returns 0, or `TORON_UNKNOWN_NAME` if there is no such code, which the text then says.
  */
-size_t toron_status_message(int32_t status, char *buffer, size_t capacity);
+int32_t toron_status_message(int32_t status, char *message, size_t capacity);
 
 /*
  The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
  */
-int32_t toron_property_count(int32_t law);
+int32_t toron_property_count(int32_t law, char *message, size_t capacity);
 
 /*
- Writes the table row of property `index`, counted from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or
- `TORON_NULL_ARGUMENT`.
+ Writes the table row of property `index`, counted from 0, to `row`, whose `size` is set.
+
+ Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_BAD_SIZE`.
  */
-int32_t toron_property(int32_t law, int32_t index, toron_table_row *row);
+int32_t toron_property(int32_t law, int32_t index, struct toron_table_row *row, char *message, size_t capacity);
 
 /*
- The index, counted from 0, of the property with this name, or `TORON_UNKNOWN_NAME`.
+ The index, counted from 0, of the property with this name, or `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
  */
-int32_t toron_property_index(int32_t law, const char *property);
+int32_t toron_property_index(int32_t law, const char *property, char *message, size_t capacity);
 
 /*
  The number of state variables of a law, or `TORON_UNKNOWN_NAME`.
  */
-int32_t toron_state_count(int32_t law);
+int32_t toron_state_count(int32_t law, char *message, size_t capacity);
 
 /*
- Writes the state variable of this index, from 0, to `row`. Returns 0, `TORON_UNKNOWN_NAME` or `TORON_NULL_ARGUMENT`.
+ Writes the state variable of this index, from 0, to `row`; as `toron_property`.
  */
-int32_t toron_state_variable(int32_t law, int32_t index, toron_table_row *row);
+int32_t toron_state_variable(int32_t law, int32_t index, struct toron_table_row *row, char *message, size_t capacity);
 
 /*
- The index, from 0, of the state variable of this name, or `TORON_UNKNOWN_NAME`.
+ The index, from 0, of the state variable of this name; as `toron_property_index`.
  */
-int32_t toron_state_index(int32_t law, const char *variable);
+int32_t toron_state_index(int32_t law, const char *variable, char *message, size_t capacity);
 
 /*
  The properties and the reference density of a preset, in the units of the user's model.
 
  - `preset`: "kevlar-km2-600" or "kevlar-km2-600-linear"; `units`: a unit of length, one of mass and one of time, joined
    by "-", such as "m-kg-s" (or "si"), "mm-tonne-s", "mm-kg-ms", "cm-g-us".
- - `values`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
+ - `properties`: array for the properties; `count` must equal the law's number of properties. `density`: one value, out, or
    null.
 
  Returns 0, `TORON_UNKNOWN_NAME`, `TORON_NULL_ARGUMENT` or `TORON_PROPERTY_COUNT`.
  */
-int32_t toron_preset_f64(const char *preset, const char *units, double *values, size_t count, double *density);
+int32_t toron_preset_f64(const char *preset,
+                         const char *units,
+                         double *properties,
+                         size_t count,
+                         double *density,
+                         char *message,
+                         size_t capacity);
 
 /*
  As `toron_preset_f64`, rounded to single precision.
  */
-int32_t toron_preset_f32(const char *preset, const char *units, float *values, size_t count, float *density);
+int32_t toron_preset_f32(const char *preset,
+                         const char *units,
+                         float *properties,
+                         size_t count,
+                         float *density,
+                         char *message,
+                         size_t capacity);
 
 /*
- Checks the properties of the hyperelastic law.
+ Checks the properties of the hyperelastic law, and prepares the law from them.
 
- - `values`, `count`: the properties in the table's order.
- - `message`, `capacity`: buffer for a message that names the wrong property, its value and the allowed values: at most
-   `capacity` bytes, always null-terminated, empty if there is no error. `message` may be null and `capacity` 0.
- - `status`: 0, `TORON_NULL_ARGUMENT` or a −2xx code; may be null.
+ - `law`: out; `size`: `sizeof *law`.
+ - `properties`, `count`: the properties in the table's order.
 
- Returns the length of the full message without the terminating null, 0 if there is no error.
+ Returns 0; or `TORON_NULL_ARGUMENT`, `TORON_BAD_SIZE` or a −2xx code, and nothing is written: the message names the wrong
+ property, its value and the allowed values.
  */
-size_t toron_hyperelastic_validate_f64(const double *values,
+int32_t toron_hyperelastic_prepare_f64(struct toron_hyperelastic_f64 *law,
+                                       size_t size,
+                                       const double *properties,
                                        size_t count,
                                        char *message,
-                                       size_t capacity,
-                                       int32_t *status);
+                                       size_t capacity);
 
 /*
- As `toron_hyperelastic_validate_f64`, in single precision.
+ As `toron_hyperelastic_prepare_f64`, in single precision.
  */
-size_t toron_hyperelastic_validate_f32(const float *values,
+int32_t toron_hyperelastic_prepare_f32(struct toron_hyperelastic_f32 *law,
+                                       size_t size,
+                                       const float *properties,
                                        size_t count,
                                        char *message,
-                                       size_t capacity,
-                                       int32_t *status);
+                                       size_t capacity);
 
 /*
- The hyperelastic law at one point.
+ The hyperelastic law at one point, with or without a tangent: see `toron_point_f64`.
 
- - `values`, `count`: the properties in the table's order.
- - `deformation_gradient`: 9 values by columns. Must not be null.
- - `fibre`: 3 values, the fibre direction, any length; if null, the one in the properties.
- - `state_old`: 11 values; if null, all 0. `state_new`: 11 values, out; if null, the new state is not returned and the
-   point cannot fail. They may be the same array.
- - `stress`: room for 6, Cauchy 11 22 33 12 23 31; `modes`: room for 24, S_el, S_tc, S_td, S_ld (second Piola-Kirchhoff);
-   `wave_speed`: room for 1, an upper bound of the wave speed for the reference density `density`, to be used with
-   current element lengths for the stable time step (a bulk viscosity computed with it damps more than with the exact
-   speed). Each of these three may be null.
-
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and modes are 0, the wave
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress, modes and tangent are 0, the wave
  speed is that of a yarn at rest, the state is unchanged but for `alive`, which is 1 - failed).
  */
-int32_t toron_hyperelastic_point_f64(const double *values,
-                                     size_t count,
-                                     const double *deformation_gradient,
-                                     const double *fibre,
-                                     const double *state_old,
-                                     double *state_new,
-                                     double *stress,
-                                     double *modes,
-                                     double density,
-                                     double *wave_speed);
+int32_t toron_hyperelastic_point_f64(const struct toron_hyperelastic_f64 *law,
+                                     const struct toron_point_f64 *point,
+                                     char *message,
+                                     size_t capacity);
 
 /*
  As `toron_hyperelastic_point_f64`, in single precision.
  */
-int32_t toron_hyperelastic_point_f32(const float *values,
-                                     size_t count,
-                                     const float *deformation_gradient,
-                                     const float *fibre,
-                                     const float *state_old,
-                                     float *state_new,
-                                     float *stress,
-                                     float *modes,
-                                     float density,
-                                     float *wave_speed);
+int32_t toron_hyperelastic_point_f32(const struct toron_hyperelastic_f32 *law,
+                                     const struct toron_point_f32 *point,
+                                     char *message,
+                                     size_t capacity);
 
 /*
- The hyperelastic law at one point, with a tangent.
-
- - `values`, `count`, `deformation_gradient`, `fibre`, `state_old`, `state_new`, `stress`: as for
-   `toron_hyperelastic_point_f64`.
- - `measure`: which tangent, `TORON_TANGENT_MATERIAL`, `_TRUESDELL`, `_JAUMANN` or `_NOMINAL`.
- - `tangent`: 36 values, out (81 for `_NOMINAL`), a symmetric matrix; must not be null. Rows and columns are in the order
-   11 22 33 12 23 31, with derivatives with respect to engineering shears; for `_NOMINAL` in the order 11 21 31 12 22 32
-   13 23 33.
-
- The call that detects failure returns the intact tangent, later calls return zeros. At a kink (I_el = 0 or I_tc = 0) the
- tangent is that of loading.
-
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is
- unchanged but for `alive`).
+ As `toron_hyperelastic_point_f64`, with the properties in the table's order, which are checked in every call, in place of a
+ law that has been prepared. That takes longer; the results may differ in the last digits.
  */
-int32_t toron_hyperelastic_point_tangent_f64(const double *values,
-                                             size_t count,
-                                             const double *deformation_gradient,
-                                             const double *fibre,
-                                             const double *state_old,
-                                             double *state_new,
-                                             double *stress,
-                                             int32_t measure,
-                                             double *tangent);
+int32_t toron_hyperelastic_point_with_properties_f64(const double *properties,
+                                                     size_t count,
+                                                     const struct toron_point_f64 *point,
+                                                     char *message,
+                                                     size_t capacity);
 
 /*
- As `toron_hyperelastic_point_tangent_f64`, in single precision.
+ As `toron_hyperelastic_point_with_properties_f64`, in single precision.
  */
-int32_t toron_hyperelastic_point_tangent_f32(const float *values,
-                                             size_t count,
-                                             const float *deformation_gradient,
-                                             const float *fibre,
-                                             const float *state_old,
-                                             float *state_new,
-                                             float *stress,
-                                             int32_t measure,
-                                             float *tangent);
+int32_t toron_hyperelastic_point_with_properties_f32(const float *properties,
+                                                     size_t count,
+                                                     const struct toron_point_f32 *point,
+                                                     char *message,
+                                                     size_t capacity);
+
+/*
+ The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
+
+ Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
+ other points are not affected), and the message names the first point with that code if `status` is not null; or a −1xx or −2xx
+ code, and then nothing is written.
+ */
+int32_t toron_hyperelastic_block_f64(const struct toron_hyperelastic_f64 *law,
+                                     const struct toron_block_f64 *block,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_hyperelastic_block_f64`, in single precision.
+ */
+int32_t toron_hyperelastic_block_f32(const struct toron_hyperelastic_f32 *law,
+                                     const struct toron_block_f32 *block,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_hyperelastic_block_f64`, with the properties in the table's order, which are checked in every call, in place of a
+ law that has been prepared. The results are the same bits.
+ */
+int32_t toron_hyperelastic_block_with_properties_f64(const double *properties,
+                                                     size_t count,
+                                                     const struct toron_block_f64 *block,
+                                                     char *message,
+                                                     size_t capacity);
+
+/*
+ As `toron_hyperelastic_block_with_properties_f64`, in single precision.
+ */
+int32_t toron_hyperelastic_block_with_properties_f32(const float *properties,
+                                                     size_t count,
+                                                     const struct toron_block_f32 *block,
+                                                     char *message,
+                                                     size_t capacity);
 
 /*
  Stability check: the smallest eigenvalue, over all wave directions, of the acoustic tensor times the reference density.
@@ -760,170 +1344,162 @@ int32_t toron_hyperelastic_point_tangent_f32(const float *values,
  If it is negative, the material has lost ellipticity: wave speeds are imaginary and results depend on the mesh. Without
  k_ld it is 0 to rounding in stable states: compare it with −1e-9 k_el.
 
- - `values`, `count`, `deformation_gradient`, `fibre`: as for `toron_hyperelastic_point_f64`.
+ - `point`: its `deformation_gradient` and `fibre` are read.
  - `least`: the eigenvalue, out, in units of stress; `direction`: 3 values, out, the unit normal of that wave in global
    axes, or null.
 
- Returns 0; a −1xx, −2xx or −3xx code, and nothing is written.
+ Returns 0; a −1xx or −3xx code, and nothing is written.
  */
-int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const double *values,
-                                                         size_t count,
-                                                         const double *deformation_gradient,
-                                                         const double *fibre,
+int32_t toron_hyperelastic_least_acoustic_eigenvalue_f64(const struct toron_hyperelastic_f64 *law,
+                                                         const struct toron_point_f64 *point,
                                                          double *least,
-                                                         double *direction);
+                                                         double *direction,
+                                                         char *message,
+                                                         size_t capacity);
 
 /*
- The hyperelastic law at a block of points, with a tangent.
-
- - `values`, `count`, `block`: as for `toron_hyperelastic_block_f64`.
- - `measure`: which tangent, as for `toron_hyperelastic_point_tangent_f64`.
- - `tangent`: 36 components (81 for `TORON_TANGENT_NOMINAL`), component-major with the block's leading dimension: entry
-   (row, column), counted from 0, is component 6 row + column (9 row + column). The full symmetric matrix is written. If
-   null, no tangent is computed.
-
- Returns the same codes as `toron_hyperelastic_block_f64`; the tangent is 0 for a point that cannot be evaluated or had
- failed before.
+ Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
  */
-int32_t toron_hyperelastic_block_tangent_f64(const double *values,
-                                             size_t count,
-                                             const toron_block_f64 *block,
-                                             int32_t measure,
-                                             double *tangent);
-
-/*
- As `toron_hyperelastic_block_tangent_f64`, in single precision.
- */
-int32_t toron_hyperelastic_block_tangent_f32(const float *values,
-                                             size_t count,
-                                             const toron_block_f32 *block,
-                                             int32_t measure,
-                                             float *tangent);
-
-/*
- The hyperelastic law at a block of points.
-
- - `values`, `count`: the properties in the table's order, the same for all points.
- - `block`: the arrays, see `toron_block_f64`; the caller owns all of them.
-
- Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state;
- the other points are not affected); or a −1xx or −2xx code, and then nothing is written.
- */
-int32_t toron_hyperelastic_block_f64(const double *values,
-                                     size_t count,
-                                     const toron_block_f64 *block);
-
-/*
- As `toron_hyperelastic_block_f64`, in single precision.
- */
-int32_t toron_hyperelastic_block_f32(const float *values, size_t count, const toron_block_f32 *block);
-
-/*
- Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
- */
-size_t toron_linear_elastic_validate_f64(const double *values,
+int32_t toron_linear_elastic_prepare_f64(struct toron_linear_elastic_f64 *law,
+                                         size_t size,
+                                         const double *properties,
                                          size_t count,
                                          char *message,
-                                         size_t capacity,
-                                         int32_t *status);
+                                         size_t capacity);
+
+/*
+ As `toron_linear_elastic_prepare_f64`, in single precision.
+ */
+int32_t toron_linear_elastic_prepare_f32(struct toron_linear_elastic_f32 *law,
+                                         size_t size,
+                                         const float *properties,
+                                         size_t count,
+                                         char *message,
+                                         size_t capacity);
 
 /*
  The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
  `TORON_ROTATION_SPIN`.
 
- `axes`: room for 9 values, the three axes one after the other. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
+ - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second axis may
+   be 0 if any will do.
+ - `axes`: 9 values, out, the three axes one after the other.
+
+ Returns 0, `TORON_NULL_ARGUMENT`, `TORON_NOT_PREPARED`, or `TORON_FIBRE_DIRECTION` if there are no such axes.
  */
-int32_t toron_linear_elastic_axes_f64(const double *values, size_t count, double *axes);
+int32_t toron_linear_elastic_axes_f64(const struct toron_linear_elastic_f64 *law,
+                                      const double *fibre,
+                                      const double *second_axis,
+                                      double *axes,
+                                      char *message,
+                                      size_t capacity);
 
 /*
- The linear elastic law over a step, from the deformation gradients at both ends.
-
- - `values`, `count`: the properties in the table's order.
- - `f_old`, `f_new`: 9 values each, by columns. Must not be null.
- - `state_old`: 10 values; null: all 0. `state_new`: room for 10, or null. They may be the same array.
- - `stress`: room for 6, Cauchy stress in space 11 22 33 12 23 31, or null.
- - `rotation`: the frame that rotates with the material: `TORON_ROTATION_FIBRE` (right for a yarn), `_POLAR` or `_SPIN`.
- - `criterion`: `TORON_CRITERION_PRINCIPAL` or `_FIBRE`.
- - `axes`: 9 values, in and out, the current material axes, used only for `TORON_ROTATION_SPIN`; initialise them with
-   `toron_linear_elastic_axes_f64`. May be null for the other frames.
-
- Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged but for `alive`).
+ As `toron_linear_elastic_axes_f64`, in single precision.
  */
-int32_t toron_linear_elastic_step_f64(const double *values,
-                                      size_t count,
-                                      const double *f_old,
-                                      const double *f_new,
-                                      const double *state_old,
-                                      double *state_new,
-                                      double *stress,
-                                      int32_t rotation,
-                                      int32_t criterion,
-                                      double *axes);
+int32_t toron_linear_elastic_axes_f32(const struct toron_linear_elastic_f32 *law,
+                                      const float *fibre,
+                                      const float *second_axis,
+                                      float *axes,
+                                      char *message,
+                                      size_t capacity);
 
 /*
- As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
+ The linear elastic law over a step at one point, from the deformation gradients at both ends: see
+ `toron_linear_point_f64`.
 
- - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row,
-   column) is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` gives the
-   entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31.
+ Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged but for
+ `alive`).
  */
-int32_t toron_linear_elastic_step_tangent_f64(const double *values,
-                                              size_t count,
-                                              const double *f_old,
-                                              const double *f_new,
-                                              const double *state_old,
-                                              double *state_new,
-                                              double *stress,
-                                              int32_t rotation,
-                                              int32_t criterion,
-                                              double *axes,
-                                              int32_t measure,
-                                              double *tangent);
+int32_t toron_linear_elastic_point_f64(const struct toron_linear_elastic_f64 *law,
+                                       const struct toron_linear_point_f64 *point,
+                                       char *message,
+                                       size_t capacity);
 
 /*
- The linear elastic law for a strain increment in material axes that the host updates.
+ As `toron_linear_elastic_point_f64`, in single precision.
+ */
+int32_t toron_linear_elastic_point_f32(const struct toron_linear_elastic_f32 *law,
+                                       const struct toron_linear_point_f32 *point,
+                                       char *message,
+                                       size_t capacity);
 
- - `strain`: 6 tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be
-   null.
- - `jacobian`: the volume ratio J, a factor of the work per reference volume; 1 if it is not known.
- - `state_old`, `state_new`, `criterion`: as for `toron_linear_elastic_step_f64`; `stress`: in that frame.
+/*
+ As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
+ results are the same bits.
+ */
+int32_t toron_linear_elastic_point_with_properties_f64(const double *properties,
+                                                       size_t count,
+                                                       const struct toron_linear_point_f64 *point,
+                                                       char *message,
+                                                       size_t capacity);
+
+/*
+ As `toron_linear_elastic_point_with_properties_f64`, in single precision.
+ */
+int32_t toron_linear_elastic_point_with_properties_f32(const float *properties,
+                                                       size_t count,
+                                                       const struct toron_linear_point_f32 *point,
+                                                       char *message,
+                                                       size_t capacity);
+
+/*
+ The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
 
  The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts away
- from a sheared fibre. Returns the same codes as `toron_linear_elastic_step_f64`.
+ from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
  */
-int32_t toron_linear_elastic_increment_f64(const double *values,
-                                           size_t count,
-                                           const double *strain,
-                                           double jacobian,
-                                           const double *state_old,
-                                           double *state_new,
-                                           double *stress,
-                                           int32_t criterion);
+int32_t toron_linear_elastic_increment_f64(const struct toron_linear_elastic_f64 *law,
+                                           const struct toron_linear_increment_f64 *increment,
+                                           char *message,
+                                           size_t capacity);
 
 /*
- The linear elastic law over a step at a block of points.
+ As `toron_linear_elastic_increment_f64`, in single precision.
+ */
+int32_t toron_linear_elastic_increment_f32(const struct toron_linear_elastic_f32 *law,
+                                           const struct toron_linear_increment_f32 *increment,
+                                           char *message,
+                                           size_t capacity);
 
- - `values`, `count`: the properties in the table's order, the same for all points.
- - `block`: the arrays, see `toron_linear_block_f64`; the caller owns all of them.
- - `rotation`, `criterion`: as for `toron_linear_elastic_step_f64`.
+/*
+ The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 
  Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state and axes; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+ its state and axes; the others are not affected; the message names the first one if `status` is not null); or a −1xx or −2xx
+ code, and nothing is written.
  */
-int32_t toron_linear_elastic_block_f64(const double *values,
-                                       size_t count,
-                                       const toron_linear_block_f64 *block,
-                                       int32_t rotation,
-                                       int32_t criterion);
+int32_t toron_linear_elastic_block_f64(const struct toron_linear_elastic_f64 *law,
+                                       const struct toron_linear_block_f64 *block,
+                                       char *message,
+                                       size_t capacity);
 
 /*
  As `toron_linear_elastic_block_f64`, in single precision.
  */
-int32_t toron_linear_elastic_block_f32(const float *values,
-                                       size_t count,
-                                       const toron_linear_block_f32 *block,
-                                       int32_t rotation,
-                                       int32_t criterion);
+int32_t toron_linear_elastic_block_f32(const struct toron_linear_elastic_f32 *law,
+                                       const struct toron_linear_block_f32 *block,
+                                       char *message,
+                                       size_t capacity);
+
+/*
+ As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
+ results are the same bits.
+ */
+int32_t toron_linear_elastic_block_with_properties_f64(const double *properties,
+                                                       size_t count,
+                                                       const struct toron_linear_block_f64 *block,
+                                                       char *message,
+                                                       size_t capacity);
+
+/*
+ As `toron_linear_elastic_block_with_properties_f64`, in single precision.
+ */
+int32_t toron_linear_elastic_block_with_properties_f32(const float *properties,
+                                                       size_t count,
+                                                       const struct toron_linear_block_f32 *block,
+                                                       char *message,
+                                                       size_t capacity);
 
 /*
  The hyperelastic law as a UMAT of Abaqus/Standard.
@@ -952,7 +1528,9 @@ int32_t toron_abaqus_umat_tangent_f64(double *stress,
                                       int32_t nstatv,
                                       int32_t ndi,
                                       int32_t nshr,
-                                      int32_t nlgeom);
+                                      int32_t nlgeom,
+                                      char *message,
+                                      size_t capacity);
 
 /*
  As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
@@ -967,7 +1545,9 @@ int32_t toron_abaqus_umat_f64(double *stress,
                               int32_t nstatv,
                               int32_t ndi,
                               int32_t nshr,
-                              int32_t nlgeom);
+                              int32_t nlgeom,
+                              char *message,
+                              size_t capacity);
 
 /*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
@@ -981,12 +1561,14 @@ int32_t toron_abaqus_umat_f64(double *stress,
  is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
  and is marked as failed and deleted.
  */
-int32_t toron_abaqus_vumat_f64(const toron_vumat_f64 *block);
+int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block,
+                               char *message,
+                               size_t capacity);
 
 /*
  As `toron_abaqus_vumat_f64`, for jobs in single precision.
  */
-int32_t toron_abaqus_vumat_f32(const toron_vumat_f32 *block);
+int32_t toron_abaqus_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
 
 /*
  The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
@@ -1003,12 +1585,20 @@ int32_t toron_lsdyna_umat_f64(const double *cm,
                               double *sig,
                               double *hsv,
                               int32_t nhv,
-                              int *failel);
+                              int *failel,
+                              char *message,
+                              size_t capacity);
 
 /*
  As `toron_lsdyna_umat_f64`, in single precision.
  */
-int32_t toron_lsdyna_umat_f32(const float *cm, float *sig, float *hsv, int32_t nhv, int *failel);
+int32_t toron_lsdyna_umat_f32(const float *cm,
+                              float *sig,
+                              float *hsv,
+                              int32_t nhv,
+                              int *failel,
+                              char *message,
+                              size_t capacity);
 
 /*
  The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
@@ -1034,7 +1624,9 @@ int32_t toron_lsdyna_umat_vector_f64(const double *cm,
                                      int32_t lft,
                                      int32_t llt,
                                      int32_t nlq,
-                                     int *failels);
+                                     int *failels,
+                                     char *message,
+                                     size_t capacity);
 
 /*
  As `toron_lsdyna_umat_vector_f64`, in single precision.
@@ -1051,7 +1643,9 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
                                      int32_t lft,
                                      int32_t llt,
                                      int32_t nlq,
-                                     int *failels);
+                                     int *failels,
+                                     char *message,
+                                     size_t capacity);
 
 /*
  The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
@@ -1066,12 +1660,19 @@ int32_t toron_lsdyna_umat_vector_f32(const float *cm,
 int32_t toron_lsdyna_utan_f64(const double *cm,
                               const double *hsv,
                               int32_t nhv,
-                              double *es);
+                              double *es,
+                              char *message,
+                              size_t capacity);
 
 /*
  As `toron_lsdyna_utan_f64`, in single precision.
  */
-int32_t toron_lsdyna_utan_f32(const float *cm, const float *hsv, int32_t nhv, float *es);
+int32_t toron_lsdyna_utan_f32(const float *cm,
+                              const float *hsv,
+                              int32_t nhv,
+                              float *es,
+                              char *message,
+                              size_t capacity);
 
 /*
  The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
@@ -1088,7 +1689,9 @@ int32_t toron_lsdyna_utan_vector_f64(const double *cm,
                                      int32_t lft,
                                      int32_t llt,
                                      int32_t nlq,
-                                     double *dsave);
+                                     double *dsave,
+                                     char *message,
+                                     size_t capacity);
 
 /*
  As `toron_lsdyna_utan_vector_f64`, in single precision.
@@ -1099,7 +1702,9 @@ int32_t toron_lsdyna_utan_vector_f32(const float *cm,
                                      int32_t lft,
                                      int32_t llt,
                                      int32_t nlq,
-                                     float *dsave);
+                                     float *dsave,
+                                     char *message,
+                                     size_t capacity);
 
 /*
  Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
@@ -1111,7 +1716,9 @@ int32_t toron_lsdyna_utan_vector_f32(const float *cm,
 int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
                                         size_t count,
                                         double *bulk,
-                                        double *shear);
+                                        double *shear,
+                                        char *message,
+                                        size_t capacity);
 
 #ifdef __cplusplus
 }  // extern "C"

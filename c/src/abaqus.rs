@@ -1,5 +1,6 @@
 //! Abaqus: UMAT and VUMAT.
 
+use libc::{c_char, size_t};
 use toron::host::abaqus::Vumat;
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
@@ -31,11 +32,13 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
         toron::host::abaqus::umat_tangent_f64(
-            stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+            stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
         )
     }
 }
@@ -55,10 +58,14 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
-        toron::host::abaqus::umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)
+        toron::host::abaqus::umat_f64(
+            stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
+        )
     }
 }
 
@@ -73,14 +80,22 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
 /// is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
 /// and is marked as failed and deleted.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_abaqus_vumat_f64(block: *const Vumat<f64>) -> i32 {
+pub unsafe extern "C" fn toron_abaqus_vumat_f64(
+    block: *const Vumat<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::vumat_f64(block) }
+    unsafe { toron::host::abaqus::vumat_f64(block, message, capacity) }
 }
 
 /// As `toron_abaqus_vumat_f64`, for jobs in single precision.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_abaqus_vumat_f32(block: *const Vumat<f32>) -> i32 {
+pub unsafe extern "C" fn toron_abaqus_vumat_f32(
+    block: *const Vumat<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::vumat_f32(block) }
+    unsafe { toron::host::abaqus::vumat_f32(block, message, capacity) }
 }

@@ -14,12 +14,11 @@ pub extern "C" fn toron_abi_version() -> i32 {
     toron::host::c::abi_version()
 }
 
-/// Writes the meaning of a status code as a sentence.
+/// Writes the meaning of a status code as a sentence to `message`.
 ///
-/// Writes at most `capacity` bytes to `buffer`, always null-terminated; returns the full length without the terminating
-/// null. `buffer` may be null and `capacity` 0.
+/// Returns 0, or `TORON_UNKNOWN_NAME` if there is no such code, which the text then says.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_status_message(status: i32, buffer: *mut c_char, capacity: size_t) -> size_t {
+pub unsafe extern "C" fn toron_status_message(status: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::c::status_message(status, buffer, capacity) }
+    unsafe { toron::host::c::status_message(status, message, capacity) }
 }

@@ -8,9 +8,7 @@
 
 pub mod abaqus;
 pub mod about;
-pub mod blocks;
+pub mod hyperelastic;
 pub mod linear_elastic;
 pub mod lsdyna;
-pub mod points;
 pub mod tables;
-pub mod tangents;

@@ -1,152 +1,204 @@
-//! The linear elastic law: its properties, one point, blocks.
+//! The linear elastic law: prepared, at one point, at blocks of points.
 
 use libc::{c_char, size_t};
-use toron::host::c::LinearBlock;
+use toron::host::c::{LinearBlock, LinearElasticLaw, LinearIncrement, LinearPoint};
 
-/// Checks the properties of the linear elastic law; as `toron_hyperelastic_validate_f64`.
+/// Checks the properties of the linear elastic law, and prepares the law from them; as `toron_hyperelastic_prepare_f64`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_linear_elastic_validate_f64(
-    values: *const f64,
+pub unsafe extern "C" fn toron_linear_elastic_prepare_f64(
+    law: *mut LinearElasticLaw<f64>,
+    size: size_t,
+    properties: *const f64,
     count: size_t,
     message: *mut c_char,
     capacity: size_t,
-    status: *mut i32,
-) -> size_t {
+) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::c::linear_elastic_validate_f64(values, count, message, capacity, status) }
+    unsafe { toron::host::c::linear_elastic_prepare_f64(law, size, properties, count, message, capacity) }
+}
+
+/// As `toron_linear_elastic_prepare_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_prepare_f32(
+    law: *mut LinearElasticLaw<f32>,
+    size: size_t,
+    properties: *const f32,
+    count: size_t,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_prepare_f32(law, size, properties, count, message, capacity) }
 }
 
 /// The material axes of the linear elastic law in the undeformed state: the initial value of `axes` for
 /// `TORON_ROTATION_SPIN`.
 ///
-/// `axes`: room for 9 values, the three axes one after the other. Returns 0, `TORON_NULL_ARGUMENT` or a −2xx code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_linear_elastic_axes_f64(values: *const f64, count: size_t, axes: *mut f64) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::c::linear_elastic_axes_f64(values, count, axes) }
-}
-
-/// The linear elastic law over a step, from the deformation gradients at both ends.
+/// - `fibre`, `second_axis`: 3 values each, those of a point, of any length; null: those of the properties. The second axis may
+///   be 0 if any will do.
+/// - `axes`: 9 values, out, the three axes one after the other.
 ///
-/// - `values`, `count`: the properties in the table's order.
-/// - `f_old`, `f_new`: 9 values each, by columns. Must not be null.
-/// - `state_old`: 10 values; null: all 0. `state_new`: room for 10, or null. They may be the same array.
-/// - `stress`: room for 6, Cauchy stress in space 11 22 33 12 23 31, or null.
-/// - `rotation`: the frame that rotates with the material: `TORON_ROTATION_FIBRE` (right for a yarn), `_POLAR` or `_SPIN`.
-/// - `criterion`: `TORON_CRITERION_PRINCIPAL` or `_FIBRE`.
-/// - `axes`: 9 values, in and out, the current material axes, used only for `TORON_ROTATION_SPIN`; initialise them with
-///   `toron_linear_elastic_axes_f64`. May be null for the other frames.
-///
-/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (the stress is 0, the state is unchanged but for `alive`).
+/// Returns 0, `TORON_NULL_ARGUMENT`, `TORON_NOT_PREPARED`, or `TORON_FIBRE_DIRECTION` if there are no such axes.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_linear_elastic_step_f64(
-    values: *const f64,
-    count: size_t,
-    f_old: *const f64,
-    f_new: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    rotation: i32,
-    criterion: i32,
+pub unsafe extern "C" fn toron_linear_elastic_axes_f64(
+    law: *const LinearElasticLaw<f64>,
+    fibre: *const f64,
+    second_axis: *const f64,
     axes: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::c::linear_elastic_step_f64(
-            values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes,
-        )
-    }
+    unsafe { toron::host::c::linear_elastic_axes_f64(law, fibre, second_axis, axes, message, capacity) }
 }
 
-/// As `toron_linear_elastic_step_f64`, with the tangent consistent with the step.
-///
-/// - `measure`, `tangent`: as for `toron_hyperelastic_point_tangent_f64`, but the matrix is not symmetric: entry (row,
-///   column) is at `6 row + column`, for `TORON_TANGENT_NOMINAL` at `row + 9 column`. `TORON_TANGENT_JAUMANN` gives the
-///   entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31.
+/// As `toron_linear_elastic_axes_f64`, in single precision.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)]
-pub unsafe extern "C" fn toron_linear_elastic_step_tangent_f64(
-    values: *const f64,
-    count: size_t,
-    f_old: *const f64,
-    f_new: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    rotation: i32,
-    criterion: i32,
-    axes: *mut f64,
-    measure: i32,
-    tangent: *mut f64,
+pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
+    law: *const LinearElasticLaw<f32>,
+    fibre: *const f32,
+    second_axis: *const f32,
+    axes: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::c::linear_elastic_step_tangent_f64(
-            values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, measure, tangent,
-        )
-    }
+    unsafe { toron::host::c::linear_elastic_axes_f32(law, fibre, second_axis, axes, message, capacity) }
 }
 
-/// The linear elastic law for a strain increment in material axes that the host updates.
+/// The linear elastic law over a step at one point, from the deformation gradients at both ends: see
+/// `toron_linear_point_f64`.
 ///
-/// - `strain`: 6 tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be
-///   null.
-/// - `jacobian`: the volume ratio J, a factor of the work per reference volume; 1 if it is not known.
-/// - `state_old`, `state_new`, `criterion`: as for `toron_linear_elastic_step_f64`; `stress`: in that frame.
+/// Returns 0, a −1xx or −2xx code (nothing is written), or a −3xx code (stress and tangent are 0, the state is unchanged but for
+/// `alive`).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_point_f64(
+    law: *const LinearElasticLaw<f64>,
+    point: *const LinearPoint<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_point_f64(law, point, message, capacity) }
+}
+
+/// As `toron_linear_elastic_point_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_point_f32(
+    law: *const LinearElasticLaw<f32>,
+    point: *const LinearPoint<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_point_f32(law, point, message, capacity) }
+}
+
+/// As `toron_linear_elastic_point_f64`, with the properties in the table's order in place of a law that has been prepared. The
+/// results are the same bits.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
+    properties: *const f64,
+    count: size_t,
+    point: *const LinearPoint<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_point_with_properties_f64(properties, count, point, message, capacity) }
+}
+
+/// As `toron_linear_elastic_point_with_properties_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
+    properties: *const f32,
+    count: size_t,
+    point: *const LinearPoint<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_point_with_properties_f32(properties, count, point, message, capacity) }
+}
+
+/// The linear elastic law for a strain increment in material axes that the host updates: see `toron_linear_increment_f64`.
 ///
 /// The result is only as good as the axes: if they follow the polar rotation or the spin, the stiff direction drifts away
-/// from a sheared fibre. Returns the same codes as `toron_linear_elastic_step_f64`.
+/// from a sheared fibre. Returns the same codes as `toron_linear_elastic_point_f64`.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
-    values: *const f64,
-    count: size_t,
-    strain: *const f64,
-    jacobian: f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    criterion: i32,
+    law: *const LinearElasticLaw<f64>,
+    increment: *const LinearIncrement<f64>,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::c::linear_elastic_increment_f64(
-            values, count, strain, jacobian, state_old, state_new, stress, criterion,
-        )
-    }
+    unsafe { toron::host::c::linear_elastic_increment_f64(law, increment, message, capacity) }
 }
 
-/// The linear elastic law over a step at a block of points.
-///
-/// - `values`, `count`: the properties in the table's order, the same for all points.
-/// - `block`: the arrays, see `toron_linear_block_f64`; the caller owns all of them.
-/// - `rotation`, `criterion`: as for `toron_linear_elastic_step_f64`.
-///
-/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
-/// its state and axes; the others are not affected); or a −1xx or −2xx code, and nothing is written.
+/// As `toron_linear_elastic_increment_f64`, in single precision.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_linear_elastic_block_f64(
-    values: *const f64,
-    count: size_t,
-    block: *const LinearBlock<f64>,
-    rotation: i32,
-    criterion: i32,
+pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
+    law: *const LinearElasticLaw<f32>,
+    increment: *const LinearIncrement<f32>,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::c::linear_elastic_block_f64(values, count, block, rotation, criterion) }
+    unsafe { toron::host::c::linear_elastic_increment_f32(law, increment, message, capacity) }
+}
+
+/// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
+///
+/// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
+/// its state and axes; the others are not affected; the message names the first one if `status` is not null); or a −1xx or −2xx
+/// code, and nothing is written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_block_f64(
+    law: *const LinearElasticLaw<f64>,
+    block: *const LinearBlock<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_block_f64(law, block, message, capacity) }
 }
 
 /// As `toron_linear_elastic_block_f64`, in single precision.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_block_f32(
-    values: *const f32,
-    count: size_t,
+    law: *const LinearElasticLaw<f32>,
     block: *const LinearBlock<f32>,
-    rotation: i32,
-    criterion: i32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::c::linear_elastic_block_f32(values, count, block, rotation, criterion) }
+    unsafe { toron::host::c::linear_elastic_block_f32(law, block, message, capacity) }
+}
+
+/// As `toron_linear_elastic_block_f64`, with the properties in the table's order in place of a law that has been prepared. The
+/// results are the same bits.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
+    properties: *const f64,
+    count: size_t,
+    block: *const LinearBlock<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_block_with_properties_f64(properties, count, block, message, capacity) }
+}
+
+/// As `toron_linear_elastic_block_with_properties_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f32(
+    properties: *const f32,
+    count: size_t,
+    block: *const LinearBlock<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::c::linear_elastic_block_with_properties_f32(properties, count, block, message, capacity) }
 }

@@ -2,6 +2,8 @@
 
 use core::ffi::c_int;
 
+use libc::{c_char, size_t};
+
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 ///
 /// `cm`: at least 11 values, the properties; `sig`: 6 values, the Cauchy stress, out; `hsv`: `nhv` = 11 state variables, in
@@ -18,9 +20,11 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     hsv: *mut f64,
     nhv: i32,
     failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::umat_f64(cm, sig, hsv, nhv, failel) }
+    unsafe { toron::host::lsdyna::umat_f64(cm, sig, hsv, nhv, failel, message, capacity) }
 }
 
 /// As `toron_lsdyna_umat_f64`, in single precision.
@@ -31,9 +35,11 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
     hsv: *mut f32,
     nhv: i32,
     failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::umat_f32(cm, sig, hsv, nhv, failel) }
+    unsafe { toron::host::lsdyna::umat_f32(cm, sig, hsv, nhv, failel, message, capacity) }
 }
 
 /// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
@@ -62,10 +68,14 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
     llt: i32,
     nlq: i32,
     failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
-        toron::host::lsdyna::umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
+        toron::host::lsdyna::umat_vector_f64(
+            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
+        )
     }
 }
 
@@ -86,10 +96,14 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
     llt: i32,
     nlq: i32,
     failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
-        toron::host::lsdyna::umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels)
+        toron::host::lsdyna::umat_vector_f32(
+            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
+        )
     }
 }
 
@@ -102,16 +116,30 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
 /// Returns 0; `TORON_NULL_ARGUMENT`, `TORON_STATE_COUNT`, `TORON_NO_DEFORMATION_GRADIENT` or a −2xx code, and nothing is
 /// written; or a −3xx code, and then `es` is 0. For a failed element `es` is 0 as well.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
+pub unsafe extern "C" fn toron_lsdyna_utan_f64(
+    cm: *const f64,
+    hsv: *const f64,
+    nhv: i32,
+    es: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_f64(cm, hsv, nhv, es) }
+    unsafe { toron::host::lsdyna::utan_f64(cm, hsv, nhv, es, message, capacity) }
 }
 
 /// As `toron_lsdyna_utan_f64`, in single precision.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn toron_lsdyna_utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
+pub unsafe extern "C" fn toron_lsdyna_utan_f32(
+    cm: *const f32,
+    hsv: *const f32,
+    nhv: i32,
+    es: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_f32(cm, hsv, nhv, es) }
+    unsafe { toron::host::lsdyna::utan_f32(cm, hsv, nhv, es, message, capacity) }
 }
 
 /// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
@@ -130,9 +158,11 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     llt: i32,
     nlq: i32,
     dsave: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave) }
+    unsafe { toron::host::lsdyna::utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
 }
 
 /// As `toron_lsdyna_utan_vector_f64`, in single precision.
@@ -145,9 +175,11 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     llt: i32,
     nlq: i32,
     dsave: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave) }
+    unsafe { toron::host::lsdyna::utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
 }
 
 /// Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
@@ -161,7 +193,9 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     count: usize,
     bulk: *mut f64,
     shear: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::bulk_and_shear_f64(values, count, bulk, shear) }
+    unsafe { toron::host::lsdyna::bulk_and_shear_f64(values, count, bulk, shear, message, capacity) }
 }

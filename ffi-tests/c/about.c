@@ -7,16 +7,16 @@ static void version(void)
     CHECK(strcmp(toron_version(), EXPECTED_VERSION) == 0, "%s", toron_version());
 }
 
-/* snprintf's semantics: the length needed whatever the room, always terminated, not a byte beyond. */
+/* As much of a message as fits, always terminated, not a byte beyond. */
 static void messages(void)
 {
     const char *whole = "an argument that must not be null is null";
     const size_t length = strlen(whole);
-    CHECK(toron_status_message(TORON_NULL_ARGUMENT, NULL, 0) == length, "no buffer");
-    CHECK(toron_status_message(TORON_NULL_ARGUMENT, NULL, 10) == length, "no buffer, whatever the capacity");
+    CHECK(toron_status_message(TORON_NULL_ARGUMENT, NULL, 0) == TORON_OK, "no buffer");
+    CHECK(toron_status_message(TORON_NULL_ARGUMENT, NULL, 10) == TORON_OK, "no buffer, whatever the capacity");
     for (size_t capacity = 0; capacity <= length + 2; capacity++) {
         char *buffer = guarded(length + 2);
-        CHECK(toron_status_message(TORON_NULL_ARGUMENT, buffer, capacity) == length, "capacity %zu", capacity);
+        CHECK(toron_status_message(TORON_NULL_ARGUMENT, buffer, capacity) == TORON_OK, "capacity %zu", capacity);
         size_t written = capacity == 0 ? 0 : (capacity <= length ? capacity : length + 1);
         if (capacity > 0) {
             CHECK(strlen(buffer) == written - 1, "capacity %zu", capacity);
@@ -26,53 +26,66 @@ static void messages(void)
         release();
     }
     const int32_t codes[] = {TORON_OK, TORON_NULL_ARGUMENT, TORON_BAD_COUNT, TORON_BAD_LEADING_DIMENSION,
-                             TORON_UNKNOWN_NAME, TORON_BAD_ARGUMENT, TORON_NO_DEFORMATION_GRADIENT,
-                             TORON_PROPERTY_COUNT, TORON_PROPERTY_NOT_FINITE, TORON_PROPERTY_OUT_OF_BOUNDS,
-                             TORON_PROPERTY_DIRECTION, TORON_STATE_COUNT, TORON_INVERTED, TORON_NOT_FINITE,
-                             TORON_OVERFLOW, TORON_STATE_NOT_FINITE, TORON_FIBRE_DIRECTION, TORON_INCREMENT_TOO_LARGE};
-    char text[200];
+                             TORON_UNKNOWN_NAME, TORON_BAD_ARGUMENT, TORON_NO_DEFORMATION_GRADIENT, TORON_NOT_PREPARED,
+                             TORON_BAD_SIZE, TORON_UNKNOWN_FIELD, TORON_PROPERTY_COUNT, TORON_PROPERTY_NOT_FINITE,
+                             TORON_PROPERTY_OUT_OF_BOUNDS, TORON_PROPERTY_DIRECTION, TORON_FIBRE_OUT_OF_PLANE,
+                             TORON_STATE_COUNT, TORON_INVERTED, TORON_NOT_FINITE, TORON_OVERFLOW,
+                             TORON_STATE_NOT_FINITE, TORON_FIBRE_DIRECTION, TORON_INCREMENT_TOO_LARGE};
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
-        toron_status_message(codes[i], text, sizeof text);
+        CHECK(toron_status_message(codes[i], text, sizeof text) == TORON_OK, "%d", codes[i]);
         CHECK(strstr(text, "no such") == NULL || codes[i] == TORON_UNKNOWN_NAME, "%d: %s", codes[i], text);
     }
-    toron_status_message(-2147483647 - 1, text, sizeof text);
-    CHECK(strcmp(text, "no such status code: -2147483648") == 0, "%s", text);
+    REFUSED(TORON_UNKNOWN_NAME, "no such status code: -2147483648", toron_status_message, -2147483647 - 1);
+    REFUSED(TORON_UNKNOWN_NAME, "no such status code: 1", toron_status_message, 1);
+}
+
+/* A row to be filled in. */
+static toron_table_row *new_row(void)
+{
+    toron_table_row *row = guarded(sizeof *row);
+    row->size = sizeof *row;
+    return row;
 }
 
 static void check_tables(int32_t law, int32_t properties, int32_t state)
 {
-    CHECK(toron_property_count(law) == properties, "law %d", law);
-    CHECK(toron_state_count(law) == state, "law %d", law);
+    CHECK(TOLD(toron_property_count, law) == properties, "law %d", law);
+    CHECK(TOLD(toron_state_count, law) == state, "law %d", law);
     for (int32_t i = 0; i < properties; i++) {
-        toron_table_row *row = guarded(sizeof *row);
-        CHECK(toron_property(law, i, row) == TORON_OK, "law %d, property %d", law, i);
-        CHECK(toron_property_index(law, row->name) == i, "law %d, property %s", law, row->name);
+        toron_table_row *row = new_row();
+        CHECK(TOLD(toron_property, law, i, row) == TORON_OK && row->size == sizeof *row, "law %d, property %d", law, i);
+        CHECK(TOLD(toron_property_index, law, row->name) == i, "law %d, property %s", law, row->name);
         CHECK(strlen(row->meaning) > 0 && strlen(row->allowed) > 0, "law %d, property %d", law, i);
         release();
     }
     for (int32_t i = 0; i < state; i++) {
-        toron_table_row *row = guarded(sizeof *row);
-        CHECK(toron_state_variable(law, i, row) == TORON_OK, "law %d, state variable %d", law, i);
-        CHECK(toron_state_index(law, row->name) == i, "law %d, state variable %s", law, row->name);
+        toron_table_row *row = new_row();
+        CHECK(TOLD(toron_state_variable, law, i, row) == TORON_OK && row->size == sizeof *row, "law %d, state variable %d", law, i);
+        CHECK(TOLD(toron_state_index, law, row->name) == i, "law %d, state variable %s", law, row->name);
         CHECK(row->default_value == 0 && row->has_default == 1, "state variables start at 0");
         release();
     }
-    toron_table_row *row = guarded(sizeof *row);
+    toron_table_row *row = new_row();
     const int32_t outside[] = {-1, properties, 1000000};
+    char expected[200];
     for (int i = 0; i < 3; i++) {
-        CHECK(toron_property(law, outside[i], row) == TORON_UNKNOWN_NAME, "property %d", outside[i]);
-        CHECK(toron_state_variable(law, outside[i] == properties ? state : outside[i], row) == TORON_UNKNOWN_NAME,
-              "state variable %d", outside[i]);
+        snprintf(expected, sizeof expected, "argument index is %d; allowed: 0 to %d", outside[i], properties - 1);
+        REFUSED(TORON_UNKNOWN_NAME, expected, toron_property, law, outside[i], row);
+        int32_t index = outside[i] == properties ? state : outside[i];
+        snprintf(expected, sizeof expected, "argument index is %d; allowed: 0 to %d", index, state - 1);
+        REFUSED(TORON_UNKNOWN_NAME, expected, toron_state_variable, law, index, row);
     }
-    CHECK(untouched(row, sizeof *row), "nothing is written");
-    CHECK(toron_property(law, 0, NULL) == TORON_NULL_ARGUMENT, "no row");
-    CHECK(toron_state_variable(law, 0, NULL) == TORON_NULL_ARGUMENT, "no row");
-    const char *unknown[] = {NULL, "", "K_EL", "nothing",
-                             "a name that is longer than any name of any table and goes on and on and on"};
+    CHECK(untouched(row->name, sizeof *row - sizeof row->size), "nothing is written");
+    REFUSED(TORON_NULL_ARGUMENT, "argument row is null", toron_property, law, 0, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument row is null", toron_state_variable, law, 0, NULL);
+    const char *unknown[] = {"", "K_EL", "nothing", "a name that is longer than any name of any table and goes on and on and on",
+                             "not UTF-8: \xff"};
     for (int i = 0; i < 5; i++) {
-        CHECK(toron_property_index(law, unknown[i]) == TORON_UNKNOWN_NAME, "name %d", i);
-        CHECK(toron_state_index(law, unknown[i]) == TORON_UNKNOWN_NAME, "name %d", i);
+        CHECK(TOLD(toron_property_index, law, unknown[i]) == TORON_UNKNOWN_NAME, "name %d", i);
+        CHECK(TOLD(toron_state_index, law, unknown[i]) == TORON_UNKNOWN_NAME, "name %d", i);
     }
+    REFUSED(TORON_NULL_ARGUMENT, "argument property is null", toron_property_index, law, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument variable is null", toron_state_index, law, NULL);
     release();
 }
 
@@ -80,18 +93,31 @@ static void tables(void)
 {
     check_tables(TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_HYPERELASTIC_STATE);
     check_tables(TORON_LINEAR_ELASTIC, TORON_LINEAR_ELASTIC_PROPERTIES, TORON_LINEAR_ELASTIC_STATE);
-    CHECK(toron_property_count(2) == TORON_UNKNOWN_NAME && toron_state_count(-1) == TORON_UNKNOWN_NAME, "no such law");
-    toron_table_row row;
-    toron_property(TORON_HYPERELASTIC, 2, &row);
-    CHECK(strcmp(row.name, "p") == 0 && row.minimum == 1 && row.minimum_excluded == 1 && row.maximum == 40 && row.has_default == 0, "p");
+    toron_table_row row = {.size = sizeof row};
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property_count, 2);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is -1; allowed: 0 to 1", toron_state_count, -1);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property, 2, 0, &row);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_state_variable, 2, 0, &row);
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_property_index, 2, "p");
+    REFUSED(TORON_UNKNOWN_NAME, "argument law is 2; allowed: 0 to 1", toron_state_index, 2, "alive");
+    REFUSED(TORON_UNKNOWN_NAME,
+            "there is no property \"K_EL\"; allowed: k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3",
+            toron_property_index, TORON_HYPERELASTIC, "K_EL");
+    REFUSED(TORON_UNKNOWN_NAME,
+            "there is no state variable \"dead\"; allowed: "
+            "w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, failure_index, failed, alive",
+            toron_state_index, TORON_HYPERELASTIC, "dead");
+    toron_property(TORON_HYPERELASTIC, 2, &row, NULL, 0);
+    CHECK(strcmp(row.name, "p") == 0 && row.minimum == 1 && row.minimum_excluded == 1 && row.maximum == 40 && row.has_default == 0,
+          "p");
     CHECK(strcmp(row.allowed, "a number > 1, at most 40") == 0, "%s", row.allowed);
-    toron_property(TORON_HYPERELASTIC, toron_property_index(TORON_HYPERELASTIC, "k_el"), &row);
+    toron_property(TORON_HYPERELASTIC, toron_property_index(TORON_HYPERELASTIC, "k_el", NULL, 0), &row, NULL, 0);
     CHECK(strcmp(row.unit, "stress") == 0 && row.mass == 1 && row.length == -1 && row.time == -2, "%s", row.unit);
-    CHECK(toron_state_index(TORON_HYPERELASTIC, "w_el") == ENERGIES, "w_el");
-    CHECK(toron_state_index(TORON_HYPERELASTIC, "i_el") == INVARIANTS, "i_el");
-    CHECK(toron_state_index(TORON_HYPERELASTIC, "failed") == FAILED, "failed");
-    CHECK(toron_state_index(TORON_HYPERELASTIC, "alive") == ALIVE, "alive");
-    CHECK(toron_state_variable(TORON_HYPERELASTIC, ALIVE, &row) == TORON_OK, "alive");
+    CHECK(toron_state_index(TORON_HYPERELASTIC, "w_el", NULL, 0) == ENERGIES, "w_el");
+    CHECK(toron_state_index(TORON_HYPERELASTIC, "i_el", NULL, 0) == INVARIANTS, "i_el");
+    CHECK(toron_state_index(TORON_HYPERELASTIC, "failed", NULL, 0) == FAILED, "failed");
+    CHECK(toron_state_index(TORON_HYPERELASTIC, "alive", NULL, 0) == ALIVE, "alive");
+    CHECK(toron_state_variable(TORON_HYPERELASTIC, ALIVE, &row, NULL, 0) == TORON_OK, "alive");
 }
 
 static int close_to(double a, double b)
@@ -107,78 +133,74 @@ static void presets(void)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         double *values = guarded(PROPERTIES * sizeof *values), *density = guarded(sizeof *density);
         float *single = guarded(PROPERTIES * sizeof *single), *single_density = guarded(sizeof *single_density);
-        int32_t status = toron_preset_f64("kevlar-km2-600", all[i].units, values, PROPERTIES, density);
+        int32_t status = TOLD(toron_preset_f64, "kevlar-km2-600", all[i].units, values, PROPERTIES, density);
         CHECK(status == TORON_OK, "%s: %d", all[i].units, status);
         CHECK(close_to(values[0], all[i].stress), "%s: k_el is %.17g", all[i].units, values[0]);
         CHECK(close_to(*density, all[i].density), "%s: the density is %.17g", all[i].units, *density);
         CHECK(close_to(values[2], 2.2) && close_to(values[5], 0.0458), "numbers have no unit");
-        CHECK(toron_hyperelastic_validate_f64(values, PROPERTIES, NULL, 0, NULL) == 0, "%s", all[i].units);
-        status = toron_preset_f32("kevlar-km2-600", all[i].units, single, PROPERTIES, single_density);
+        toron_hyperelastic_f64 *law = guarded(sizeof *law);
+        CHECK(TOLD(toron_hyperelastic_prepare_f64, law, sizeof *law, values, PROPERTIES) == TORON_OK, "%s", all[i].units);
+        status = TOLD(toron_preset_f32, "kevlar-km2-600", all[i].units, single, PROPERTIES, single_density);
         CHECK(status == TORON_OK && *single_density == (float)*density, "%s: %d", all[i].units, status);
         for (int k = 0; k < PROPERTIES; k++)
             CHECK(single[k] == (float)values[k], "%s: property %d", all[i].units, k);
         release();
     }
     enum { LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES };
-    double *values = guarded(PROPERTIES * sizeof *values);
-    CHECK(toron_preset_f64("nylon", "si", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "preset");
-    CHECK(toron_preset_f64(NULL, "si", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "preset");
-    CHECK(toron_preset_f64("kevlar-km2-600", "m-kg", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "units");
-    CHECK(toron_preset_f64("kevlar-km2-600", NULL, values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "units");
-    CHECK(toron_preset_f64("kevlar-km2-600", "si", values, LINEAR, NULL) == TORON_PROPERTY_COUNT, "count");
-    CHECK(toron_preset_f64("kevlar-km2-600", "si", NULL, PROPERTIES, NULL) == TORON_NULL_ARGUMENT, "no room");
-    CHECK(toron_preset_f32("kevlar-km2-600", "si", NULL, PROPERTIES, NULL) == TORON_NULL_ARGUMENT, "no room");
-    CHECK(toron_preset_f32("kevlar-km2-600", "si", (float *)values, 1000, NULL) == TORON_PROPERTY_COUNT, "count");
+    real *values = reals(PROPERTIES);
+#define PRESET ENTRY(toron_preset)
+    REFUSED(TORON_UNKNOWN_NAME, "there is no preset \"nylon\"; allowed: kevlar-km2-600, kevlar-km2-600-linear", PRESET, "nylon",
+            "si", values, PROPERTIES, NULL);
+    CHECK(TOLD(PRESET, "kevlar-km2-600", "m-kg", values, PROPERTIES, NULL) == TORON_UNKNOWN_NAME, "units");
+    CHECK(strstr(text, "there is no system of units \"m-kg\"; allowed: ") == text, "%s", text);
+    REFUSED(TORON_NULL_ARGUMENT, "argument preset is null", PRESET, NULL, "si", values, PROPERTIES, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument units is null", PRESET, "kevlar-km2-600", NULL, values, PROPERTIES, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument properties is null", PRESET, "kevlar-km2-600", "si", NULL, PROPERTIES, NULL);
+    REFUSED(TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed", PRESET, "kevlar-km2-600", "si", values, LINEAR,
+            NULL);
+    REFUSED(TORON_PROPERTY_COUNT, "number of properties: 1000 given, 11 needed", PRESET, "kevlar-km2-600", "si", values, 1000,
+            NULL);
     CHECK(untouched(values, PROPERTIES * sizeof *values), "nothing is written");
-    CHECK(toron_preset_f64("kevlar-km2-600-linear", "mm-kg-ms", values, LINEAR, NULL) == TORON_OK, "linear");
-    CHECK(close_to(values[0], 79.414), "E1 is %.17g", values[0]);
-    CHECK(toron_linear_elastic_validate_f64(values, LINEAR, NULL, 0, NULL) == 0, "linear");
+    CHECK(TOLD(PRESET, "kevlar-km2-600-linear", "mm-kg-ms", values, LINEAR, NULL) == TORON_OK, "linear");
+    CHECK(values[0] == (real)79.414, "E1 is %.17g", (double)values[0]);
+    toron_linear_elastic *law = guarded(sizeof *law);
+    CHECK(TOLD(ENTRY(toron_linear_elastic_prepare), law, sizeof *law, values, LINEAR) == TORON_OK, "linear");
     release();
 }
 
-static void check_message(const real *values, size_t count, int32_t wanted, const char *text)
+/* Properties that are refused, with these words, and a law that is not touched. */
+static void refused(const real *values, size_t count, int32_t wanted, const char *words)
 {
-    char *message = guarded(200);
-    int32_t *status = guarded(sizeof *status);
-    size_t length = ENTRY(toron_hyperelastic_validate)(values, count, message, 200, status);
-    CHECK(*status == wanted, "%d: %s", *status, message);
-    CHECK(strcmp(message, text) == 0, "%s", message);
-    CHECK(length == strlen(text), "%zu", length);
-    CHECK(ENTRY(toron_hyperelastic_validate)(values, count, NULL, 0, NULL) == length, "without a buffer");
-    /* An exact fit, and one too few. */
-    memset(message, PATTERN, 200);
-    ENTRY(toron_hyperelastic_validate)(values, count, message, length + 1, NULL);
-    CHECK(strcmp(message, text) == 0 && untouched(message + length + 1, 199 - length), "%s", message);
-    if (length > 0) {
-        ENTRY(toron_hyperelastic_validate)(values, count, message, length, NULL);
-        CHECK(strlen(message) == length - 1 && strncmp(message, text, length - 1) == 0, "%s", message);
-    }
+    toron_hyperelastic *law = guarded(sizeof *law);
+    REFUSED(wanted, words, ENTRY(toron_hyperelastic_prepare), law, sizeof *law, values, count);
+    CHECK(untouched(law, sizeof *law), "%s", words);
     release();
 }
 
 static void properties(void)
 {
     real good[PROPERTIES], bad[PROPERTIES];
-    ENTRY(toron_preset)("kevlar-km2-600", "si", good, PROPERTIES, NULL);
-    check_message(good, PROPERTIES, TORON_OK, "");
-    check_message(NULL, PROPERTIES, TORON_NULL_ARGUMENT, "an argument that must not be null is null");
-    check_message(good, 10, TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed");
-    check_message(good, 0, TORON_PROPERTY_COUNT, "number of properties: 0 given, 11 needed");
-    check_message(good, 1000, TORON_PROPERTY_COUNT, "number of properties: 1000 given, 11 needed");
+    toron_hyperelastic law;
+    PRESET("kevlar-km2-600", "si", good, PROPERTIES, NULL, NULL, 0);
+    CHECK(TOLD(ENTRY(toron_hyperelastic_prepare), &law, sizeof law, good, PROPERTIES) == TORON_OK, "%s", text);
+    refused(NULL, PROPERTIES, TORON_NULL_ARGUMENT, "argument properties is null");
+    refused(good, 10, TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed");
+    refused(good, 0, TORON_PROPERTY_COUNT, "number of properties: 0 given, 11 needed");
+    refused(good, 1000, TORON_PROPERTY_COUNT, "number of properties: 1000 given, 11 needed");
     memcpy(bad, good, sizeof bad);
     bad[2] = 0.5;
-    check_message(bad, PROPERTIES, TORON_PROPERTY_OUT_OF_BOUNDS,
-                  "property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40");
+    refused(bad, PROPERTIES, TORON_PROPERTY_OUT_OF_BOUNDS,
+            "property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40");
     bad[0] = NAN;
-    check_message(bad, PROPERTIES, TORON_PROPERTY_NOT_FINITE,
-                  "property 1 (k_el, longitudinal elongation stiffness) is NaN; allowed: a number from 0 to 1e25");
+    refused(bad, PROPERTIES, TORON_PROPERTY_NOT_FINITE,
+            "property 1 (k_el, longitudinal elongation stiffness) is NaN; allowed: a number from 0 to 1e25");
     bad[0] = -INFINITY;
-    check_message(bad, PROPERTIES, TORON_PROPERTY_NOT_FINITE,
-                  "property 1 (k_el, longitudinal elongation stiffness) is -infinity; allowed: a number from 0 to 1e25");
+    refused(bad, PROPERTIES, TORON_PROPERTY_NOT_FINITE,
+            "property 1 (k_el, longitudinal elongation stiffness) is -infinity; allowed: a number from 0 to 1e25");
     memcpy(bad, good, sizeof bad);
     bad[8] = bad[9] = bad[10] = 0;
-    check_message(bad, PROPERTIES, TORON_PROPERTY_DIRECTION,
-                  "properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero");
+    refused(bad, PROPERTIES, TORON_PROPERTY_DIRECTION,
+            "properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero");
 }
 
 int main(void)

@@ -10,23 +10,27 @@
 
 #include "toron.h"
 
-/* The precision under test: entries toron_..._f64 or, with -DSINGLE, toron_..._f32. */
+/* The precision under test: ENTRY(toron_...) is toron_..._f64 or, with -DSINGLE, toron_..._f32. */
 #ifdef SINGLE
 typedef float real;
-typedef toron_block_f32 toron_block;
-typedef toron_linear_block_f32 toron_linear_block;
-typedef toron_vumat_f32 toron_vumat;
 #define ENTRY(name) name##_f32
 /* What the truth allows, in parts of one rounding of the input: see tests/law/truth.rs. */
 #define ALLOWED (8 * 6e-8)
 #else
 typedef double real;
-typedef toron_block_f64 toron_block;
-typedef toron_linear_block_f64 toron_linear_block;
-typedef toron_vumat_f64 toron_vumat;
 #define ENTRY(name) name##_f64
 #define ALLOWED (5 * 0x1p-53)
 #endif
+#define TEXT_OF(name) #name
+#define TEXT(name) TEXT_OF(name)
+typedef ENTRY(toron_hyperelastic) toron_hyperelastic;
+typedef ENTRY(toron_point) toron_point;
+typedef ENTRY(toron_block) toron_block;
+typedef ENTRY(toron_linear_elastic) toron_linear_elastic;
+typedef ENTRY(toron_linear_point) toron_linear_point;
+typedef ENTRY(toron_linear_increment) toron_linear_increment;
+typedef ENTRY(toron_linear_block) toron_linear_block;
+typedef ENTRY(toron_vumat) toron_vumat;
 
 enum { PROPERTIES = TORON_HYPERELASTIC_PROPERTIES, STATE = TORON_HYPERELASTIC_STATE };
 /* Where the groups of the state start. */
@@ -64,7 +68,7 @@ static int failures;
 #define UNCHECKED_END (void)0
 #endif
 
-enum { GUARD = 64, PATTERN = 0xA5, MOST_ARRAYS = 64 };
+enum { GUARD = 64, PATTERN = 0xA5, MOST_ARRAYS = 1000 };
 
 static struct {
     unsigned char *start;
@@ -122,6 +126,16 @@ static int untouched(const void *start, size_t bytes)
     return same;
 }
 
+/* As memcmp() == 0, for arrays with gaps that nobody has written. */
+static inline int same_bytes(const void *a, const void *b, size_t bytes)
+{
+    UNCHECKED_BEGIN;
+    int same = memcmp(a, b, bytes) == 0;
+    DEFINED(&same, sizeof same);
+    UNCHECKED_END;
+    return same;
+}
+
 /* Checks the guards of every array, and frees them all. */
 static inline void release(void)
 {
@@ -132,6 +146,88 @@ static inline void release(void)
         free(arrays[i].start);
     }
     array_count = 0;
+}
+
+/* ---- Messages, in a buffer that is larger than it need be. */
+
+static char text[TORON_MESSAGE_CAPACITY + GUARD];
+
+static inline char *fresh_text(void)
+{
+    memset(text, PATTERN, sizeof text);
+    return text;
+}
+
+/* The status of a call that got this buffer: it is written only if there is an error, and then no further than the message. */
+static inline int32_t told(int32_t status)
+{
+    const char *end = memchr(text, '\0', sizeof text);
+    size_t length = end == NULL ? sizeof text : (size_t)(end - text);
+    if (status >= 0)
+        CHECK(untouched(text, sizeof text), "a message without an error");
+    else
+        CHECK(length > 0 && length < TORON_MESSAGE_CAPACITY - 1 && untouched(text + length + 1, sizeof text - length - 1),
+              "status %d", status);
+    return status;
+}
+
+/* TOLD(entry, arguments...): the call with a buffer for a message. */
+#define TOLD(entry, ...) told(entry(__VA_ARGS__, fresh_text(), TORON_MESSAGE_CAPACITY))
+
+enum { ROOMS = 7 };
+
+/* Sizes of a buffer for a message of this length, from none at all to an exact fit and more. */
+static inline size_t capacity_of(int room, size_t length)
+{
+    const size_t capacities[ROOMS] = {0, 0, 1, 2, length, length + 1, TORON_MESSAGE_CAPACITY};
+    return capacities[room];
+}
+
+/* The text in a buffer of this size, which holds as much of the message as fits. */
+static inline void check_text(const char *whole, size_t capacity, int line)
+{
+    size_t length = strlen(whole), written = capacity <= length ? capacity : length + 1;
+    if (capacity > 0)
+        CHECK(text[written - 1] == '\0' && strncmp(text, whole, written - 1) == 0, "line %d, capacity %zu: %.200s", line, capacity,
+              text);
+    CHECK(untouched(text + written, sizeof text - written), "line %d, capacity %zu", line, capacity);
+}
+
+/* REFUSED(code, message, entry, arguments...): the call fails with this code and this message, in buffers of all sizes. */
+#define REFUSED(code, message, entry, ...)                                                      \
+    do {                                                                                        \
+        for (int room = 0; room < ROOMS; room++) {                                              \
+            size_t capacity = capacity_of(room, strlen(message));                               \
+            fresh_text();                                                                       \
+            int32_t refusal = entry(__VA_ARGS__, room == 0 ? NULL : text, capacity);            \
+            CHECK(refusal == (code), "%d: %s", refusal, message);                               \
+            check_text(message, capacity, __LINE__);                                            \
+        }                                                                                       \
+    } while (0)
+
+/* Messages that several entries give. */
+#define NOT_PREPARED_BY(entry) "the law has not been prepared by " TEXT(ENTRY(entry))
+#define INVERTED_TEXT "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"
+#define NO_FIBRE_TEXT "the fibre direction of this point is zero, NaN or infinite, or along the second axis"
+#define LEVELS_TEXT "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)"
+#define MEASURES_TEXT "0 (material), 1 (Truesdell), 2 (Jaumann) or 3 (nominal)"
+#define DENSITIES_TEXT "a finite number > 0, not subnormal"
+
+/* ---- What may be left out: outputs that a structure has pointers to. */
+
+typedef struct {
+    size_t at, bytes; /* of the pointer in the structure; of the array */
+} output;
+
+enum { MOST_OUTPUTS = 9 };
+
+/* Sets the pointers of the outputs whose bits are in `wanted` to new arrays, the others to null. */
+static inline void request(void *structure, const output *outputs, size_t count, unsigned wanted, void **arrays_of_outputs)
+{
+    for (size_t k = 0; k < count; k++) {
+        arrays_of_outputs[k] = wanted >> k & 1 ? guarded(outputs[k].bytes) : NULL;
+        memcpy((char *)structure + outputs[k].at, &arrays_of_outputs[k], sizeof(void *));
+    }
 }
 
 /* ---- The truth. Stress and modes 11 22 33 12 23 31. A scale is |truth| plus what one rounding of F does. */
@@ -215,7 +311,8 @@ static inline void check_state(const truth *t, const real *state, size_t stride)
 {
     for (size_t k = 0; k < 4; k++) {
         double w = state[(ENERGIES + k) * stride], i = state[(INVARIANTS + k) * stride];
-        CHECK(fabs(w - t->energies[k]) <= ALLOWED * t->energy_scales[sizeof(real) == sizeof(float)][k], "case %d: energy %d is %g", t->id, (int)k, w);
+        CHECK(fabs(w - t->energies[k]) <= ALLOWED * t->energy_scales[sizeof(real) == sizeof(float)][k], "case %d: energy %d is %g",
+              t->id, (int)k, w);
         CHECK(fabs(i - t->invariants[k]) <= ALLOWED * t->invariant_scales[k], "case %d: invariant %d is %g", t->id,
               (int)k, i);
     }
@@ -266,12 +363,21 @@ static inline int finish(void)
     return failures > 0;
 }
 
+/* The law of these properties, in a guarded structure. */
+static inline toron_hyperelastic *prepared(const real *properties)
+{
+    toron_hyperelastic *law = guarded(sizeof *law);
+    int32_t status = TOLD(ENTRY(toron_hyperelastic_prepare), law, sizeof *law, properties, PROPERTIES);
+    CHECK(status == TORON_OK, "%d: %s", status, text);
+    return law;
+}
+
 /* A block of one point, from a fresh state: what a block must say of a point, wherever it stands. */
 static inline void block_of_one(const real *properties, const real *f, real *state, real *stress)
 {
-    toron_block block = {.n = 1, .leading_dimension = 1, .deformation_gradient = f, .stress = stress,
+    toron_block block = {.size = sizeof block, .n = 1, .leading_dimension = 1, .deformation_gradient = {f}, .stress = {stress},
                          .energies = state, .invariants = state + INVARIANTS, .failure = state + FAILURE};
-    ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, &block);
+    ENTRY(toron_hyperelastic_block_with_properties)(properties, PROPERTIES, &block, NULL, 0);
 }
 
 #endif

@@ -16,8 +16,6 @@ static const struct {
     const char *name;
     void (*cases)(void);
 } all[] = {
-#define TEXT_OF(name) #name
-#define TEXT(name) TEXT_OF(name)
 #define IN_BOTH(name) TEXT(ENTRY(name))
 #ifndef SINGLE
     {"toron_version", version},
@@ -30,22 +28,23 @@ static const struct {
     {"toron_state_variable", state_variable},
     {"toron_state_index", state_index},
     {"toron_hyperelastic_least_acoustic_eigenvalue_f64", least_acoustic_eigenvalue},
-    {"toron_linear_elastic_validate_f64", linear_elastic_validate},
-    {"toron_linear_elastic_axes_f64", linear_elastic_axes},
-    {"toron_linear_elastic_step_f64", linear_elastic_step},
-    {"toron_linear_elastic_step_tangent_f64", linear_elastic_step_tangent},
-    {"toron_linear_elastic_increment_f64", linear_elastic_increment},
     {"toron_abaqus_umat_f64", abaqus_umat},
     {"toron_abaqus_umat_tangent_f64", abaqus_umat_tangent},
     {"toron_lsdyna_bulk_and_shear_f64", lsdyna_bulk_and_shear},
 #endif
     {IN_BOTH(toron_preset), preset},
-    {IN_BOTH(toron_hyperelastic_validate), hyperelastic_validate},
+    {IN_BOTH(toron_hyperelastic_prepare), hyperelastic_prepare},
     {IN_BOTH(toron_hyperelastic_point), hyperelastic_point},
-    {IN_BOTH(toron_hyperelastic_point_tangent), hyperelastic_point_tangent},
+    {IN_BOTH(toron_hyperelastic_point_with_properties), hyperelastic_point_with_properties},
     {IN_BOTH(toron_hyperelastic_block), hyperelastic_block},
-    {IN_BOTH(toron_hyperelastic_block_tangent), hyperelastic_block_tangent},
+    {IN_BOTH(toron_hyperelastic_block_with_properties), hyperelastic_block_with_properties},
+    {IN_BOTH(toron_linear_elastic_prepare), linear_elastic_prepare},
+    {IN_BOTH(toron_linear_elastic_axes), linear_elastic_axes},
+    {IN_BOTH(toron_linear_elastic_point), linear_elastic_point},
+    {IN_BOTH(toron_linear_elastic_point_with_properties), linear_elastic_point_with_properties},
+    {IN_BOTH(toron_linear_elastic_increment), linear_elastic_increment},
     {IN_BOTH(toron_linear_elastic_block), linear_elastic_block},
+    {IN_BOTH(toron_linear_elastic_block_with_properties), linear_elastic_block_with_properties},
     {IN_BOTH(toron_abaqus_vumat), abaqus_vumat},
     {IN_BOTH(toron_lsdyna_umat), lsdyna_umat},
     {IN_BOTH(toron_lsdyna_utan), lsdyna_utan},

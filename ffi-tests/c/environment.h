@@ -130,11 +130,14 @@ static void start(void)
         __asm__ volatile("fldpi; ffree %st(0)");
 }
 
-/* ---- One call after the other, on the same arrays. */
+/* ---- One call after the other, on the same arrays, with the same buffer for a message. */
+
+#define MESSAGE text, TORON_MESSAGE_CAPACITY
 
 enum { MOST_BYTES = 1 << 20 };
 
 static unsigned char image[MOST_BYTES], reference[MOST_BYTES]; /* the arrays before any call, and after the first one */
+static char first_text[sizeof text];
 static int64_t answer, first_answer;
 static size_t where;
 /* All x87 registers, control and status words, and MXCSR, as FXSAVE writes them. */
@@ -173,27 +176,30 @@ static void begin(const char *call)
 static void enter(void)
 {
     put_arrays_back();
+    fresh_text();
     trap = 0;
     set_environment(&environments[where]);
     _fxsave64(before);
 }
 
-/* Status and arrays, those bytes included that no one writes, against those of the first call. */
+/* Status, message and arrays, those bytes included that no one writes, against those of the first call. */
 static void compare(void)
 {
     const unsigned char *wanted = reference;
-    char text[80] = "";
+    char what[80] = "";
     UNCHECKED_BEGIN;
     for (int i = 0; i < array_count; i++) {
         if (memcmp(arrays[i].start + GUARD, wanted, arrays[i].bytes) != 0)
-            snprintf(text, sizeof text, "array %d, of %zu bytes", i, arrays[i].bytes);
+            snprintf(what, sizeof what, "array %d, of %zu bytes", i, arrays[i].bytes);
         wanted += arrays[i].bytes;
     }
     UNCHECKED_END;
+    if (memcmp(text, first_text, sizeof text) != 0)
+        snprintf(what, sizeof what, "message %.60s", text);
     if (answer != first_answer)
-        snprintf(text, sizeof text, "status %lld instead of %lld", (long long)answer, (long long)first_answer);
-    if (text[0] != '\0')
-        fault(where, DIFFERENT, text);
+        snprintf(what, sizeof what, "status %lld instead of %lld", (long long)answer, (long long)first_answer);
+    if (what[0] != '\0')
+        fault(where, DIFFERENT, what);
 }
 
 /* Back to the default environment; what the call did to the one it came from, and whether its results are the first's. */
@@ -204,6 +210,7 @@ static void leave(void)
     set_environment(&environments[0]);
     if (where == 0) {
         first_answer = answer;
+        memcpy(first_text, text, sizeof text);
         copy_arrays(reference);
     }
     if (trap != 0) {
@@ -213,9 +220,9 @@ static void leave(void)
         memcpy(&was, before + MXCSR, sizeof was);
         memcpy(&is, after + MXCSR, sizeof is);
         if (was != environments[where].mxcsr || is != was) {
-            char text[80];
-            snprintf(text, sizeof text, "MXCSR was %#06x, is %#06x", was, is);
-            fault(where, MXCSR_CHANGED, text);
+            char what[80];
+            snprintf(what, sizeof what, "MXCSR was %#06x, is %#06x", was, is);
+            fault(where, MXCSR_CHANGED, what);
         }
         if (memcmp(before, after, MXCSR) != 0 || memcmp(before + MXCSR_END, after + MXCSR_END, X87_END - MXCSR_END) != 0)
             fault(where, X87_CHANGED, "control, status or a register");

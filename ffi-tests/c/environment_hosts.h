@@ -32,11 +32,11 @@ static void abaqus_umat(void)
     real *pnewdt;
     for (size_t next = 0; next_umat(&next, &p, &pnewdt);) {
         real *sse = reals(1);
-        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
-        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1));
-        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 0));
-        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, 3, STATE, 3, 3, 1));
-        CALL(UMAT(p.stress, p.old, sse, NULL, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1, MESSAGE));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1, MESSAGE));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 0, MESSAGE));
+        CALL(UMAT(p.stress, p.old, sse, pnewdt, p.f, p.yarn, 3, STATE, 3, 3, 1, MESSAGE));
+        CALL(UMAT(p.stress, p.old, sse, NULL, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1, MESSAGE));
     }
 }
 
@@ -47,12 +47,12 @@ static void abaqus_umat_tangent(void)
     real *pnewdt;
     for (size_t next = 0; next_umat(&next, &p, &pnewdt);) {
         real *sse = reals(1), *c = reals(36);
-        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
-        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1));
-        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, 3, 3, 3, 1));
-        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 2, 1, 1));
-        CALL(UMAT_TANGENT(p.stress, p.old, NULL, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
-        CALL(UMAT_TANGENT(NULL, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1, MESSAGE));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 1, 1, MESSAGE));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, 3, 3, 3, 1, MESSAGE));
+        CALL(UMAT_TANGENT(p.stress, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 2, 1, 1, MESSAGE));
+        CALL(UMAT_TANGENT(p.stress, p.old, NULL, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1, MESSAGE));
+        CALL(UMAT_TANGENT(NULL, p.old, c, sse, pnewdt, p.f, p.yarn, PROPERTIES, STATE, 3, 3, 1, MESSAGE));
     }
 }
 #endif
@@ -80,27 +80,30 @@ static void abaqus_vumat(void)
         real *old = by_component(states[0], STATE, old_states, next, n), *state_old = filled(7, VUMAT_STATE * n);
         memcpy(state_old, old, STATE * n * sizeof(real));
         toron_vumat block = {
-            .nblock = (int32_t)n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
+            .size = sizeof block, .nblock = (int32_t)n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
+            .level = b.level,
             .props = given(yarns[b.yarn], PROPERTIES), .density = b.points == 0 ? stretches(rows, next, n) : filled(2, n),
             .strain_inc = stretches(rows, next + 1, n), .stretch_old = stretches(rows, next + 2, n),
             .stretch_new = stretches(rows, next, n), .stress_old = stretches(rows, next + 3, n), .state_old = state_old,
             .ener_intern_old = stretches(rows, next + 4, n), .ener_inelas_old = stretches(rows, next + 6, n),
             .stress_new = reals(6 * n), .state_new = reals(VUMAT_STATE * n), .ener_intern_new = reals(n), .ener_inelas_new = reals(n)};
         for (size_t k = 0; k < COUNT(times); k++) {
-            put(&block.step_time, times[k][0]);
-            put(&block.total_time, times[k][1]);
-            CALL(VUMAT(&block));
+            put_double(&block.step_time, times[k][0]);
+            put_double(&block.total_time, times[k][1]);
+            CALL(VUMAT(&block, MESSAGE));
         }
         toron_vumat wrong = block;
         wrong.nshr = 1;
-        CALL(VUMAT(&wrong));
+        CALL(VUMAT(&wrong, MESSAGE));
         wrong = block, wrong.nprops = 3;
-        CALL(VUMAT(&wrong));
+        CALL(VUMAT(&wrong, MESSAGE));
         wrong = block, wrong.nblock = -1;
-        CALL(VUMAT(&wrong));
+        CALL(VUMAT(&wrong, MESSAGE));
         wrong = block, wrong.stress_new = NULL;
-        CALL(VUMAT(&wrong));
-        CALL(VUMAT(NULL));
+        CALL(VUMAT(&wrong, MESSAGE));
+        wrong = block, wrong.size = 3;
+        CALL(VUMAT(&wrong, MESSAGE));
+        CALL(VUMAT(NULL, MESSAGE));
     }
 }
 
@@ -128,9 +131,9 @@ static void lsdyna_umat(void)
     real *history;
     for (size_t next = 0; next_element(&next, &p, &history);) {
         int *failed = guarded(sizeof *failed);
-        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, STATE, failed));
-        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, 3, failed));
-        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, NULL, STATE, failed));
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, STATE, failed, MESSAGE));
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, history, 3, failed, MESSAGE));
+        CALL(ENTRY(toron_lsdyna_umat)(p.yarn, p.stress, NULL, STATE, failed, MESSAGE));
     }
 }
 
@@ -140,9 +143,9 @@ static void lsdyna_utan(void)
     real *history;
     for (size_t next = 0; next_element(&next, &p, &history);) {
         real *es = reals(36);
-        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, STATE, es));
-        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, 3, es));
-        CALL(ENTRY(toron_lsdyna_utan)(NULL, history, STATE, es));
+        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, STATE, es, MESSAGE));
+        CALL(ENTRY(toron_lsdyna_utan)(p.yarn, history, 3, es, MESSAGE));
+        CALL(ENTRY(toron_lsdyna_utan)(NULL, history, STATE, es, MESSAGE));
     }
 }
 
@@ -169,10 +172,10 @@ static void lsdyna_umat_vector(void)
         int *failed = guarded((size_t)nlq * sizeof *failed);
         for (int c = 0; c < 6; c++)
             s[c] = reals((size_t)nlq);
-        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, nlq, failed));
-        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, 0, llt, nlq, failed));
-        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, llt - 1, failed));
-        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], NULL, history, STATE, LFT, llt, nlq, failed));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, nlq, failed, MESSAGE));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, 0, llt, nlq, failed, MESSAGE));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], s[5], history, STATE, LFT, llt, llt - 1, failed, MESSAGE));
+        CALL(UMAT_VECTOR(cm, s[0], s[1], s[2], s[3], s[4], NULL, history, STATE, LFT, llt, nlq, failed, MESSAGE));
     }
 }
 
@@ -183,10 +186,10 @@ static void lsdyna_utan_vector(void)
     for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
         int32_t n = (int32_t)b.size, nlq = n + LFT, llt = n + LFT - 1;
         real *cm = given(yarns[b.yarn], PROPERTIES), *history = histories(&b, next), *dsave = reals(36 * (size_t)nlq);
-        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, nlq, dsave));
-        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, llt - 1, dsave));
-        CALL(UTAN_VECTOR(cm, history, 3, LFT, llt, nlq, dsave));
-        CALL(UTAN_VECTOR(cm, NULL, STATE, LFT, llt, nlq, dsave));
+        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, nlq, dsave, MESSAGE));
+        CALL(UTAN_VECTOR(cm, history, STATE, LFT, llt, llt - 1, dsave, MESSAGE));
+        CALL(UTAN_VECTOR(cm, history, 3, LFT, llt, nlq, dsave, MESSAGE));
+        CALL(UTAN_VECTOR(cm, NULL, STATE, LFT, llt, nlq, dsave, MESSAGE));
     }
 }
 
@@ -196,9 +199,9 @@ static void lsdyna_bulk_and_shear(void)
     for (size_t y = 0; y < COUNT(yarns); y++) {
         real *yarn = given(yarns[y], PROPERTIES), *moduli = reals(2);
         ARGUMENTS("yarn %zu", y);
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, moduli + 1));
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, 3, moduli, moduli + 1));
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, NULL));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, moduli + 1, MESSAGE));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, 3, moduli, moduli + 1, MESSAGE));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, NULL, MESSAGE));
         release();
     }
 }

@@ -10,21 +10,34 @@
 #define HUGE_NUMBER 1e30
 #define TINY 1e-30
 #define SUBNORMAL 1e-42
-static const uint32_t signalling_nan = 0x7fa00000;
 #else
 #define HUGE_NUMBER 1e200
 #define TINY 1e-200
 #define SUBNORMAL 1e-310
-static const uint64_t signalling_nan = 0x7ff4000000000000;
 #endif
 #define SIGNALLING 0x1.5ap99
 
+/* Numbers that are double in either precision. */
+static void put_double(double *to, double value)
+{
+    static const uint64_t signalling_nan = 0x7ff4000000000000;
+    if (value == SIGNALLING)
+        memcpy(to, &signalling_nan, sizeof *to);
+    else
+        *to = value;
+}
+
 static void put(real *to, double value)
 {
+#ifdef SINGLE
+    static const uint32_t signalling_nan = 0x7fa00000;
     if (value == SIGNALLING)
         memcpy(to, &signalling_nan, sizeof *to);
     else
         *to = (real)value;
+#else
+    put_double(to, value);
+#endif
 }
 
 static real *given(const double *values, size_t count)
@@ -112,7 +125,7 @@ static const double fibres[][3] = {
     {0, 0, 0}, {NAN, 0, 1}, {1, SIGNALLING, 0}, {INFINITY, 0, 0},
 };
 
-static const real densities[] = {1351, 0, (real)SUBNORMAL, -1, INFINITY, NAN};
+static const double densities[] = {1351, 0, SUBNORMAL, 1e-310, 1e300, -1, INFINITY, NAN, SIGNALLING};
 
 /* ---- The linear elastic law: E_1 G_t G_12 sigma_lim, the fibre and the second axis. */
 

@@ -23,59 +23,62 @@ static void abi_version(void)
 
 static void status_message(void)
 {
-    char *text = guarded(100);
     for (int32_t status = -310; status < 3; status++)
-        CALL(toron_status_message(status, text, 100));
+        CALL(toron_status_message(status, MESSAGE));
     CALL(toron_status_message(TORON_INVERTED, NULL, 0));
 }
 
 static void property_count(void)
 {
     for (int32_t law = -1; law < 3; law++)
-        CALL(toron_property_count(law));
+        CALL(toron_property_count(law, MESSAGE));
 }
 
 static void state_count(void)
 {
     for (int32_t law = -1; law < 3; law++)
-        CALL(toron_state_count(law));
+        CALL(toron_state_count(law, MESSAGE));
 }
 
-/* All of a row but the bytes behind its last member, which have no meaning. */
-#define ROW_BYTES (offsetof(toron_table_row, meaning) + sizeof((toron_table_row *)0)->meaning)
+static toron_table_row *new_row(void)
+{
+    toron_table_row *row = guarded(sizeof *row);
+    row->size = sizeof *row;
+    return row;
+}
 
 static void property(void)
 {
-    toron_table_row row = {0};
-    unsigned char *copy = guarded(ROW_BYTES);
+    toron_table_row *row = new_row();
     for (int32_t law = -1; law < 3; law++)
         for (int32_t index = -1; index < 12; index++)
-            RUN("toron_property()", answer = toron_property(law, index, &row); memcpy(copy, &row, ROW_BYTES));
-    CALL(toron_property(0, 0, NULL));
+            CALL(toron_property(law, index, row, MESSAGE));
+    CALL(toron_property(0, 0, NULL, MESSAGE));
+    row->size = 7;
+    CALL(toron_property(0, 0, row, MESSAGE));
 }
 
 static void state_variable(void)
 {
-    toron_table_row row = {0};
-    unsigned char *copy = guarded(ROW_BYTES);
+    toron_table_row *row = new_row();
     for (int32_t law = -1; law < 3; law++)
         for (int32_t index = -1; index < 12; index++)
-            RUN("toron_state_variable()", answer = toron_state_variable(law, index, &row); memcpy(copy, &row, ROW_BYTES));
-    CALL(toron_state_variable(0, 0, NULL));
+            CALL(toron_state_variable(law, index, row, MESSAGE));
+    CALL(toron_state_variable(0, 0, NULL, MESSAGE));
 }
 
 static void property_index(void)
 {
-    CALL(toron_property_index(TORON_HYPERELASTIC, "eps_lim"));
-    CALL(toron_property_index(TORON_LINEAR_ELASTIC, "nothing"));
-    CALL(toron_property_index(7, NULL));
+    CALL(toron_property_index(TORON_HYPERELASTIC, "eps_lim", MESSAGE));
+    CALL(toron_property_index(TORON_LINEAR_ELASTIC, "nothing", MESSAGE));
+    CALL(toron_property_index(7, NULL, MESSAGE));
 }
 
 static void state_index(void)
 {
-    CALL(toron_state_index(TORON_HYPERELASTIC, "alive"));
-    CALL(toron_state_index(TORON_LINEAR_ELASTIC, "nothing"));
-    CALL(toron_state_index(7, NULL));
+    CALL(toron_state_index(TORON_HYPERELASTIC, "alive", MESSAGE));
+    CALL(toron_state_index(TORON_LINEAR_ELASTIC, "nothing", MESSAGE));
+    CALL(toron_state_index(7, NULL, MESSAGE));
 }
 #endif
 
@@ -87,25 +90,36 @@ static void preset(void)
     for (size_t i = 0; i < COUNT(names); i++)
         for (size_t k = 0; k < COUNT(units); k++)
             for (size_t count = 9; count < 13; count++) {
-                CALL(ENTRY(toron_preset)(names[i], units[k], values, count, density));
-                CALL(ENTRY(toron_preset)(names[i], units[k], NULL, count, NULL));
+                CALL(ENTRY(toron_preset)(names[i], units[k], values, count, density, MESSAGE));
+                CALL(ENTRY(toron_preset)(names[i], units[k], NULL, count, NULL, MESSAGE));
             }
 }
 
 /* ---- The hyperelastic law */
 
-static void hyperelastic_validate(void)
+static void hyperelastic_prepare(void)
 {
+#define PREPARE ENTRY(toron_hyperelastic_prepare)
     for (size_t y = 0; y < COUNT(yarns); y++) {
         real *yarn = given(yarns[y], PROPERTIES);
-        char *text = guarded(200);
-        int32_t *status = guarded(sizeof *status);
+        toron_hyperelastic *law = guarded(sizeof *law);
         ARGUMENTS("yarn %zu", y);
-        CALL(ENTRY(toron_hyperelastic_validate)(yarn, PROPERTIES, text, 200, status));
-        CALL(ENTRY(toron_hyperelastic_validate)(yarn, 3, text, 200, NULL));
-        CALL(ENTRY(toron_hyperelastic_validate)(NULL, PROPERTIES, NULL, 0, status));
+        CALL(PREPARE(law, sizeof *law, yarn, PROPERTIES, MESSAGE));
+        CALL(PREPARE(law, 3, yarn, PROPERTIES, MESSAGE));
+        CALL(PREPARE(law, sizeof *law, yarn, 3, MESSAGE));
+        CALL(PREPARE(law, sizeof *law, NULL, PROPERTIES, MESSAGE));
+        CALL(PREPARE(NULL, sizeof *law, yarn, PROPERTIES, MESSAGE));
         release();
     }
+}
+
+/* A prepared law, or one that is not, where the properties are refused. */
+static toron_hyperelastic *law_of(const real *yarn)
+{
+    toron_hyperelastic *law = guarded(sizeof *law);
+    memset(law, 0, sizeof *law);
+    PREPARE(law, sizeof *law, yarn, PROPERTIES, NULL, 0);
+    return law;
 }
 
 /* What one point gets. Without an old state, each fibre direction is tried. */
@@ -135,47 +149,85 @@ static int next_point(size_t *next, point_arrays *p)
     return 1;
 }
 
-static void hyperelastic_point(void)
+/* With a prepared law, or with properties. */
+static void points(int with_properties)
 {
 #define POINT ENTRY(toron_hyperelastic_point)
+#define POINT_WITH ENTRY(toron_hyperelastic_point_with_properties)
+#define EVALUATE_POINT(point)                                            \
+    do {                                                                 \
+        if (with_properties)                                             \
+            CALL(POINT_WITH(p.yarn, PROPERTIES, point, MESSAGE));        \
+        else                                                             \
+            CALL(POINT(law, point, MESSAGE));                            \
+    } while (0)
     point_arrays p;
     for (size_t next = 0; next_point(&next, &p);) {
-        real *modes = reals(24), *speed = reals(1);
-        const real density = densities[0], other = densities[next % COUNT(densities)];
-        CALL(POINT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, p.new, p.stress, modes, density, speed));
-        CALL(POINT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, p.new, p.stress, NULL, other, NULL));
-        CALL(POINT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, NULL, p.stress, NULL, other, NULL));
-        CALL(POINT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, p.new, NULL, modes, other, NULL));
-        CALL(POINT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, NULL, NULL, NULL, other, speed));
-        CALL(POINT(p.yarn, 3, p.f, p.fibre, p.old, p.new, p.stress, NULL, other, NULL));
-        CALL(POINT(p.yarn, PROPERTIES, NULL, p.fibre, p.old, p.new, p.stress, NULL, other, NULL));
-        CALL(POINT(NULL, PROPERTIES, p.f, p.fibre, p.old, p.new, p.stress, NULL, other, NULL));
+        const toron_hyperelastic *law = law_of(p.yarn);
+        const toron_point all = {.size = sizeof all, .level = (int32_t)(next % 4), .density = densities[0],
+                                 .deformation_gradient = p.f,
+                                 .fibre = p.fibre, .state_old = p.old, .state_new = p.new, .stress = p.stress, .modes = reals(24),
+                                 .wave_speed = reals(1)};
+        toron_point point = all;
+        EVALUATE_POINT(&all);
+        put_double(&point.density, densities[next % COUNT(densities)]);
+        EVALUATE_POINT(&point);
+        point.modes = NULL, point.wave_speed = NULL;
+        EVALUATE_POINT(&point);
+        point.state_new = NULL;
+        EVALUATE_POINT(&point);
+        point.stress = NULL;
+        EVALUATE_POINT(&point);
+        point.state_new = p.new, point.modes = all.modes;
+        EVALUATE_POINT(&point);
+
+        point = all, point.tangent = reals(81);
+        for (point.measure = -1; point.measure < 5; point.measure++)
+            EVALUATE_POINT(&point);
+        point = (toron_point){.size = sizeof point, .measure = TORON_TANGENT_JAUMANN, .deformation_gradient = p.f, .fibre = p.fibre,
+                              .state_old = p.old, .tangent = point.tangent};
+        EVALUATE_POINT(&point);
+        point.level = 4;
+        EVALUATE_POINT(&point);
+        point.deformation_gradient = NULL;
+        EVALUATE_POINT(&point);
+        point.size = 3;
+        EVALUATE_POINT(&point);
+        EVALUATE_POINT(NULL);
+        if (with_properties) {
+            CALL(POINT_WITH(p.yarn, 3, &all, MESSAGE));
+            CALL(POINT_WITH(NULL, PROPERTIES, &all, MESSAGE));
+        } else {
+            CALL(POINT(NULL, &all, MESSAGE));
+        }
     }
 }
 
-static void hyperelastic_point_tangent(void)
+static void hyperelastic_point(void)
 {
-#define POINT_TANGENT ENTRY(toron_hyperelastic_point_tangent)
-    point_arrays p;
-    for (size_t next = 0; next_point(&next, &p);) {
-        real *tangent = reals(81);
-        for (int32_t measure = -1; measure < 5; measure++)
-            CALL(POINT_TANGENT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, p.new, p.stress, measure, tangent));
-        CALL(POINT_TANGENT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, NULL, NULL, TORON_TANGENT_JAUMANN, tangent));
-        CALL(POINT_TANGENT(p.yarn, PROPERTIES, p.f, p.fibre, p.old, p.new, p.stress, TORON_TANGENT_JAUMANN, NULL));
-    }
+    points(0);
+}
+
+static void hyperelastic_point_with_properties(void)
+{
+    points(1);
 }
 
 #ifndef SINGLE
 static void least_acoustic_eigenvalue(void)
 {
+#define EIGENVALUE toron_hyperelastic_least_acoustic_eigenvalue_f64
     point_arrays p;
     for (size_t next = 0; next_point(&next, &p);) {
         real *least = reals(1), *direction = reals(3);
         if (p.old != NULL || (p.fibre != NULL && next % 4 != 0)) /* a search over all directions takes its time */
             continue;
-        CALL(toron_hyperelastic_least_acoustic_eigenvalue_f64(p.yarn, PROPERTIES, p.f, p.fibre, least, direction));
-        CALL(toron_hyperelastic_least_acoustic_eigenvalue_f64(p.yarn, PROPERTIES, NULL, p.fibre, least, direction));
+        const toron_hyperelastic *law = law_of(p.yarn);
+        const toron_point point = {.size = sizeof point, .deformation_gradient = p.f,
+                                   .fibre = p.fibre}, none = {.size = sizeof none};
+        CALL(EIGENVALUE(law, &point, least, direction, MESSAGE));
+        CALL(EIGENVALUE(law, &none, least, direction, MESSAGE));
+        CALL(EIGENVALUE(law, NULL, least, direction, MESSAGE));
     }
 }
 #endif
@@ -211,26 +263,27 @@ static int next_block(size_t *next, size_t good, size_t yarn_count, block_case *
     return *next += stride, b->yarn < yarn_count;
 }
 
-/* A block with all that there can be. */
+/* A block with all that there can be but a tangent. */
 static toron_block hyperelastic_arrays(const block_case *b, size_t next)
 {
     size_t n = b->size, old_states = b->points == 0 ? COUNT(states) : 3;
     real *old = by_component(states[0], STATE, old_states, next, n), *new = reals(STATE * n);
-    return (toron_block){.n = n, .leading_dimension = n, .fibre = by_component(fibres[0], 3, b->points == 0 ? COUNT(fibres) : 5, next, n),
-                         .deformation_gradient = by_component(deformations[0], 9, points_of[b->points], next, n),
+    return (toron_block){.size = sizeof(toron_block), .n = n, .leading_dimension = n, .level = b->level, .density = densities[0],
+                         .deformation_gradient = {by_component(deformations[0], 9, points_of[b->points], next, n)},
+                         .fibre = {by_component(fibres[0], 3, b->points == 0 ? COUNT(fibres) : 5, next, n)},
                          .energies_old = old, .invariants_old = old + INVARIANTS * n, .failure_old = old + FAILURE * n,
-                         .density = densities[0], .stress = reals(6 * n), .energies = new, .invariants = new + INVARIANTS * n,
-                         .failure = new + FAILURE * n, .modes = reals(24 * n), .wave_speed = reals(n),
-                         .status = guarded(n * sizeof(int32_t)), .level = b->level};
+                         .stress = {reals(6 * n)}, .energies = new, .invariants = new + INVARIANTS * n,
+                         .failure = new + FAILURE * n, .modes = reals(24 * n), .wave_speed = reals(n), .active = reals(n),
+                         .status = guarded(n * sizeof(int32_t))};
 }
 
 /* The ways to ask: everything; without each of fibres, old state, failure; the usual ones of a solver; no output at all. */
 enum { REQUESTS = 9 };
 
-static toron_block request(toron_block block, int which)
+static toron_block requested(toron_block block, int which)
 {
     if (which == 1 || which >= 4)
-        block.fibre = NULL;
+        block.fibre[0] = NULL;
     if (which == 2 || which == 5 || which == 6)
         block.energies_old = block.invariants_old = block.failure_old = NULL;
     if (which == 3 || which == 5 || which >= 7)
@@ -240,86 +293,127 @@ static toron_block request(toron_block block, int which)
     if (which >= 7)
         block.energies = block.invariants = NULL;
     if (which == 8)
-        block.stress = NULL, block.status = NULL;
+        block.stress[0] = NULL, block.status = NULL, block.active = NULL;
     return block;
+}
+
+/* The same points, with the components of each next to each other: evaluated in copies. */
+static toron_block by_points(toron_block block)
+{
+    size_t n = block.n;
+    real *f = reals(9 * n), *out = reals(6 * n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < 9; c++)
+            memcpy(&f[9 * i + c], &block.deformation_gradient[0][c * n + i], sizeof *f);
+    block.deformation_gradient[0] = f, block.deformation_gradient_layout = (toron_layout){1, 9};
+    block.stress[0] = out, block.stress_layout = (toron_layout){1, 6};
+    return block;
+}
+
+static void blocks(int with_properties)
+{
+#define BLOCK ENTRY(toron_hyperelastic_block)
+#define BLOCK_WITH ENTRY(toron_hyperelastic_block_with_properties)
+#define EVALUATE_BLOCK(block)                                            \
+    do {                                                                 \
+        if (with_properties)                                             \
+            CALL(BLOCK_WITH(yarn, PROPERTIES, block, MESSAGE));          \
+        else                                                             \
+            CALL(BLOCK(law, block, MESSAGE));                            \
+    } while (0)
+    block_case b;
+    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
+        real *yarn = given(yarns[b.yarn], PROPERTIES), *tangent = reals(81 * b.size);
+        const toron_hyperelastic *law = law_of(yarn);
+        const toron_block all = hyperelastic_arrays(&b, next);
+        for (int which = 0; which < REQUESTS; which++) {
+            const toron_block block = requested(all, which);
+            EVALUATE_BLOCK(&block);
+        }
+        for (int32_t measure = -1; measure < 5; measure++)
+            for (int which = 0; which < 5; which += 4) {
+                toron_block block = requested(all, which);
+                block.measure = measure, block.tangent = tangent;
+                EVALUATE_BLOCK(&block);
+            }
+        toron_block least = requested(all, 8), wrong = all;
+        least.measure = TORON_TANGENT_JAUMANN, least.tangent = tangent;
+        EVALUATE_BLOCK(&least);
+        const toron_block points = by_points(all);
+        EVALUATE_BLOCK(&points);
+        put_double(&wrong.density, densities[next % COUNT(densities)]);
+        EVALUATE_BLOCK(&wrong);
+        wrong = all, wrong.leading_dimension = 1;
+        EVALUATE_BLOCK(&wrong);
+        wrong = all, wrong.deformation_gradient[0] = NULL;
+        EVALUATE_BLOCK(&wrong);
+        wrong = all, wrong.size = 3;
+        EVALUATE_BLOCK(&wrong);
+        EVALUATE_BLOCK(NULL);
+        if (with_properties) {
+            CALL(BLOCK_WITH(yarn, 3, &all, MESSAGE));
+            CALL(BLOCK_WITH(NULL, PROPERTIES, &all, MESSAGE));
+        } else {
+            CALL(BLOCK(NULL, &all, MESSAGE));
+        }
+    }
 }
 
 static void hyperelastic_block(void)
 {
-#define BLOCK ENTRY(toron_hyperelastic_block)
-    block_case b;
-    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
-        real *yarn = given(yarns[b.yarn], PROPERTIES);
-        const toron_block all = hyperelastic_arrays(&b, next);
-        for (int which = 0; which < REQUESTS; which++) {
-            const toron_block block = request(all, which);
-            CALL(BLOCK(yarn, PROPERTIES, &block));
-        }
-        toron_block wrong = all;
-        wrong.density = densities[next % COUNT(densities)];
-        CALL(BLOCK(yarn, PROPERTIES, &wrong));
-        wrong = all, wrong.leading_dimension = 0;
-        CALL(BLOCK(yarn, PROPERTIES, &wrong));
-        wrong = all, wrong.deformation_gradient = NULL;
-        CALL(BLOCK(yarn, PROPERTIES, &wrong));
-        CALL(BLOCK(yarn, 3, &all));
-        CALL(BLOCK(NULL, PROPERTIES, &all));
-        CALL(BLOCK(yarn, PROPERTIES, NULL));
-    }
+    blocks(0);
 }
 
-static void hyperelastic_block_tangent(void)
+static void hyperelastic_block_with_properties(void)
 {
-#define BLOCK_TANGENT ENTRY(toron_hyperelastic_block_tangent)
-    block_case b;
-    for (size_t next = 0; next_block(&next, GOOD_YARNS, COUNT(yarns), &b);) {
-        real *yarn = given(yarns[b.yarn], PROPERTIES), *tangent = reals(81 * b.size);
-        const toron_block all = hyperelastic_arrays(&b, next), usual = request(all, 4), least = request(all, 8);
-        for (int32_t measure = -1; measure < 5; measure++) {
-            CALL(BLOCK_TANGENT(yarn, PROPERTIES, &all, measure, tangent));
-            CALL(BLOCK_TANGENT(yarn, PROPERTIES, &usual, measure, tangent));
-        }
-        CALL(BLOCK_TANGENT(yarn, PROPERTIES, &least, TORON_TANGENT_JAUMANN, tangent));
-        CALL(BLOCK_TANGENT(yarn, PROPERTIES, &all, TORON_TANGENT_JAUMANN, NULL));
-        CALL(BLOCK_TANGENT(yarn, PROPERTIES, NULL, TORON_TANGENT_JAUMANN, tangent));
-    }
+    blocks(1);
 }
 
 /* ---- The linear elastic law */
 
-#ifndef SINGLE
-static void linear_elastic_validate(void)
+static void linear_elastic_prepare(void)
 {
+#define PREPARE_LINEAR ENTRY(toron_linear_elastic_prepare)
     for (size_t y = 0; y < COUNT(linear_yarns); y++) {
         real *yarn = given(linear_yarns[y], LINEAR);
-        char *text = guarded(200);
-        int32_t *status = guarded(sizeof *status);
+        toron_linear_elastic *law = guarded(sizeof *law);
         ARGUMENTS("yarn %zu", y);
-        CALL(toron_linear_elastic_validate_f64(yarn, LINEAR, text, 200, status));
-        CALL(toron_linear_elastic_validate_f64(yarn, 3, text, 200, NULL));
-        CALL(toron_linear_elastic_validate_f64(NULL, LINEAR, NULL, 0, status));
+        CALL(PREPARE_LINEAR(law, sizeof *law, yarn, LINEAR, MESSAGE));
+        CALL(PREPARE_LINEAR(law, 3, yarn, LINEAR, MESSAGE));
+        CALL(PREPARE_LINEAR(law, sizeof *law, yarn, 3, MESSAGE));
+        CALL(PREPARE_LINEAR(NULL, sizeof *law, yarn, LINEAR, MESSAGE));
         release();
     }
+}
+
+static toron_linear_elastic *linear_law_of(const real *yarn)
+{
+    toron_linear_elastic *law = guarded(sizeof *law);
+    memset(law, 0, sizeof *law);
+    PREPARE_LINEAR(law, sizeof *law, yarn, LINEAR, NULL, 0);
+    return law;
 }
 
 static void linear_elastic_axes(void)
 {
-    for (size_t y = 0; y < COUNT(linear_yarns); y++) {
-        real *yarn = given(linear_yarns[y], LINEAR), *axes = reals(9);
-        ARGUMENTS("yarn %zu", y);
-        CALL(toron_linear_elastic_axes_f64(yarn, LINEAR, axes));
-        CALL(toron_linear_elastic_axes_f64(yarn, 3, axes));
-        CALL(toron_linear_elastic_axes_f64(yarn, LINEAR, NULL));
-        release();
-    }
+#define AXES ENTRY(toron_linear_elastic_axes)
+    for (size_t y = 0; y < COUNT(linear_yarns); y++)
+        for (size_t k = 0; k < COUNT(fibres); k++) {
+            const toron_linear_elastic *law = linear_law_of(given(linear_yarns[y], LINEAR));
+            real *fibre = given(fibres[k], 3), *second = given(fibres[(k + y) % COUNT(fibres)], 3), *axes = reals(9);
+            ARGUMENTS("yarn %zu, fibre %zu", y, k);
+            CALL(AXES(law, NULL, NULL, axes, MESSAGE));
+            CALL(AXES(law, fibre, NULL, axes, MESSAGE));
+            CALL(AXES(law, fibre, second, axes, MESSAGE));
+            CALL(AXES(law, fibre, second, NULL, MESSAGE));
+            CALL(AXES(NULL, fibre, second, axes, MESSAGE));
+            release();
+        }
 }
 
-typedef struct {
-    real *yarn, *f_old, *f_new, *old, *new, *stress, *axes;
-} step_arrays;
-
-/* From rest and from two other deformations, one of them at fault, to each; the old state null or any. */
-static int next_step(size_t *next, step_arrays *s)
+/* From rest and from two other deformations, one of them at fault, to each; the old state null or any. A point with all that there can
+ * be but a tangent; its properties. */
+static int next_step(size_t *next, real **yarn, toron_linear_point *point)
 {
     static const size_t starts[] = {0, 3, 18};
     size_t states_of = COUNT(linear_states) + 1, of_a_yarn = DEFORMATIONS * COUNT(starts) * states_of, rest = *next;
@@ -335,92 +429,163 @@ static int next_step(size_t *next, step_arrays *s)
     if (y >= COUNT(linear_yarns))
         return 0;
     *next += stride;
-    *s = (step_arrays){.yarn = given(linear_yarns[y], LINEAR), .f_old = given(deformations[starts[from]], 9),
-                       .f_new = given(deformations[to], 9), .new = reals(LINEAR_STATE), .stress = reals(6),
-                       .axes = given(axes_in_space[*next % COUNT(axes_in_space)], 9)};
+    *yarn = given(linear_yarns[y], LINEAR);
+    *point = (toron_linear_point){.size = sizeof *point, .level = (int32_t)(*next % 4), .density = densities[0],
+                                  .f_old = given(deformations[starts[from]], 9), .f_new = given(deformations[to], 9),
+                                  .fibre = given(fibres[*next % COUNT(fibres)], 3), .second_axis = given(fibres[*next % 2], 3),
+                                  .axes = given(axes_in_space[*next % COUNT(axes_in_space)], 9), .state_new = reals(LINEAR_STATE),
+                                  .stress = reals(6), .wave_speed = reals(1)};
     if (state > 0)
-        s->old = given(linear_states[state - 1], LINEAR_STATE);
-    ARGUMENTS("yarn %zu, F %zu to %zu, old state %zu, axes %zu", y, starts[from], to, state, *next % COUNT(axes_in_space));
+        point->state_old = given(linear_states[state - 1], LINEAR_STATE);
+    ARGUMENTS("yarn %zu, F %zu to %zu, old state %zu, axes %zu, fibre %zu", y, starts[from], to, state,
+              *next % COUNT(axes_in_space),
+              *next % COUNT(fibres));
     return 1;
 }
 
-static void linear_elastic_step(void)
+static void linear_points(int with_properties)
 {
-#define STEP toron_linear_elastic_step_f64
-    step_arrays s;
-    for (size_t next = 0; next_step(&next, &s);) {
-        for (int32_t rotation = -1; rotation < 4; rotation++)
-            for (int32_t criterion = 0; criterion < 2; criterion++)
-                CALL(STEP(s.yarn, LINEAR, s.f_old, s.f_new, s.old, s.new, s.stress, rotation, criterion, s.axes));
-        CALL(STEP(s.yarn, LINEAR, s.f_old, s.f_new, s.old, s.new, NULL, TORON_ROTATION_POLAR, 2, s.axes));
-        CALL(STEP(s.yarn, LINEAR, s.f_old, s.f_new, s.old, NULL, s.stress, TORON_ROTATION_FIBRE, 0, NULL));
-        CALL(STEP(s.yarn, LINEAR, s.f_old, NULL, s.old, s.new, s.stress, TORON_ROTATION_FIBRE, 0, NULL));
+#define LINEAR_POINT ENTRY(toron_linear_elastic_point)
+#define LINEAR_POINT_WITH ENTRY(toron_linear_elastic_point_with_properties)
+#define EVALUATE_LINEAR_POINT(point)                                     \
+    do {                                                                 \
+        if (with_properties)                                             \
+            CALL(LINEAR_POINT_WITH(yarn, LINEAR, point, MESSAGE));       \
+        else                                                             \
+            CALL(LINEAR_POINT(law, point, MESSAGE));                     \
+    } while (0)
+    real *yarn;
+    toron_linear_point all;
+    for (size_t next = 0; next_step(&next, &yarn, &all);) {
+        const toron_linear_elastic *law = linear_law_of(yarn);
+        toron_linear_point point = all;
+        for (point.rotation = -1; point.rotation < 4; point.rotation++)
+            for (point.criterion = 0; point.criterion < 2; point.criterion++) {
+                point.fibre = NULL;
+                EVALUATE_LINEAR_POINT(&point);
+                point.fibre = all.fibre;
+                EVALUATE_LINEAR_POINT(&point);
+            }
+        point = all, point.rotation = TORON_ROTATION_POLAR, point.criterion = 2;
+        EVALUATE_LINEAR_POINT(&point);
+        point = all, point.state_new = NULL, point.wave_speed = NULL, point.axes = NULL, point.second_axis = NULL;
+        EVALUATE_LINEAR_POINT(&point);
+        point = all;
+        put_double(&point.density, densities[next % COUNT(densities)]);
+        EVALUATE_LINEAR_POINT(&point);
+        point = all, point.f_new = NULL;
+        EVALUATE_LINEAR_POINT(&point);
+        EVALUATE_LINEAR_POINT(NULL);
+
+        point = all, point.tangent = reals(81), point.criterion = (int32_t)(next % 2);
+        for (point.rotation = 0; point.rotation < 3; point.rotation++)
+            for (point.measure = 0; point.measure < 4; point.measure++)
+                EVALUATE_LINEAR_POINT(&point);
+        point.rotation = TORON_ROTATION_FIBRE, point.fibre = NULL, point.stress = NULL;
+        EVALUATE_LINEAR_POINT(&point);
+        if (with_properties)
+            CALL(LINEAR_POINT_WITH(yarn, 3, &all, MESSAGE));
+        else
+            CALL(LINEAR_POINT(NULL, &all, MESSAGE));
     }
 }
 
-static void linear_elastic_step_tangent(void)
+static void linear_elastic_point(void)
 {
-#define STEP_TANGENT toron_linear_elastic_step_tangent_f64
-    step_arrays s;
-    for (size_t next = 0; next_step(&next, &s);) {
-        real *c = reals(81);
-        int32_t criterion = (int32_t)(next % 2);
-        for (int32_t rotation = 0; rotation < 3; rotation++)
-            for (int32_t measure = 0; measure < 4; measure++)
-                CALL(STEP_TANGENT(s.yarn, LINEAR, s.f_old, s.f_new, s.old, s.new, s.stress, rotation, criterion, s.axes, measure, c));
-        CALL(STEP_TANGENT(s.yarn, LINEAR, s.f_old, s.f_new, s.old, s.new, s.stress, 0, 0, s.axes, 4, c));
-        CALL(STEP_TANGENT(s.yarn, LINEAR, s.f_old, s.f_new, s.old, s.new, s.stress, 0, 0, s.axes, 0, NULL));
-    }
+    linear_points(0);
+}
+
+static void linear_elastic_point_with_properties(void)
+{
+    linear_points(1);
 }
 
 static void linear_elastic_increment(void)
 {
+#define INCREMENT ENTRY(toron_linear_elastic_increment)
     static const double strains[][6] = {
         {0}, {1e-3, 2e-3, -1e-3, 5e-4, 0, -5e-4}, {0.05, 0, 0, 0, 0, 0}, {-0.01, 0, 0, 60, 0, 0}, {SUBNORMAL, TINY, 0, 0, 0, 0},
         {HUGE_NUMBER, 0, 0, HUGE_NUMBER, 0, 0}, {0, NAN, 0, 0, 0, 0}, {0, 0, SIGNALLING, 0, 0, 0}, {INFINITY, 0, 0, 0, 0, 0},
     };
-    static const double jacobians[] = {1, 0, SUBNORMAL, HUGE_NUMBER, -1, NAN};
+    static const double jacobians[] = {1, 0, SUBNORMAL, HUGE_NUMBER, -1, NAN, SIGNALLING};
     const size_t states_of = COUNT(linear_states) + 1;
     for (size_t next = 0; next < COUNT(linear_yarns) * COUNT(strains) * states_of; next += stride) {
         size_t state = next % states_of, k = next / states_of % COUNT(strains), y = next / states_of / COUNT(strains);
-        real *yarn = given(linear_yarns[y], LINEAR), *strain = given(strains[k], 6), *new = reals(LINEAR_STATE);
-        real *old = state == 0 ? NULL : given(linear_states[state - 1], LINEAR_STATE), *stress = reals(6);
+        const toron_linear_elastic *law = linear_law_of(given(linear_yarns[y], LINEAR));
+        toron_linear_increment increment = {.size = sizeof increment, .strain = given(strains[k], 6),
+                                            .state_old = state == 0 ? NULL : given(linear_states[state - 1], LINEAR_STATE),
+                                            .state_new = reals(LINEAR_STATE), .stress = reals(6)};
         ARGUMENTS("yarn %zu, strain %zu, old state %zu", y, k, state);
-        for (size_t j = 0; j < COUNT(jacobians); j++)
-            for (int32_t criterion = -1; criterion < 2; criterion++)
-                CALL(toron_linear_elastic_increment_f64(yarn, LINEAR, strain, jacobians[j], old, new, stress, criterion));
-        CALL(toron_linear_elastic_increment_f64(yarn, LINEAR, strain, 1, old, NULL, NULL, 0));
-        CALL(toron_linear_elastic_increment_f64(yarn, LINEAR, NULL, 1, old, new, stress, 0));
+        for (size_t j = 0; j < COUNT(jacobians); j++) {
+            put_double(&increment.jacobian, jacobians[j]);
+            for (increment.criterion = -1; increment.criterion < 2; increment.criterion++)
+                CALL(INCREMENT(law, &increment, MESSAGE));
+        }
+        increment.criterion = 0, increment.state_new = NULL, increment.stress = NULL;
+        CALL(INCREMENT(law, &increment, MESSAGE));
+        increment.strain = NULL;
+        CALL(INCREMENT(law, &increment, MESSAGE));
+        CALL(INCREMENT(law, NULL, MESSAGE));
         release();
     }
 }
-#endif
 
-static void linear_elastic_block(void)
+static void linear_blocks(int with_properties)
 {
 #define LINEAR_BLOCK ENTRY(toron_linear_elastic_block)
+#define LINEAR_BLOCK_WITH ENTRY(toron_linear_elastic_block_with_properties)
+#define EVALUATE_LINEAR_BLOCK(block)                                     \
+    do {                                                                 \
+        if (with_properties)                                             \
+            CALL(LINEAR_BLOCK_WITH(yarn, LINEAR, block, MESSAGE));       \
+        else                                                             \
+            CALL(LINEAR_BLOCK(law, block, MESSAGE));                     \
+    } while (0)
     block_case b;
     for (size_t next = 0; next_block(&next, GOOD_LINEAR_YARNS, COUNT(linear_yarns), &b);) {
         size_t n = b.size, old_states = b.points == 0 ? COUNT(linear_states) : 3;
         real *yarn = given(linear_yarns[b.yarn], LINEAR), *old = by_component(linear_states[0], LINEAR_STATE, old_states, next, n);
         real *f_old = by_component(deformations[0], 9, b.points == 0 ? GOOD_DEFORMATIONS + 1 : REST, next + 1, n);
+        const toron_linear_elastic *law = linear_law_of(yarn);
         const toron_linear_block all = {
-            .n = n, .leading_dimension = n, .f_old = f_old, .f_new = by_component(deformations[0], 9, points_of[b.points], next, n),
+            .size = sizeof all, .n = n, .leading_dimension = n, .level = b.level, .density = densities[0], .f_old = {f_old},
+            .f_new = {by_component(deformations[0], 9, points_of[b.points], next, n)},
+            .fibre = {by_component(fibres[0], 3, b.points == 0 ? COUNT(fibres) : 2, next, n)},
             .axes = by_component(axes_in_space[0], 9, b.points == 0 ? COUNT(axes_in_space) : 2, next, n), .state_old = old,
-            .state_new = reals(LINEAR_STATE * n), .stress = reals(6 * n), .status = guarded(n * sizeof(int32_t)), .level = b.level};
-        toron_linear_block fresh = all, least = all, wrong = all;
-        fresh.state_old = NULL;
-        least.state_new = NULL, least.status = NULL;
-        wrong.leading_dimension = 0;
+            .state_new = reals(LINEAR_STATE * n), .stress = {reals(6 * n)}, .wave_speed = reals(n), .active = reals(n),
+            .status = guarded(n * sizeof(int32_t))};
+        toron_linear_block fresh = all, least = all, wrong = all, tangent = all;
+        fresh.state_old = NULL, fresh.fibre[0] = NULL, fresh.wave_speed = NULL;
         for (int32_t rotation = -1; rotation < 4; rotation++)
             for (int32_t criterion = -1; criterion < 3; criterion++) {
-                CALL(LINEAR_BLOCK(yarn, LINEAR, &all, rotation, criterion));
-                CALL(LINEAR_BLOCK(yarn, LINEAR, &fresh, rotation, criterion));
+                toron_linear_block block = all;
+                block.rotation = fresh.rotation = rotation, block.criterion = fresh.criterion = criterion;
+                EVALUATE_LINEAR_BLOCK(&block);
+                EVALUATE_LINEAR_BLOCK(&fresh);
             }
-        CALL(LINEAR_BLOCK(yarn, LINEAR, &least, TORON_ROTATION_SPIN, 0));
-        CALL(LINEAR_BLOCK(yarn, LINEAR, &wrong, TORON_ROTATION_FIBRE, 0));
-        CALL(LINEAR_BLOCK(yarn, LINEAR, NULL, TORON_ROTATION_FIBRE, 0));
+        tangent.tangent = reals(81 * n), tangent.measure = (int32_t)(next % 4);
+        for (tangent.rotation = 0; tangent.rotation < 3; tangent.rotation++)
+            EVALUATE_LINEAR_BLOCK(&tangent);
+        least.state_new = NULL, least.status = NULL, least.active = NULL, least.wave_speed = NULL, least.rotation = TORON_ROTATION_SPIN;
+        EVALUATE_LINEAR_BLOCK(&least);
+        wrong.leading_dimension = 1;
+        EVALUATE_LINEAR_BLOCK(&wrong);
+        EVALUATE_LINEAR_BLOCK(NULL);
+        if (with_properties)
+            CALL(LINEAR_BLOCK_WITH(yarn, 3, &all, MESSAGE));
+        else
+            CALL(LINEAR_BLOCK(NULL, &all, MESSAGE));
     }
+}
+
+static void linear_elastic_block(void)
+{
+    linear_blocks(0);
+}
+
+static void linear_elastic_block_with_properties(void)
+{
+    linear_blocks(1);
 }
 
 #endif

@@ -12,7 +12,7 @@ static void lsdyna_scalar(void)
         int *failel = guarded(sizeof *failel);
         for (int i = 0; i < 9; i++)
             hsv[STATE + i] = (real)t->f[i];
-        int32_t status = ENTRY(toron_lsdyna_umat)(cm, sig, hsv, STATE, failel);
+        int32_t status = TOLD(ENTRY(toron_lsdyna_umat), cm, sig, hsv, STATE, failel);
         CHECK(status == TORON_OK, "case %d: %d", t->id, status);
         check_stress(t, sig, 1);
         check_state(t, hsv, 1);
@@ -22,11 +22,11 @@ static void lsdyna_scalar(void)
 
         real *es = reals(36);
         hsv[FAILED] = 0;
-        status = ENTRY(toron_lsdyna_utan)(cm, hsv, STATE, es);
+        status = TOLD(ENTRY(toron_lsdyna_utan), cm, hsv, STATE, es);
         CHECK(status == TORON_OK, "case %d: %d", t->id, status);
         check_tangent(t, es, 1, sig, 0);
         hsv[FAILED] = 1;
-        status = ENTRY(toron_lsdyna_utan)(cm, hsv, STATE, es);
+        status = TOLD(ENTRY(toron_lsdyna_utan), cm, hsv, STATE, es);
         for (int k = 0; k < 36; k++)
             CHECK(status == TORON_OK && es[k] == 0, "case %d: a failed element has no stiffness", t->id);
         release();
@@ -57,10 +57,12 @@ static vector_block allocate(const truth *first, int n)
     return v;
 }
 
+#define UTAN_VECTOR ENTRY(toron_lsdyna_utan_vector)
+
 static int32_t umat_vector(const vector_block *v)
 {
-    return ENTRY(toron_lsdyna_umat_vector)(v->cm, v->sig[0], v->sig[1], v->sig[2], v->sig[3], v->sig[4], v->sig[5],
-                                           v->hsvs, STATE, v->lft, v->llt, v->nlq, v->failels);
+    return TOLD(ENTRY(toron_lsdyna_umat_vector), v->cm, v->sig[0], v->sig[1], v->sig[2], v->sig[3], v->sig[4], v->sig[5],
+                v->hsvs, STATE, v->lft, v->llt, v->nlq, v->failels);
 }
 
 static void check_outside(const vector_block *v)
@@ -115,7 +117,7 @@ static void lsdyna_vector_tangents(void)
         real *dsave = reals(36 * nlq);
         for (int i = v.lft - 1; i < v.llt; i++)
             v.hsvs[FAILED * v.nlq + i] = 0;
-        int32_t status = ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, dsave);
+        int32_t status = TOLD(UTAN_VECTOR, v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, dsave);
         CHECK(status == TORON_OK, "%d", status);
         for (int i = v.lft - 1; i < v.llt; i++) {
             check_tangent(&cases[first + i - v.lft + 1], dsave + i, nlq, stress_of(&v, i), 0);
@@ -124,15 +126,26 @@ static void lsdyna_vector_tangents(void)
             CHECK(untouched(dsave + c * nlq, (size_t)(v.lft - 1) * sizeof(real)), "before lft");
             CHECK(untouched(dsave + c * nlq + v.llt, (nlq - (size_t)v.llt) * sizeof(real)), "beyond llt");
         }
-        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, 0, v.llt, v.nlq, dsave) == TORON_BAD_COUNT, "lft");
-        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, 1, v.llt, 1, dsave) == TORON_BAD_LEADING_DIMENSION
-                  || v.llt == 1, "nlq");
-        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, 3, v.lft, v.llt, v.nlq, dsave) == TORON_STATE_COUNT, "NHV");
-        CHECK(ENTRY(toron_lsdyna_utan_vector)(v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, NULL) == TORON_NULL_ARGUMENT, "dsave");
-        CHECK(ENTRY(toron_lsdyna_utan)(v.cm, NULL, STATE, dsave) == TORON_NULL_ARGUMENT, "hsv");
         release();
         first += n;
     }
+    vector_block v = allocate(cases, 2);
+    real *dsave = reals(36 * (size_t)v.nlq), *hsv = filled(1, HISTORY);
+    REFUSED(TORON_BAD_COUNT, "argument lft is 0; allowed: 1 or more", UTAN_VECTOR, v.cm, v.hsvs, STATE, 0, v.llt, v.nlq, dsave);
+    REFUSED(TORON_BAD_LEADING_DIMENSION, "leading dimension, nlq: 1 given, 6 needed", UTAN_VECTOR, v.cm, v.hsvs, STATE, 1, v.llt, 1,
+            dsave);
+    REFUSED(TORON_STATE_COUNT, "number of history variables, NHV: 3 given, 11 needed", UTAN_VECTOR, v.cm, v.hsvs, 3, v.lft, v.llt,
+            v.nlq, dsave);
+    REFUSED(TORON_NULL_ARGUMENT, "argument dsave is null", UTAN_VECTOR, v.cm, v.hsvs, STATE, v.lft, v.llt, v.nlq, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument hsvs is null", UTAN_VECTOR, v.cm, NULL, STATE, v.lft, v.llt, v.nlq, dsave);
+    REFUSED(TORON_NULL_ARGUMENT, "argument cm is null", UTAN_VECTOR, NULL, v.hsvs, STATE, v.lft, v.llt, v.nlq, dsave);
+    REFUSED(TORON_NULL_ARGUMENT, "argument hsv is null", ENTRY(toron_lsdyna_utan), v.cm, NULL, STATE, dsave);
+    REFUSED(TORON_NULL_ARGUMENT, "argument cm is null", ENTRY(toron_lsdyna_utan), NULL, hsv, STATE, dsave);
+    REFUSED(TORON_NULL_ARGUMENT, "argument es is null", ENTRY(toron_lsdyna_utan), v.cm, hsv, STATE, NULL);
+    REFUSED(TORON_STATE_COUNT, "number of history variables, NHV: 3 given, 11 needed", ENTRY(toron_lsdyna_utan), v.cm, hsv, 3,
+            dsave);
+    CHECK(untouched(dsave, 36 * (size_t)v.nlq * sizeof(real)), "nothing is written");
+    release();
 }
 
 static void lsdyna_bad_elements(void)
@@ -160,9 +173,13 @@ static void lsdyna_bad_elements(void)
     release();
 }
 
-static void lsdyna_refused(vector_block v, int32_t wanted)
+static void lsdyna_refused(vector_block v, int32_t wanted, const char *words)
 {
-    CHECK(umat_vector(&v) == wanted, "wanted %d", wanted);
+    if (wanted == TORON_OK)
+        CHECK(umat_vector(&v) == TORON_OK, "%s", text);
+    else
+        REFUSED(wanted, words, ENTRY(toron_lsdyna_umat_vector), v.cm, v.sig[0], v.sig[1], v.sig[2], v.sig[3], v.sig[4], v.sig[5],
+                v.hsvs, STATE, v.lft, v.llt, v.nlq, v.failels);
     CHECK(untouched(v.sig[0], sizeof(real) * 6), "status %d", wanted);
     CHECK(untouched(v.failels, sizeof(int) * 6), "status %d", wanted);
 }
@@ -172,51 +189,63 @@ static void lsdyna_wrong_calls(void)
     const vector_block good = allocate(cases, 2);
     vector_block v = good;
     v.lft = 0;
-    lsdyna_refused(v, TORON_BAD_COUNT);
+    lsdyna_refused(v, TORON_BAD_COUNT, "argument lft is 0; allowed: 1 or more");
     v = good, v.llt = v.lft - 2;
-    lsdyna_refused(v, TORON_BAD_COUNT);
+    lsdyna_refused(v, TORON_BAD_COUNT, "argument llt (no less than lft - 1) is 3; allowed: 4 or more");
     v = good, v.llt = v.lft - 1; /* no element */
-    lsdyna_refused(v, TORON_OK);
+    lsdyna_refused(v, TORON_OK, "");
     v = good, v.nlq = v.llt - 1;
-    lsdyna_refused(v, TORON_BAD_LEADING_DIMENSION);
+    lsdyna_refused(v, TORON_BAD_LEADING_DIMENSION, "leading dimension, nlq: 5 given, 6 needed");
     v = good, v.cm = NULL;
-    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    lsdyna_refused(v, TORON_NULL_ARGUMENT, "argument cm is null");
     v = good, v.hsvs = NULL;
-    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    lsdyna_refused(v, TORON_NULL_ARGUMENT, "argument hsvs is null");
     v = good, v.sig[4] = NULL;
-    lsdyna_refused(v, TORON_NULL_ARGUMENT);
+    lsdyna_refused(v, TORON_NULL_ARGUMENT, "argument sig5 is null");
     v = good, v.cm = filled(-1, PROPERTIES);
-    lsdyna_refused(v, TORON_PROPERTY_OUT_OF_BOUNDS);
+    lsdyna_refused(v, TORON_PROPERTY_OUT_OF_BOUNDS,
+                   "property 1 (k_el, longitudinal elongation stiffness) is -1.0; allowed: a number from 0 to 1e25");
+#define UMAT ENTRY(toron_lsdyna_umat)
     real *sig = reals(6), *hsv = filled(0, HISTORY);
     int *failel = guarded(sizeof *failel);
-    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE - 1, failel) == TORON_STATE_COUNT, "NHV");
-    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, NULL) == TORON_NULL_ARGUMENT, "failel");
-    CHECK(ENTRY(toron_lsdyna_umat)(NULL, sig, hsv, STATE, failel) == TORON_NULL_ARGUMENT, "cm");
-    CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
+    REFUSED(TORON_STATE_COUNT, "number of history variables, NHV: 10 given, 11 needed", UMAT, good.cm, sig, hsv, STATE - 1, failel);
+    REFUSED(TORON_NULL_ARGUMENT, "argument failel is null", UMAT, good.cm, sig, hsv, STATE, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument cm is null", UMAT, NULL, sig, hsv, STATE, failel);
+    REFUSED(TORON_NULL_ARGUMENT, "argument sig is null", UMAT, good.cm, NULL, hsv, STATE, failel);
+    REFUSED(TORON_NULL_ARGUMENT, "argument hsv is null", UMAT, good.cm, sig, NULL, STATE, failel);
     /* F = 0: the slots of a card without IHYPER. Nothing is written, so that the job stops instead of losing its elements. */
-    CHECK(ENTRY(toron_lsdyna_umat)(good.cm, sig, hsv, STATE, failel) == TORON_NO_DEFORMATION_GRADIENT, "F = 0");
-    CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
-    char message[200];
+    char message[TORON_MESSAGE_CAPACITY];
     toron_status_message(TORON_NO_DEFORMATION_GRADIENT, message, sizeof message);
     CHECK(strstr(message, "IHYPER") != NULL, "%s", message);
+    REFUSED(TORON_NO_DEFORMATION_GRADIENT, message, UMAT, good.cm, sig, hsv, STATE, failel);
+    CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
     v = good, v.hsvs = filled(0, (size_t)(HISTORY * good.nlq));
-    lsdyna_refused(v, TORON_NO_DEFORMATION_GRADIENT);
+    lsdyna_refused(v, TORON_NO_DEFORMATION_GRADIENT, message);
     release();
 }
 
 static void lsdyna_moduli(void)
 {
+#define MODULI toron_lsdyna_bulk_and_shear_f64
+    const double *properties = cases[0].properties;
     double bulk = 0, shear = 0;
-    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, &bulk, &shear) == TORON_OK, "moduli");
-    double wave = bulk + 4 * shear / 3, fibre = cases[0].properties[0];
+    CHECK(TOLD(MODULI, properties, PROPERTIES, &bulk, &shear) == TORON_OK, "moduli");
+    double wave = bulk + 4 * shear / 3, fibre = properties[0];
     CHECK(fabs(wave - fibre) <= 1e-15 * fibre && bulk > 0 && shear > 0, "%g, %g", bulk, shear);
-    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, 3, &bulk, &shear) == TORON_PROPERTY_COUNT, "count");
-    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, NULL, &shear) == TORON_NULL_ARGUMENT, "bulk");
-    CHECK(toron_lsdyna_bulk_and_shear_f64(cases[0].properties, PROPERTIES, &bulk, NULL) == TORON_NULL_ARGUMENT, "shear");
+    REFUSED(TORON_PROPERTY_COUNT, "number of properties: 3 given, 11 needed", MODULI, properties, 3, &bulk, &shear);
+    REFUSED(TORON_NULL_ARGUMENT, "argument bulk is null", MODULI, properties, PROPERTIES, NULL, &shear);
+    REFUSED(TORON_NULL_ARGUMENT, "argument shear is null", MODULI, properties, PROPERTIES, &bulk, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument properties is null", MODULI, NULL, PROPERTIES, &bulk, &shear);
 }
 
 /* ---- VUMAT */
 
+#define VUMAT ENTRY(toron_abaqus_vumat)
+#define NDIR_TEXT "direct stress components, NDIR (solids only): "
+#define NDI_TEXT "direct stress components, NDI (solids only): "
+#define VUMAT_NSHR_TEXT "shear stress components, NSHR (solids only): "
+#define NSHR_TEXT "shear stress components, NSHR (1 for plane strain and axisymmetric solids): "
+#define DEPVAR_TEXT "number of state variables (*DEPVAR): "
 enum { VUMAT_STATE = STATE + 2 };
 
 /* The stretch of a point: the truth's F where that is symmetric, else ½1 + FᵀF/|F|², positive in either precision. */
@@ -262,8 +291,8 @@ static vumat_arrays vumat_block(const truth *first, int n)
         for (int j = STATE; j < VUMAT_STATE; j++)
             v.state_old[j * n + i] = (real)(j + i);
     }
-    v.block = (toron_vumat){.nblock = n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
-                            .step_time = (real)1e-6, .total_time = (real)1e-6,
+    v.block = (toron_vumat){.size = sizeof v.block, .nblock = n, .ndir = 3, .nshr = 3, .nstatev = VUMAT_STATE, .nprops = PROPERTIES,
+                            .step_time = 1e-6, .total_time = 1e-6,
                             .props = copied(first->properties, PROPERTIES), .density = density,
                             .strain_inc = v.strain_inc, .stretch_old = stretch_old, .stretch_new = v.stretch_new,
                             .stress_old = filled(5, 6 * count), .state_old = v.state_old,
@@ -307,7 +336,7 @@ static void vumat(void)
     for (int first = 0; first < case_count;) {
         int n = run_of_cases(first, PROPERTIES);
         vumat_arrays v = vumat_block(&cases[first], n);
-        int32_t status = ENTRY(toron_abaqus_vumat)(&v.block);
+        int32_t status = TOLD(VUMAT, &v.block);
         CHECK(status == TORON_OK, "%d", status);
         for (int i = 0; i < n; i++) {
             const truth *t = &cases[first + i];
@@ -335,7 +364,7 @@ static void vumat_data_check(void)
     const real strain = (real)1e-4, k_el = v.block.props[0];
     v.strain_inc[0] = strain;         /* point 1, along 11 */
     v.strain_inc[3 * 2 + 1] = strain; /* point 2, tensor shear 12 */
-    CHECK(ENTRY(toron_abaqus_vumat)(&v.block) == TORON_OK, "data check");
+    CHECK(TOLD(VUMAT, &v.block) == TORON_OK, "data check");
     double tolerance = sizeof(real) == 4 ? 1e-6 : 1e-15;
     CHECK(fabs((v.stress_new[0] - 5) / (k_el * strain) - 1) <= tolerance, "the fibre's wave: %g", v.stress_new[0]);
     CHECK(fabs((v.stress_new[3 * 2 + 1] - 5) / (0.75 * k_el * strain) - 1) <= tolerance, "2 G ε");
@@ -344,9 +373,12 @@ static void vumat_data_check(void)
     release();
 }
 
-static void vumat_refused(toron_vumat block, int32_t wanted)
+static void vumat_refused(toron_vumat block, int32_t wanted, const char *words)
 {
-    CHECK(ENTRY(toron_abaqus_vumat)(&block) == wanted, "wanted %d", wanted);
+    if (wanted == TORON_OK)
+        CHECK(TOLD(VUMAT, &block) == TORON_OK, "%s", text);
+    else
+        REFUSED(wanted, words, VUMAT, &block);
     if (block.stress_new != NULL)
         CHECK(untouched(block.stress_new, 6 * sizeof(real)), "status %d", wanted);
     CHECK(untouched(block.state_new, VUMAT_STATE * sizeof(real)), "status %d", wanted);
@@ -357,33 +389,36 @@ static void vumat_wrong_calls(void)
     const toron_vumat good = vumat_block(cases, 1).block;
     toron_vumat block = good;
     block.nshr = 1;
-    vumat_refused(block, TORON_BAD_COUNT);
+    vumat_refused(block, TORON_BAD_COUNT, VUMAT_NSHR_TEXT "1 given, 3 needed");
     block = good, block.ndir = 2;
-    vumat_refused(block, TORON_BAD_COUNT);
+    vumat_refused(block, TORON_BAD_COUNT, NDIR_TEXT "2 given, 3 needed");
     block = good, block.nblock = -1;
-    vumat_refused(block, TORON_BAD_COUNT);
+    vumat_refused(block, TORON_BAD_COUNT, "argument nblock is -1; allowed: 0 or more");
     block = good, block.nblock = 0;
-    vumat_refused(block, TORON_OK);
+    vumat_refused(block, TORON_OK, "");
     block = good, block.nstatev = STATE - 1;
-    vumat_refused(block, TORON_STATE_COUNT);
+    vumat_refused(block, TORON_STATE_COUNT, DEPVAR_TEXT "10 given, 11 needed");
     block = good, block.nprops = PROPERTIES - 1;
-    vumat_refused(block, TORON_PROPERTY_COUNT);
+    vumat_refused(block, TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed");
     block = good, block.nprops = -1;
-    vumat_refused(block, TORON_PROPERTY_COUNT);
+    vumat_refused(block, TORON_PROPERTY_COUNT, "number of properties: -1 given, 11 needed");
+    block = good, block.level = 4;
+    vumat_refused(block, TORON_BAD_ARGUMENT, "argument level is 4; allowed: " LEVELS_TEXT);
     block = good, block.stress_new = NULL;
-    vumat_refused(block, TORON_NULL_ARGUMENT);
+    vumat_refused(block, TORON_NULL_ARGUMENT, "argument stress_new is null");
     block = good, block.stretch_new = NULL;
-    vumat_refused(block, TORON_NULL_ARGUMENT);
+    vumat_refused(block, TORON_NULL_ARGUMENT, "argument stretch_new is null");
     block = good, block.props = filled(NAN, PROPERTIES);
-    vumat_refused(block, TORON_PROPERTY_NOT_FINITE);
-    CHECK(ENTRY(toron_abaqus_vumat)(NULL) == TORON_NULL_ARGUMENT, "no block");
+    vumat_refused(block, TORON_PROPERTY_NOT_FINITE,
+                  "property 1 (k_el, longitudinal elongation stiffness) is NaN; allowed: a number from 0 to 1e25");
+    REFUSED(TORON_NULL_ARGUMENT, "argument block is null", VUMAT, NULL);
     release();
 
     /* Points that cannot be evaluated are deleted; their neighbours do not notice. */
     vumat_arrays v = vumat_block(cases, 3);
     v.stretch_new[1] = NAN;
     v.state_old[ENERGIES * 3 + 1] = 4;
-    CHECK(ENTRY(toron_abaqus_vumat)(&v.block) == TORON_NOT_FINITE, "NaN");
+    CHECK(TOLD(VUMAT, &v.block) == TORON_NOT_FINITE, "NaN");
     CHECK(v.stress_new[1] == 0 && v.state_new[FAILED * 3 + 1] == 1 && v.state_new[ALIVE * 3 + 1] == 0, "deleted");
     CHECK(v.state_new[ENERGIES * 3 + 1] == 4 && v.energy_new[1] == 7, "energies stay");
     check_corotational(&v, 0, &cases[0]);
@@ -403,7 +438,8 @@ typedef struct {
 
 static umat_arguments umat_point(const truth *t)
 {
-    umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .ddsdde = reals(36), .sse = reals(1), .pnewdt = filled(1, 1),
+    umat_arguments a = {.stress = reals(6), .statev = filled(0, STATE), .ddsdde = reals(36), .sse = reals(1),
+                        .pnewdt = filled(1, 1),
                         .dfgrd1 = copied(t->f, 9),
                         .props = copied(t->properties, PROPERTIES), .nprops = PROPERTIES, .nstatv = STATE, .ndi = 3,
                         .nshr = 3, .nlgeom = 1};
@@ -412,8 +448,8 @@ static umat_arguments umat_point(const truth *t)
 
 static int32_t call_umat(const umat_arguments *a)
 {
-    return toron_abaqus_umat_tangent_f64(a->stress, a->statev, a->ddsdde, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops,
-                                         a->nstatv, a->ndi, a->nshr, a->nlgeom);
+    return TOLD(toron_abaqus_umat_tangent_f64, a->stress, a->statev, a->ddsdde, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops,
+                a->nstatv, a->ndi, a->nshr, a->nlgeom);
 }
 
 static void umat(void)
@@ -435,7 +471,7 @@ static void umat(void)
 
         /* Without DDSDDE: the same bits, by either entry. */
         umat_arguments b = umat_point(t);
-        toron_abaqus_umat_f64(b.stress, b.statev, b.sse, b.pnewdt, b.dfgrd1, b.props, b.nprops, b.nstatv, 3, 3, 1);
+        TOLD(toron_abaqus_umat_f64, b.stress, b.statev, b.sse, b.pnewdt, b.dfgrd1, b.props, b.nprops, b.nstatv, 3, 3, 1);
         CHECK(memcmp(a.stress, b.stress, 6 * sizeof(double)) == 0, "case %d: stress", t->id);
         CHECK(memcmp(a.statev, b.statev, STATE * sizeof(double)) == 0, "case %d: state", t->id);
 
@@ -458,9 +494,12 @@ static void umat(void)
     }
 }
 
-static void umat_refused(umat_arguments a, int32_t wanted)
+static void umat_refused(umat_arguments a, int32_t wanted, const char *words)
 {
-    CHECK(call_umat(&a) == wanted, "wanted %d", wanted);
+    REFUSED(wanted, words, toron_abaqus_umat_tangent_f64, a.stress, a.statev, a.ddsdde, a.sse, a.pnewdt, a.dfgrd1, a.props,
+            a.nprops, a.nstatv, a.ndi, a.nshr, a.nlgeom);
+    REFUSED(wanted, words, toron_abaqus_umat_f64, a.stress, a.statev, a.sse, a.pnewdt, a.dfgrd1, a.props, a.nprops, a.nstatv, a.ndi,
+            a.nshr, a.nlgeom);
     if (a.stress != NULL)
         CHECK(untouched(a.stress, 6 * sizeof(double)), "status %d", wanted);
     CHECK(untouched(a.ddsdde, 36 * sizeof(double)), "status %d", wanted);
@@ -471,27 +510,30 @@ static void umat_wrong_calls(void)
 {
     const truth rest = cases[0];
     const umat_arguments good = umat_point(&rest);
+    char message[TORON_MESSAGE_CAPACITY];
+    toron_status_message(TORON_NO_DEFORMATION_GRADIENT, message, sizeof message);
     umat_arguments a = good;
     a.nlgeom = 0; /* small displacements: F is the identity whatever happens */
-    umat_refused(a, TORON_NO_DEFORMATION_GRADIENT);
+    umat_refused(a, TORON_NO_DEFORMATION_GRADIENT, message);
     a = good, a.ndi = 2;
-    umat_refused(a, TORON_BAD_COUNT);
+    umat_refused(a, TORON_BAD_COUNT, NDI_TEXT "2 given, 3 needed");
     a = good, a.nshr = 2;
-    umat_refused(a, TORON_BAD_COUNT);
+    umat_refused(a, TORON_BAD_COUNT, NSHR_TEXT "2 given, 3 needed");
     a = good, a.ndi = 2, a.nshr = 1; /* plane stress */
-    umat_refused(a, TORON_BAD_COUNT);
+    umat_refused(a, TORON_BAD_COUNT, NDI_TEXT "2 given, 3 needed");
     a = good, a.nstatv = STATE - 1;
-    umat_refused(a, TORON_STATE_COUNT);
+    umat_refused(a, TORON_STATE_COUNT, DEPVAR_TEXT "10 given, 11 needed");
     a = good, a.nprops = PROPERTIES + 1;
-    umat_refused(a, TORON_PROPERTY_COUNT);
+    umat_refused(a, TORON_PROPERTY_COUNT, "number of properties: 12 given, 11 needed");
     a = good, a.nprops = -1;
-    umat_refused(a, TORON_PROPERTY_COUNT);
+    umat_refused(a, TORON_PROPERTY_COUNT, "number of properties: -1 given, 11 needed");
     a = good, a.props = NULL;
-    umat_refused(a, TORON_NULL_ARGUMENT);
+    umat_refused(a, TORON_NULL_ARGUMENT, "argument props is null");
     a = good, a.stress = NULL;
-    umat_refused(a, TORON_NULL_ARGUMENT);
+    umat_refused(a, TORON_NULL_ARGUMENT, "argument stress is null");
     a = good, a.props = filled(-1, PROPERTIES);
-    umat_refused(a, TORON_PROPERTY_OUT_OF_BOUNDS);
+    umat_refused(a, TORON_PROPERTY_OUT_OF_BOUNDS,
+                 "property 1 (k_el, longitudinal elongation stiffness) is -1.0; allowed: a number from 0 to 1e25");
 
     /* An inverted point keeps its state and asks for a smaller increment, but never for a larger one. */
     a = good;

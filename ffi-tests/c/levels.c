@@ -61,11 +61,11 @@ static int32_t evaluate(const double *yarn, int32_t level, int32_t measure, int 
             fibre[c * n + i] = (real)(c == i % 3 ? 1 : 0.3 * (double)(i % 7) - 0.9);
     }
     real *state = out + 6 * n, *modes = state + STATE * n, *wave = modes + 24 * n, *tangent = wave + n;
-    toron_block block = {.n = n, .leading_dimension = n, .deformation_gradient = f, .fibre = fibres ? fibre : NULL,
-                         .density = (real)1.3514e-9, .stress = out, .energies = state + ENERGIES * n,
-                         .invariants = state + INVARIANTS * n, .failure = state + FAILURE * n, .modes = modes,
-                         .wave_speed = wave, .status = status, .level = level};
-    return ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, measure, tangent);
+    toron_block block = {.size = sizeof block, .n = n, .measure = measure, .level = level, .density = 1.3514e-9,
+                         .deformation_gradient = {f}, .fibre = {fibres ? fibre : NULL}, .stress = {out},
+                         .energies = state + ENERGIES * n, .invariants = state + INVARIANTS * n, .failure = state + FAILURE * n,
+                         .modes = modes, .wave_speed = wave, .tangent = tangent, .status = status};
+    return TOLD(ENTRY(toron_hyperelastic_block), prepared(properties), &block);
 }
 
 /* The kernels that solvers use: stress, energies and the whole state, and nothing else. */
@@ -79,14 +79,15 @@ static int32_t evaluate_usual(const double *yarn, int32_t level, int outputs, re
         for (size_t c = 0; c < 9; c++)
             f[c * n + i] = (real)points[i][c];
     real *state = out + 6 * n;
-    toron_block block = {.n = n, .leading_dimension = n, .deformation_gradient = f, .stress = out, .status = status, .level = level};
+    toron_block block = {.size = sizeof block, .n = n, .level = level, .deformation_gradient = {f}, .stress = {out},
+                         .status = status};
     if (outputs > 0)
         block.energies = state + ENERGIES * n;
     if (outputs > 1) {
         block.invariants = state + INVARIANTS * n;
         block.failure = state + FAILURE * n;
     }
-    return ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, &block);
+    return TOLD(ENTRY(toron_hyperelastic_block), prepared(properties), &block);
 }
 
 static const double yarns[][PROPERTIES] = {

@@ -32,76 +32,148 @@ static void check_modes(const truth *t, const real *modes, const real *stress)
     CHECK(distance(stress, 1, pushed) <= ALLOWED * scale, "case %d: %g of %g", t->id, distance(stress, 1, pushed), scale);
 }
 
-static void every_case(void)
+/* The two ways to call the law: prepared, or with its properties. */
+enum { PREPARED, WITH_PROPERTIES, WAYS };
+
+static int32_t evaluate_point(int way, const real *properties, const toron_point *point)
+{
+    if (way == WITH_PROPERTIES)
+        return TOLD(ENTRY(toron_hyperelastic_point_with_properties), properties, PROPERTIES, point);
+    return TOLD(ENTRY(toron_hyperelastic_point), prepared(properties), point);
+}
+
+static int32_t evaluate_block(int way, const real *properties, const toron_block *block)
+{
+    if (way == WITH_PROPERTIES)
+        return TOLD(ENTRY(toron_hyperelastic_block_with_properties), properties, PROPERTIES, block);
+    return TOLD(ENTRY(toron_hyperelastic_block), prepared(properties), block);
+}
+
+static void every_case(int way)
 {
     for (const truth *t = cases; t < cases + case_count; t++) {
-        real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *old = filled(0, STATE);
-        real *new = reals(STATE), *stress = reals(6), *modes = reals(24), *speed = reals(1);
-        int32_t status = ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, old, new, stress, modes,
-                                                         density, speed);
+        real *properties = copied(t->properties, PROPERTIES);
+        toron_point point = {.size = sizeof point, .density = density, .deformation_gradient = copied(t->f, 9),
+                             .state_old = filled(0, STATE), .state_new = reals(STATE), .stress = reals(6),
+                             .modes = reals(24), .wave_speed = reals(1)};
+        int32_t status = evaluate_point(way, properties, &point);
         CHECK(status == TORON_OK, "case %d: %d", t->id, status);
-        check_stress(t, stress, 1);
-        check_state(t, new, 1);
-        check_modes(t, modes, stress);
-        double bar = sqrt(t->properties[0] / density);
-        CHECK(speed[0] >= bar * (1 - 1e-6) && speed[0] < INFINITY, "case %d: wave speed %g", t->id, speed[0]);
+        check_stress(t, point.stress, 1);
+        check_state(t, point.state_new, 1);
+        check_modes(t, point.modes, point.stress);
+        double bar = sqrt(t->properties[0] / density), speed = *point.wave_speed;
+        CHECK(speed >= bar * (1 - 1e-6) && speed < INFINITY, "case %d: wave speed %g", t->id, speed);
+
+        /* The best instructions are those of AVX2; the baseline's results are as good. */
+        toron_point other = point;
+        other.level = TORON_LEVEL_AVX2, other.stress = reals(6), other.state_new = reals(STATE);
+        CHECK(evaluate_point(way, properties, &other) == TORON_OK, "case %d: %s", t->id, text);
+        CHECK(memcmp(other.stress, point.stress, 6 * sizeof(real)) == 0, "case %d: AVX2", t->id);
+        CHECK(memcmp(other.state_new, point.state_new, STATE * sizeof(real)) == 0, "case %d: AVX2", t->id);
+        other.level = TORON_LEVEL_BASELINE;
+        CHECK(evaluate_point(way, properties, &other) == TORON_OK, "case %d: %s", t->id, text);
+        check_stress(t, other.stress, 1);
+        check_state(t, other.state_new, 1);
         release();
     }
 }
 
 /* The direction as a property or as an argument of another length, old state null or 0, in place: the same bits. */
-static void ways_to_ask(void)
+static void ways_to_ask(int way)
 {
     const truth *t = &cases[case_count - 1];
     real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *state = filled(0, STATE);
     real *new = reals(STATE), *stress = reals(6), *again = reals(6);
-    ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, NULL, new, stress, NULL, 0, NULL);
-    ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, state, state, again, NULL, 0, NULL);
+    toron_point point = {.size = sizeof point, .deformation_gradient = f, .state_new = new, .stress = stress};
+    CHECK(evaluate_point(way, properties, &point) == TORON_OK, "%s", text);
+    point.state_old = point.state_new = state, point.stress = again;
+    CHECK(evaluate_point(way, properties, &point) == TORON_OK, "%s", text);
     CHECK(memcmp(state, new, STATE * sizeof(real)) == 0 && memcmp(stress, again, 6 * sizeof(real)) == 0, "in place");
 
     real *fibre = copied(t->properties + 8, 3), *other = copied(t->properties, PROPERTIES);
     other[8] = 0, other[9] = 1, other[10] = 0;
     for (int i = 0; i < 3; i++)
         fibre[i] *= 4;
-    ENTRY(toron_hyperelastic_point)(other, PROPERTIES, f, fibre, NULL, NULL, again, NULL, 0, NULL);
+    point.fibre = fibre, point.state_old = point.state_new = NULL;
+    CHECK(evaluate_point(way, other, &point) == TORON_OK, "%s", text);
     CHECK(memcmp(stress, again, 6 * sizeof(real)) == 0, "the fibre as an argument");
 
-    int32_t status = ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL, NULL, 0, NULL);
-    CHECK(status == TORON_OK, "nothing wanted: %d", status);
+    point = (toron_point){.size = sizeof point, .deformation_gradient = f};
+    CHECK(evaluate_point(way, properties, &point) == TORON_OK, "nothing wanted: %s", text);
 
     /* A latched point: no stress, the rest as it was. */
     for (int i = 0; i < STATE; i++)
         state[i] = (real)(i + 1);
     state[FAILED] = 1;
-    status = ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, state, new, stress, NULL, 0, NULL);
+    point.state_old = state, point.state_new = new, point.stress = stress;
+    int32_t status = evaluate_point(way, properties, &point);
     CHECK(status == TORON_OK && new[FAILED] == 1 && new[ALIVE] == 0, "%d", status);
     CHECK(memcmp(state, new, FAILED * sizeof(real)) == 0, "energies, invariants and index of a failed point");
     for (int c = 0; c < 6; c++)
         CHECK(stress[c] == 0, "stress of a failed point");
+
+    /* A point at fault: no stress, the state as it was but for `alive`; the message is the code's. */
+    f[0] = -f[0], f[1] = -f[1], f[2] = -f[2], state[FAILED] = 0;
+    CHECK(evaluate_point(way, properties, &point) == TORON_INVERTED && strcmp(text, INVERTED_TEXT) == 0, "%s", text);
+    CHECK(memcmp(state, new, ALIVE * sizeof(real)) == 0 && new[ALIVE] == 1 && stress[0] == 0, "a point at fault");
+    fibre[0] = fibre[1] = fibre[2] = 0, point.fibre = fibre;
+    CHECK(evaluate_point(way, properties, &point) == TORON_FIBRE_DIRECTION && strcmp(text, NO_FIBRE_TEXT) == 0, "%s", text);
     release();
 }
 
+/* Every combination of outputs: each has the bits that it has when everything is wanted. */
+static void point_outputs(int way, const truth *t, unsigned inputs)
+{
+    static const output outputs[] = {{offsetof(toron_point, state_new), STATE * sizeof(real)},
+                                     {offsetof(toron_point, stress), 6 * sizeof(real)},
+                                     {offsetof(toron_point, modes), 24 * sizeof(real)}, {offsetof(toron_point, wave_speed),
+                                                                                         sizeof(real)},
+                                     {offsetof(toron_point, tangent), 36 * sizeof(real)}};
+    enum { COUNT = sizeof outputs / sizeof *outputs };
+    const unsigned all = (1u << COUNT) - 1;
+    for (unsigned wanted = 0; wanted <= all; wanted++) {
+        void *whole[COUNT], *part[COUNT];
+        real *properties = copied(t->properties, PROPERTIES);
+        toron_point point = {.size = sizeof point, .measure = TORON_TANGENT_JAUMANN, .density = density,
+                             .deformation_gradient = copied(t->f, 9)};
+        if (inputs & 1)
+            point.fibre = filled(3, 3);
+        if (inputs & 2)
+            point.state_old = filled(0.25, STATE);
+        request(&point, outputs, COUNT, all, whole);
+        CHECK(evaluate_point(way, properties, &point) == TORON_OK && ((real *)whole[0])[FAILED] != 1, "%s", text);
+        request(&point, outputs, COUNT, wanted, part);
+        CHECK(evaluate_point(way, properties, &point) == TORON_OK, "%s", text);
+        for (size_t k = 0; k < COUNT; k++)
+            CHECK(part[k] == NULL || memcmp(part[k], whole[k], outputs[k].bytes) == 0, "case %d, wanted %#x, output %zu", t->id,
+                  wanted, k);
+        release();
+    }
+}
+
 /* Every measure of the tangent; stress and state are those of the call without. */
-static void tangents(void)
+static void tangents(int way)
 {
     for (const truth *t = cases; t < cases + case_count; t++) {
         real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *new = reals(STATE), *plain = reals(STATE);
         real *stress = reals(6), *alone = reals(6), *jaumann = reals(36), *truesdell = reals(36), *material = reals(36);
         real *nominal = reals(81);
-        ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, f, NULL, NULL, plain, alone, NULL, 0, NULL);
-        int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, new, stress,
-                                                                 TORON_TANGENT_JAUMANN, jaumann);
+        toron_point point = {.size = sizeof point, .measure = -1, .deformation_gradient = f, .state_new = plain, .stress = alone};
+        CHECK(evaluate_point(way, properties, &point) == TORON_OK, "case %d: %s; the measure is not read", t->id, text);
+        point.state_new = new, point.stress = stress, point.measure = TORON_TANGENT_JAUMANN, point.tangent = jaumann;
+        int32_t status = evaluate_point(way, properties, &point);
         CHECK(status == TORON_OK, "case %d: %d", t->id, status);
         CHECK(memcmp(stress, alone, 6 * sizeof(real)) == 0, "case %d: stress", t->id);
         CHECK(memcmp(new, plain, STATE * sizeof(real)) == 0, "case %d: state", t->id);
         check_tangent(t, jaumann, 1, NULL, 0);
-        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
-                                                TORON_TANGENT_TRUESDELL, truesdell);
+        point = (toron_point){.size = sizeof point, .measure = TORON_TANGENT_TRUESDELL, .deformation_gradient = f,
+                              .tangent = truesdell};
+        evaluate_point(way, properties, &point);
         check_tangent(t, truesdell, 1, stress, 0);
-        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
-                                                TORON_TANGENT_MATERIAL, material);
-        ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, NULL,
-                                                TORON_TANGENT_NOMINAL, nominal);
+        point.measure = TORON_TANGENT_MATERIAL, point.tangent = material;
+        evaluate_point(way, properties, &point);
+        point.measure = TORON_TANGENT_NOMINAL, point.tangent = nominal;
+        evaluate_point(way, properties, &point);
         for (int k = 0; k < 36; k++)
             CHECK(material[k] == material[k % 6 * 6 + k / 6], "case %d: material, entry %d", t->id, k);
         for (int k = 0; k < 81; k++)
@@ -109,52 +181,164 @@ static void tangents(void)
 
         /* The latch set before: nothing. */
         new[FAILED] = 1;
-        status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, new, NULL, stress,
-                                                         TORON_TANGENT_JAUMANN, jaumann);
+        point.state_old = new, point.stress = stress, point.measure = TORON_TANGENT_JAUMANN, point.tangent = jaumann;
+        status = evaluate_point(way, properties, &point);
         for (int k = 0; k < 36; k++)
             CHECK(status == TORON_OK && jaumann[k] == 0 && stress[0] == 0, "case %d: failed", t->id);
-
-        if (sizeof(real) == sizeof(double)) {
-            double *values = guarded(PROPERTIES * sizeof(double)), *columns = guarded(9 * sizeof(double));
-            double *least = guarded(sizeof(double)), *direction = guarded(3 * sizeof(double));
-            memcpy(values, t->properties, PROPERTIES * sizeof(double));
-            memcpy(columns, t->f, 9 * sizeof(double));
-            status = toron_hyperelastic_least_acoustic_eigenvalue_f64(values, PROPERTIES, columns, NULL, least, direction);
-            double square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
-            CHECK(status == TORON_OK && isfinite(*least) && fabs(square - 1) < 1e-12, "case %d: %d", t->id, status);
-            CHECK(toron_hyperelastic_least_acoustic_eigenvalue_f64(values, PROPERTIES, NULL, NULL, least, NULL)
-                      == TORON_NULL_ARGUMENT, "no F");
-        }
         release();
     }
 }
 
-static void wrong_tangents(void)
+#ifndef SINGLE
+static void least_acoustic_eigenvalues(void)
+{
+#define EIGENVALUE toron_hyperelastic_least_acoustic_eigenvalue_f64
+    for (const truth *t = cases; t < cases + case_count; t++) {
+        const toron_hyperelastic *law = prepared(copied(t->properties, PROPERTIES));
+        double *least = reals(1), *direction = reals(3), *alone = reals(1);
+        toron_point point = {.size = sizeof point, .deformation_gradient = copied(t->f, 9)};
+        int32_t status = TOLD(EIGENVALUE, law, &point, least, direction);
+        double square = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2];
+        CHECK(status == TORON_OK && isfinite(*least) && fabs(square - 1) < 1e-12, "case %d: %d", t->id, status);
+        point.fibre = copied(t->properties + 8, 3);
+        CHECK(TOLD(EIGENVALUE, law, &point, alone, NULL) == TORON_OK, "case %d", t->id);
+        CHECK(fabs(*alone - *least) <= 1e-16 * t->properties[0], "case %d: %g instead of %g", t->id, *alone, *least);
+        release();
+    }
+    const toron_hyperelastic *law = prepared(copied(cases[0].properties, PROPERTIES)), none = {0};
+    double *f = copied(cases[0].f, 9), *least = reals(1), *direction = reals(3);
+    toron_point point = {.size = sizeof point, .deformation_gradient = f};
+    REFUSED(TORON_NULL_ARGUMENT, "argument law is null", EIGENVALUE, NULL, &point, least, direction);
+    REFUSED(TORON_NOT_PREPARED, NOT_PREPARED_BY(toron_hyperelastic_prepare), EIGENVALUE, &none, &point, least, direction);
+    REFUSED(TORON_NULL_ARGUMENT, "argument point is null", EIGENVALUE, law, NULL, least, direction);
+    REFUSED(TORON_NULL_ARGUMENT, "argument least is null", EIGENVALUE, law, &point, NULL, direction);
+    f[0] = -1;
+    REFUSED(TORON_INVERTED, INVERTED_TEXT, EIGENVALUE, law, &point, least, direction);
+    point.deformation_gradient = NULL;
+    REFUSED(TORON_NULL_ARGUMENT, "argument deformation_gradient is null", EIGENVALUE, law, &point, least, direction);
+    CHECK(untouched(least, sizeof *least) && untouched(direction, 3 * sizeof *direction), "nothing is written");
+    release();
+}
+#endif
+
+/* A point that is refused: the code, the message, and nothing is written. */
+static void refused_point(const real *properties, toron_point point, int32_t wanted, const char *words)
+{
+    REFUSED(wanted, words, ENTRY(toron_hyperelastic_point), prepared(properties), &point);
+    REFUSED(wanted, words, ENTRY(toron_hyperelastic_point_with_properties), properties, PROPERTIES, &point);
+    CHECK(untouched(point.stress, 6 * sizeof(real)) && untouched(point.state_new, STATE * sizeof(real)), "%s", words);
+    CHECK(untouched(point.tangent, 81 * sizeof(real)) && untouched(point.wave_speed, sizeof(real)), "%s", words);
+}
+
+static void wrong_points(void)
 {
     const truth *t = &cases[0];
-    real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9), *stress = reals(6), *tangent = reals(81);
-    const int32_t measures[2] = {-1, 4};
-    for (int i = 0; i < 2; i++) {
-        int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress,
-                                                                 measures[i], tangent);
-        CHECK(status == TORON_BAD_ARGUMENT, "%d", status);
-    }
-    CHECK(ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress, 0, NULL)
-              == TORON_NULL_ARGUMENT, "no room");
-    CHECK(ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, NULL, NULL, NULL, NULL, stress, 0, tangent)
-              == TORON_NULL_ARGUMENT, "no F");
-    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, NULL, 0, tangent) == TORON_NULL_ARGUMENT, "no block");
-    toron_block block = {.n = 1, .leading_dimension = 1, .deformation_gradient = f, .stress = stress};
-    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, 4, tangent) == TORON_BAD_ARGUMENT, "measure");
-    CHECK(untouched(stress, 6 * sizeof(real)) && untouched(tangent, 81 * sizeof(real)), "nothing is written");
+    real *properties = copied(t->properties, PROPERTIES), *f = copied(t->f, 9);
+    const toron_point good = {.size = sizeof good, .density = density, .deformation_gradient = f, .state_new = reals(STATE),
+                              .stress = reals(6), .wave_speed = reals(1), .tangent = reals(81)};
+    toron_point point = good;
+    point.measure = -1;
+    refused_point(properties, point, TORON_BAD_ARGUMENT, "argument measure is -1; allowed: " MEASURES_TEXT);
+    point.measure = 4;
+    refused_point(properties, point, TORON_BAD_ARGUMENT, "argument measure is 4; allowed: " MEASURES_TEXT);
+    point = good, point.level = -1;
+    refused_point(properties, point, TORON_BAD_ARGUMENT, "argument level is -1; allowed: " LEVELS_TEXT);
+    point.level = 4;
+    refused_point(properties, point, TORON_BAD_ARGUMENT, "argument level is 4; allowed: " LEVELS_TEXT);
+    point = good, point.density = 0;
+    refused_point(properties, point, TORON_BAD_ARGUMENT, "argument density is 0.0; allowed: " DENSITIES_TEXT);
+    point = good, point.deformation_gradient = NULL;
+    refused_point(properties, point, TORON_NULL_ARGUMENT, "argument deformation_gradient is null");
+
+#define POINT ENTRY(toron_hyperelastic_point)
+#define POINT_WITH ENTRY(toron_hyperelastic_point_with_properties)
+    const toron_hyperelastic *law = prepared(properties);
+    REFUSED(TORON_NULL_ARGUMENT, "argument point is null", POINT, law, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument point is null", POINT_WITH, properties, PROPERTIES, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument law is null", POINT, NULL, &good);
+    REFUSED(TORON_NULL_ARGUMENT, "argument properties is null", POINT_WITH, NULL, PROPERTIES, &good);
+    REFUSED(TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed", POINT_WITH, properties, PROPERTIES - 1, &good);
+    real *wrong = copied(t->properties, PROPERTIES);
+    wrong[0] = -1;
+    REFUSED(TORON_PROPERTY_OUT_OF_BOUNDS,
+            "property 1 (k_el, longitudinal elongation stiffness) is -1.0; allowed: a number from 0 to 1e25", POINT_WITH,
+            wrong, PROPERTIES, &good);
+    CHECK(untouched(good.stress, 6 * sizeof(real)) && untouched(good.tangent, 81 * sizeof(real)), "nothing is written");
 
     /* A point at fault has no stiffness; without room for a tangent a block is a block. */
     f[0] = -f[0], f[1] = -f[1], f[2] = -f[2];
-    int32_t status = ENTRY(toron_hyperelastic_point_tangent)(properties, PROPERTIES, f, NULL, NULL, NULL, stress,
-                                                             TORON_TANGENT_NOMINAL, tangent);
+    point = good, point.measure = TORON_TANGENT_NOMINAL;
+    REFUSED(TORON_INVERTED, INVERTED_TEXT, POINT, law, &point);
     for (int k = 0; k < 81; k++)
-        CHECK(status == TORON_INVERTED && tangent[k] == 0, "%d", status);
-    CHECK(ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, 0, NULL) == TORON_INVERTED, "no tangent");
+        CHECK(good.tangent[k] == 0, "entry %d", k);
+    toron_block block = {.size = sizeof block, .n = 1, .deformation_gradient = {f}, .stress = {good.stress}};
+    REFUSED(TORON_INVERTED, INVERTED_TEXT, ENTRY(toron_hyperelastic_block), law, &block);
+    release();
+}
+
+/* A law that nobody has prepared, another one, or one of the other precision; a structure of another size; copies. */
+static void prepared_laws(void)
+{
+#define PREPARE ENTRY(toron_hyperelastic_prepare)
+#ifdef SINGLE
+#define OTHER(name) name##_f64
+    double linear[TORON_LINEAR_ELASTIC_PROPERTIES], values[PROPERTIES];
+#else
+#define OTHER(name) name##_f32
+    float linear[TORON_LINEAR_ELASTIC_PROPERTIES], values[PROPERTIES];
+#endif
+    const truth *t = &cases[0];
+    real *properties = copied(t->properties, PROPERTIES), *own_linear = reals(TORON_LINEAR_ELASTIC_PROPERTIES);
+    ENTRY(toron_preset)("kevlar-km2-600-linear", "mm-kg-ms", own_linear, TORON_LINEAR_ELASTIC_PROPERTIES, NULL, NULL, 0);
+    OTHER(toron_preset)("kevlar-km2-600-linear", "mm-kg-ms", linear, TORON_LINEAR_ELASTIC_PROPERTIES, NULL, NULL, 0);
+    OTHER(toron_preset)("kevlar-km2-600", "mm-kg-ms", values, PROPERTIES, NULL, NULL, 0);
+    toron_hyperelastic *zero = guarded(sizeof *zero);
+    memset(zero, 0, sizeof *zero);
+    toron_linear_elastic *own = guarded(sizeof *own);
+    OTHER(toron_hyperelastic) *other = guarded(sizeof *other);
+    OTHER(toron_linear_elastic) *neither = guarded(sizeof *neither);
+    CHECK(TOLD(ENTRY(toron_linear_elastic_prepare), own, sizeof *own, own_linear, TORON_LINEAR_ELASTIC_PROPERTIES) == TORON_OK,
+          "%s", text);
+    CHECK(TOLD(OTHER(toron_hyperelastic_prepare), other, sizeof *other, values, PROPERTIES) == TORON_OK, "%s", text);
+    CHECK(TOLD(OTHER(toron_linear_elastic_prepare), neither, sizeof *neither, linear, TORON_LINEAR_ELASTIC_PROPERTIES) == TORON_OK,
+          "%s", text);
+    /* A copy that is cut off. */
+    toron_hyperelastic *cut = guarded(sizeof *cut);
+    CHECK(TOLD(PREPARE, cut, sizeof *cut, properties, PROPERTIES) == TORON_OK, "%s", text);
+    memset((char *)cut + sizeof *cut / 2, 0, sizeof *cut / 2);
+    const void *wrong[] = {zero, own, other, neither, cut};
+    const toron_point point = {.size = sizeof point, .deformation_gradient = copied(t->f, 9), .stress = reals(6)};
+    const toron_block block = {.size = sizeof block, .n = 1, .deformation_gradient = {point.deformation_gradient},
+                               .stress = {point.stress}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        REFUSED(TORON_NOT_PREPARED, NOT_PREPARED_BY(toron_hyperelastic_prepare), POINT, wrong[i], &point);
+        REFUSED(TORON_NOT_PREPARED, NOT_PREPARED_BY(toron_hyperelastic_prepare), ENTRY(toron_hyperelastic_block), wrong[i], &block);
+    }
+    CHECK(untouched(point.stress, 6 * sizeof(real)), "nothing is written");
+
+    toron_hyperelastic *law = guarded(sizeof *law);
+    const size_t sizes[] = {0, 8, sizeof *law - 8, sizeof *law + 8, sizeof *other, (size_t)1 << 40};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        char words[200];
+        snprintf(words, sizeof words, "the size of " TEXT(ENTRY(toron_hyperelastic)) " is given as %zu; it is "
+                 "%zu in this version of the library", sizes[i], sizeof *law);
+        REFUSED(TORON_BAD_SIZE, words, PREPARE, law, sizes[i], properties, PROPERTIES);
+    }
+    REFUSED(TORON_NULL_ARGUMENT, "argument law is null", PREPARE, NULL, sizeof *law, properties, PROPERTIES);
+    CHECK(untouched(law, sizeof *law), "nothing is written");
+
+    /* Every byte is the law's, so that copies can be compared; a copy needs neither the original nor the properties. */
+    toron_hyperelastic *again = prepared(properties), *copy = guarded(sizeof *copy);
+    CHECK(TOLD(PREPARE, law, sizeof *law, properties, PROPERTIES) == TORON_OK, "%s", text);
+    CHECK(memcmp(law, again, sizeof *law) == 0 && law->size == sizeof *law, "two laws of the same properties");
+    memcpy(copy, law, sizeof *copy);
+    real *stress = reals(6);
+    CHECK(TOLD(POINT, law, &point) == TORON_OK, "%s", text);
+    memset(law, 0, sizeof *law), memset(properties, 0, PROPERTIES * sizeof *properties);
+    toron_point elsewhere = point;
+    elsewhere.stress = stress;
+    CHECK(TOLD(POINT, copy, &elsewhere) == TORON_OK && memcmp(stress, point.stress, 6 * sizeof(real)) == 0, "%s", text);
+    CHECK(memcmp(copy, again, sizeof *copy) == 0, "a law is read only");
     release();
 }
 
@@ -187,9 +371,10 @@ static void set_point(arrays_of_block *a, size_t i, const truth *t)
 static toron_block arguments(const arrays_of_block *a)
 {
     real *w = a->state, *invariants = a->state + INVARIANTS * a->ld, *failure = a->state + FAILURE * a->ld;
-    return (toron_block){.n = a->n, .leading_dimension = a->ld, .deformation_gradient = a->f, .fibre = a->fibre,
+    return (toron_block){.size = sizeof(toron_block), .n = a->n, .leading_dimension = a->ld, .deformation_gradient = {a->f},
+                         .fibre = {a->fibre},
                          .energies_old = w, .invariants_old = invariants, .failure_old = failure, .density = density,
-                         .stress = a->stress, .energies = w, .invariants = invariants, .failure = failure,
+                         .stress = {a->stress}, .energies = w, .invariants = invariants, .failure = failure,
                          .modes = a->modes, .wave_speed = a->speed, .status = a->status, .active = a->active};
 }
 
@@ -215,7 +400,7 @@ static void check_as_alone(const arrays_of_block *a, size_t i, const truth *t)
         CHECK(memcmp(&new[j], &a->state[j * a->ld + i], sizeof(real)) == 0, "case %d, state %d", t->id, (int)j);
 }
 
-static void blocks(void)
+static void blocks(int way)
 {
     for (int first = 0; first < case_count;) {
         int n = run_of_cases(first, 8);
@@ -225,7 +410,8 @@ static void blocks(void)
         real *properties = copied(cases[first].properties, PROPERTIES);
         real *tangent = reals(36 * a.ld);
         toron_block block = arguments(&a);
-        int32_t status = ENTRY(toron_hyperelastic_block_tangent)(properties, PROPERTIES, &block, TORON_TANGENT_JAUMANN, tangent);
+        block.measure = TORON_TANGENT_JAUMANN, block.tangent = tangent;
+        int32_t status = evaluate_block(way, properties, &block);
         CHECK(status == TORON_OK, "%d", status);
         for (size_t c = 0; c < 36; c++)
             CHECK(untouched(tangent + c * a.ld + a.n, (a.ld - a.n) * sizeof(real)), "tangent %d", (int)c);
@@ -242,8 +428,52 @@ static void blocks(void)
     }
 }
 
+/* Every combination of outputs, by both ways, without what else may be left out: each output has the bits that it has when
+ * everything is wanted, gaps included. */
+static void block_outputs(unsigned inputs)
+{
+    enum { N = 11, LD = N + 3 };
+    static const output outputs[] = {
+        {offsetof(toron_block, stress), 6 * LD * sizeof(real)}, {offsetof(toron_block, energies), 4 * LD * sizeof(real)},
+        {offsetof(toron_block, invariants), 4 * LD * sizeof(real)}, {offsetof(toron_block, failure), 3 * LD * sizeof(real)},
+        {offsetof(toron_block, modes), 24 * LD * sizeof(real)}, {offsetof(toron_block, tangent), 81 * LD * sizeof(real)},
+        {offsetof(toron_block, wave_speed), N * sizeof(real)}, {offsetof(toron_block, active), N * sizeof(real)},
+        {offsetof(toron_block, status), N * sizeof(int32_t)}};
+    enum { COUNT = sizeof outputs / sizeof *outputs };
+    const unsigned all = (1u << COUNT) - 1;
+    const truth *t = &cases[case_count / 2];
+    for (unsigned wanted = 0; wanted <= all; wanted++) {
+        void *whole[COUNT], *part[COUNT];
+        real *properties = copied(t->properties, PROPERTIES), *f = reals(9 * LD), *old = filled(0.25, STATE * LD);
+        properties[5] = 0; /* no failure: what is left out does not change the rest */
+        for (size_t i = 0; i < N; i++)
+            for (size_t c = 0; c < 9; c++)
+                f[c * LD + i] = (real)(t->f[c] + 0.01 * (double)(i * c % 5));
+        toron_block block = {.size = sizeof block, .n = N, .leading_dimension = LD, .measure = TORON_TANGENT_NOMINAL,
+                             .density = density,
+                             .deformation_gradient = {f}};
+        if (inputs & 1)
+            block.fibre[0] = filled(3, 3 * LD);
+        if (inputs & 2)
+            block.energies_old = old;
+        if (inputs & 4)
+            block.invariants_old = old + INVARIANTS * LD;
+        if (inputs & 8)
+            block.failure_old = old + FAILURE * LD;
+        request(&block, outputs, COUNT, all, whole);
+        CHECK(evaluate_block(PREPARED, properties, &block) == TORON_OK, "%s", text);
+        for (int way = 0; way < WAYS; way++) {
+            request(&block, outputs, COUNT, wanted, part);
+            CHECK(evaluate_block(way, properties, &block) == TORON_OK, "%s", text);
+            for (size_t k = 0; k < COUNT; k++)
+                CHECK(part[k] == NULL || same_bytes(part[k], whole[k], outputs[k].bytes), "wanted %#x, output %zu", wanted, k);
+        }
+        release();
+    }
+}
+
 /* Points that cannot be evaluated, in the middle of a block: they say so, the others do not notice. */
-static void bad_points(void)
+static void bad_points(int way)
 {
     enum { NAN_AT = 1, INVERTED_AT = 3, NO_FIBRE_AT = 4, NAN_STATE_AT = 6, N = 8 };
     const truth *t = &cases[case_count / 2];
@@ -259,8 +489,12 @@ static void bad_points(void)
     a.state[NAN_STATE_AT] = NAN;
     a.state[FAILED * a.ld + NAN_STATE_AT] = 1;
     real *properties = copied(t->properties, PROPERTIES);
+    const double bar = sqrt(t->properties[0] / density);
+    real *tangent = reals(36 * a.ld);
     toron_block block = arguments(&a);
-    int32_t worst = ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, &block);
+    block.tangent = tangent;
+    int32_t worst = evaluate_block(way, properties, &block);
+    CHECK(strcmp(text, "point 4, counted from 0: " NO_FIBRE_TEXT) == 0, "%s", text);
     const int32_t wanted[N] = {0, TORON_NOT_FINITE, 0, TORON_INVERTED, TORON_FIBRE_DIRECTION, 0, TORON_STATE_NOT_FINITE, 0};
     CHECK(worst == TORON_FIBRE_DIRECTION, "%d", worst);
     for (size_t i = 0; i < N; i++) {
@@ -268,26 +502,47 @@ static void bad_points(void)
         CHECK(a.active[i] == (wanted[i] == 0 ? 1 - a.state[FAILED * a.ld + i] : 0), "point %d", (int)i);
         for (size_t c = 0; wanted[i] != 0 && c < 6; c++)
             CHECK(a.stress[c * a.ld + i] == 0, "point %d", (int)i);
+        for (size_t c = 0; wanted[i] != 0 && c < 24; c++)
+            CHECK(a.modes[c * a.ld + i] == 0, "point %d", (int)i);
+        for (size_t c = 0; wanted[i] != 0 && c < 36; c++)
+            CHECK(tangent[c * a.ld + i] == 0, "point %d", (int)i);
+        CHECK(wanted[i] == 0 || fabs(a.speed[i] - bar) <= 1e-6 * bar, "point %d: wave speed %g at rest", (int)i, a.speed[i]);
         if (wanted[i] == 0)
             check_as_alone(&a, i, t);
     }
+    block.status = NULL;
+    CHECK(evaluate_block(way, properties, &block) == TORON_FIBRE_DIRECTION && strcmp(text, NO_FIBRE_TEXT) == 0, "%s", text);
     CHECK(a.state[NAN_AT] == 7, "the old energy stays");
     CHECK(a.state[NAN_STATE_AT] == 0, "NaN does not");
     check_gaps(&a);
     release();
 }
 
-/* A wrong call: the code, and nothing is written. */
-static void refused(const real *properties, size_t count, toron_block block, arrays_of_block a, int32_t wanted)
+/* A wrong call: the code, the message, and nothing is written. */
+static void refused(const real *properties, size_t count, toron_block block, arrays_of_block a, int32_t wanted, const char *words)
 {
-    int32_t status = ENTRY(toron_hyperelastic_block)(properties, count, &block);
-    CHECK(status == wanted, "%d, wanted %d", status, wanted);
+#define BLOCK_WITH ENTRY(toron_hyperelastic_block_with_properties)
+    if (wanted == TORON_OK)
+        CHECK(TOLD(BLOCK_WITH, properties, count, &block) == TORON_OK, "%s", text);
+    else
+        REFUSED(wanted, words, BLOCK_WITH, properties, count, &block);
     CHECK(untouched(a.stress, 6 * a.ld * sizeof(real)), "stress, status %d", wanted);
     CHECK(untouched(a.modes, 24 * a.ld * sizeof(real)), "modes, status %d", wanted);
     CHECK(untouched(a.speed, a.ld * sizeof(real)), "wave speed, status %d", wanted);
     CHECK(untouched(a.status, a.ld * sizeof(int32_t)), "status %d", wanted);
     for (size_t j = 0; j < STATE; j++)
         CHECK(a.state[j * a.ld] == 0, "state, status %d", wanted);
+}
+
+/* A block that is refused, by both ways to call. */
+static void refused_block(const real *properties, toron_block block, arrays_of_block a, int32_t wanted, const char *words)
+{
+    refused(properties, PROPERTIES, block, a, wanted, words);
+    if (wanted == TORON_OK)
+        CHECK(evaluate_block(PREPARED, properties, &block) == TORON_OK, "%s", text);
+    else
+        REFUSED(wanted, words, ENTRY(toron_hyperelastic_block), prepared(properties), &block);
+    CHECK(untouched(a.stress, 6 * a.ld * sizeof(real)), "stress, status %d", wanted);
 }
 
 static void wrong_calls(void)
@@ -298,48 +553,92 @@ static void wrong_calls(void)
     set_point(&a, 1, t);
     real *properties = copied(t->properties, PROPERTIES), *wrong = copied(t->properties, PROPERTIES);
     const toron_block good = arguments(&a);
-    refused(NULL, PROPERTIES, good, a, TORON_NULL_ARGUMENT);
-    refused(properties, PROPERTIES - 1, good, a, TORON_PROPERTY_COUNT);
-    refused(properties, 0, good, a, TORON_PROPERTY_COUNT);
-    refused(properties, (size_t)-1, good, a, TORON_PROPERTY_COUNT);
+    refused(NULL, PROPERTIES, good, a, TORON_NULL_ARGUMENT, "argument properties is null");
+    refused(properties, PROPERTIES - 1, good, a, TORON_PROPERTY_COUNT, "number of properties: 10 given, 11 needed");
+    refused(properties, 0, good, a, TORON_PROPERTY_COUNT, "number of properties: 0 given, 11 needed");
+    refused(properties, (size_t)-1, good, a, TORON_PROPERTY_COUNT, "number of properties: 9223372036854775807 given, 11 needed");
     wrong[0] = NAN;
-    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_NOT_FINITE);
+    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_NOT_FINITE,
+            "property 1 (k_el, longitudinal elongation stiffness) is NaN; allowed: a number from 0 to 1e25");
     wrong[0] = -1;
-    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_OUT_OF_BOUNDS);
+    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_OUT_OF_BOUNDS,
+            "property 1 (k_el, longitudinal elongation stiffness) is -1.0; allowed: a number from 0 to 1e25");
     wrong[0] = 1, wrong[2] = 1;
-    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_OUT_OF_BOUNDS);
+    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_OUT_OF_BOUNDS,
+            "property 3 (p, transverse compaction exponent) is 1.0; allowed: a number > 1, at most 40");
     wrong[2] = 2, wrong[8] = wrong[9] = wrong[10] = 0;
-    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_DIRECTION);
+    refused(wrong, PROPERTIES, good, a, TORON_PROPERTY_DIRECTION,
+            "properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero");
     toron_block block = good;
-    block.deformation_gradient = NULL;
-    refused(properties, PROPERTIES, block, a, TORON_NULL_ARGUMENT);
+    block.deformation_gradient[0] = NULL;
+    refused_block(properties, block, a, TORON_NULL_ARGUMENT, "argument deformation_gradient is null");
     block = good, block.leading_dimension = 1;
-    refused(properties, PROPERTIES, block, a, TORON_BAD_LEADING_DIMENSION);
-    block = (toron_block){.n = 2, .leading_dimension = 1, .deformation_gradient = a.f, .stress = a.stress};
-    refused(properties, PROPERTIES, block, a, TORON_BAD_LEADING_DIMENSION);
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION,
+                  "leading dimension of deformation_gradient: 1 given, 2 needed");
+    block = (toron_block){.size = sizeof block, .n = 2, .leading_dimension = 1, .deformation_gradient = {a.f},
+                          .stress = {a.stress}};
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION,
+                  "leading dimension of deformation_gradient: 1 given, 2 needed");
+    block = good, block.state_layout.leading_dimension = 1;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 1 given, 2 needed");
+    block = good, block.stress_layout = (toron_layout){1, 5}; /* rows of five numbers for six */
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of stress: 1 given, 6 needed");
+    block = good, block.state_layout = (toron_layout){2, 3};
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 2 given, 4 needed");
+    block = good, block.n = (size_t)-1;
+    refused_block(properties, block, a, TORON_BAD_COUNT,
+                  "argument n is 9223372036854775807; allowed: 0 to 72057594037927935");
+    block = good, block.modes_layout.leading_dimension = 1;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of modes: 1 given, 2 needed");
+    block = good, block.tangent_layout.leading_dimension = 1, block.tangent = wrong;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of tangent: 1 given, 2 needed");
     block = good, block.density = 0;
-    refused(properties, PROPERTIES, block, a, TORON_BAD_ARGUMENT);
+    refused_block(properties, block, a, TORON_BAD_ARGUMENT, "argument density is 0.0; allowed: " DENSITIES_TEXT);
+    block = good, block.density = NAN;
+    refused_block(properties, block, a, TORON_BAD_ARGUMENT, "argument density is NaN; allowed: " DENSITIES_TEXT);
+    block = good, block.level = 4;
+    refused_block(properties, block, a, TORON_BAD_ARGUMENT, "argument level is 4; allowed: " LEVELS_TEXT);
+    block = good, block.measure = 4, block.tangent = wrong;
+    refused_block(properties, block, a, TORON_BAD_ARGUMENT, "argument measure is 4; allowed: " MEASURES_TEXT);
+    /* Some pointers to components, but not all of them. */
+    block = good, block.deformation_gradient[5] = a.f;
+    refused_block(properties, block, a, TORON_NULL_ARGUMENT, "argument deformation_gradient, one of its components, is null");
+    block = good, block.fibre[2] = a.fibre;
+    refused_block(properties, block, a, TORON_NULL_ARGUMENT, "argument fibre, one of its components, is null");
+    block = good, block.stress[0] = NULL, block.stress[3] = a.stress;
+    refused_block(properties, block, a, TORON_NULL_ARGUMENT, "argument stress, one of its components, is null");
     block = good, block.n = 0;
-    refused(properties, PROPERTIES, block, a, TORON_OK);
-    CHECK(ENTRY(toron_hyperelastic_block)(properties, PROPERTIES, NULL) == TORON_NULL_ARGUMENT, "no block");
-    int32_t status
-        = ENTRY(toron_hyperelastic_point)(properties, PROPERTIES, NULL, NULL, NULL, NULL, a.stress, NULL, 0, NULL);
-    CHECK(status == TORON_NULL_ARGUMENT && untouched(a.stress, sizeof(real)), "no F: %d", status);
+    refused_block(properties, block, a, TORON_OK, "");
+    block = (toron_block){.size = sizeof block};
+    refused_block(properties, block, a, TORON_OK, "");
     /* Only the deformation gradient is needed. */
-    block = (toron_block){.n = 2, .leading_dimension = a.ld, .deformation_gradient = a.f};
-    refused(properties, PROPERTIES, block, a, TORON_OK);
+    block = (toron_block){.size = sizeof block, .n = 2, .leading_dimension = a.ld, .deformation_gradient = {a.f}};
+    refused_block(properties, block, a, TORON_OK, "");
+    REFUSED(TORON_NULL_ARGUMENT, "argument block is null", BLOCK_WITH, properties, PROPERTIES, NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument block is null", ENTRY(toron_hyperelastic_block), prepared(properties), NULL);
+    REFUSED(TORON_NULL_ARGUMENT, "argument law is null", ENTRY(toron_hyperelastic_block), NULL, &good);
     release();
 }
 
 int main(int argc, char **argv)
 {
     read_cases(argc, argv);
-    every_case();
-    ways_to_ask();
-    tangents();
-    wrong_tangents();
-    blocks();
-    bad_points();
+    for (int way = 0; way < WAYS; way++) {
+        every_case(way);
+        ways_to_ask(way);
+        tangents(way);
+        blocks(way);
+        bad_points(way);
+        for (unsigned inputs = 0; inputs < 4; inputs++)
+            point_outputs(way, &cases[case_count / 2], inputs);
+    }
+    for (unsigned inputs = 0; inputs < 16; inputs += 5)
+        block_outputs(inputs);
+    wrong_points();
     wrong_calls();
+    prepared_laws();
+#ifndef SINGLE
+    least_acoustic_eigenvalues();
+#endif
     return finish();
 }

@@ -1,5 +1,6 @@
 /* Eight threads that call the library for the first time at the same moment, and then everything at once in their own order,
- * blocks of shared inputs among it. Afterwards the main thread does the same alone: every bit is as there.
+ * blocks of shared inputs among it: first with laws of their own, then with laws that one of them has prepared for all. Afterwards
+ * the main thread does the same alone: every bit is as there.
  *
  *     threads CASES [ROUNDS [ADDRESS ...]]
  *
@@ -14,8 +15,9 @@
 
 #include "check.h"
 
-enum { THREADS = 8, MOST_POINTS = 64, LEVELS = 4, LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES, LINEAR_STATE = TORON_LINEAR_ELASTIC_STATE };
-enum { POINTS, TANGENTS, BLOCKS, LINEAR_BLOCKS, VALIDATIONS, TASKS };
+enum { THREADS = 8, MOST_POINTS = 64, LEVELS = 4, LINEAR = TORON_LINEAR_ELASTIC_PROPERTIES,
+      LINEAR_STATE = TORON_LINEAR_ELASTIC_STATE };
+enum { POINTS, TANGENTS, BLOCKS, LINEAR_BLOCKS, PREPARATIONS, TASKS };
 static const size_t sizes[] = {1, 4, 7, 17, MOST_POINTS};
 enum { SIZES = sizeof sizes / sizeof *sizes };
 
@@ -23,6 +25,10 @@ enum { SIZES = sizeof sizes / sizeof *sizes };
 static real properties[MOST_CASES][PROPERTIES], deformations[MOST_CASES][9], block_f[9 * MOST_POINTS], block_rest[9 * MOST_POINTS];
 static const real linear_properties[LINEAR] = {(real)79.414, (real)0.794, (real)0.126, (real)3.637, 1, 0, 0, 0, 0, 0};
 static long rounds = 50;
+/* What the first thread prepares for all of them, once each has had its first round. */
+static toron_hyperelastic laws[MOST_CASES];
+static toron_linear_elastic linear_law;
+static int laws_are_shared;
 static pthread_barrier_t everyone_is_there;
 
 /* What one thread gets to know. */
@@ -37,18 +43,37 @@ typedef struct {
         int32_t status[MOST_POINTS], linear_status[MOST_POINTS];
     } blocks[SIZES][LEVELS];
     struct {
-        char text[200];
+        toron_hyperelastic law;
+        toron_linear_elastic linear;
+        char text[TORON_MESSAGE_CAPACITY];
         int32_t status;
-    } validations[3];
+    } preparations[3];
 } answers;
+
+#define PREPARE ENTRY(toron_hyperelastic_prepare)
+#define PREPARE_LINEAR ENTRY(toron_linear_elastic_prepare)
+
+/* The law of a case: everyone's, or one that is prepared here. */
+static const toron_hyperelastic *law_of(int i, toron_hyperelastic *room)
+{
+    if (laws_are_shared)
+        return &laws[i];
+    PREPARE(room, sizeof *room, properties[i], PROPERTIES, NULL, 0);
+    return room;
+}
 
 static void one_block(answers *a, size_t size, int32_t level)
 {
+    toron_hyperelastic room;
     real *state = a->blocks[size][level].state;
-    const toron_block block = {.n = sizes[size], .leading_dimension = MOST_POINTS, .deformation_gradient = block_f, .level = level,
-                               .stress = a->blocks[size][level].stress, .energies = state, .invariants = state + INVARIANTS * MOST_POINTS,
-                               .failure = state + FAILURE * MOST_POINTS, .status = a->blocks[size][level].status};
-    ENTRY(toron_hyperelastic_block)(properties[0], PROPERTIES, &block);
+    const toron_block block = {.size = sizeof block, .n = sizes[size], .leading_dimension = MOST_POINTS, .level = level,
+                               .deformation_gradient = {block_f}, .stress = {a->blocks[size][level].stress}, .energies = state,
+                               .invariants = state + INVARIANTS * MOST_POINTS, .failure = state + FAILURE * MOST_POINTS,
+                               .status = a->blocks[size][level].status};
+    if (level % 2 == 0)
+        ENTRY(toron_hyperelastic_block)(law_of(0, &room), &block, NULL, 0);
+    else
+        ENTRY(toron_hyperelastic_block_with_properties)(properties[0], PROPERTIES, &block, NULL, 0);
 }
 
 static void one_linear_block(answers *a, size_t size, int32_t level)
@@ -57,38 +82,49 @@ static void one_linear_block(answers *a, size_t size, int32_t level)
     for (size_t c = 0; c < 9; c++)
         for (size_t i = 0; i < sizes[size]; i++)
             axes[c * MOST_POINTS + i] = c % 4 == 0;
-    const toron_linear_block block = {.n = sizes[size], .leading_dimension = MOST_POINTS, .f_old = block_rest, .f_new = block_f, .axes = axes,
-                                      .level = level, .state_new = a->blocks[size][level].linear_state,
-                                      .stress = a->blocks[size][level].linear_stress,
+    const toron_linear_block block = {.size = sizeof block, .n = sizes[size], .leading_dimension = MOST_POINTS,
+                                      .rotation = (int32_t)size % 3, .criterion = level % 2, .level = level, .f_old = {block_rest},
+                                      .f_new = {block_f}, .axes = axes, .state_new = a->blocks[size][level].linear_state,
+                                      .stress = {a->blocks[size][level].linear_stress},
                                       .status = a->blocks[size][level].linear_status};
-    ENTRY(toron_linear_elastic_block)(linear_properties, LINEAR, &block, (int32_t)size % 3, level % 2);
+    if (laws_are_shared)
+        ENTRY(toron_linear_elastic_block)(&linear_law, &block, NULL, 0);
+    else
+        ENTRY(toron_linear_elastic_block_with_properties)(linear_properties, LINEAR, &block, NULL, 0);
 }
 
-static void validate(answers *a)
+static void prepare_laws(answers *a)
 {
     for (size_t i = 0; i < 3; i++) {
         real values[PROPERTIES];
         memcpy(values, properties[0], sizeof values);
         if (i > 0)
             values[i] = -1;
-        ENTRY(toron_hyperelastic_validate)(values, PROPERTIES, a->validations[i].text, 200, &a->validations[i].status);
+        PREPARE_LINEAR(&a->preparations[i].linear, sizeof a->preparations[i].linear, linear_properties, LINEAR, NULL, 0);
+        a->preparations[i].status = PREPARE(&a->preparations[i].law, sizeof a->preparations[i].law, values, PROPERTIES,
+                                            a->preparations[i].text, TORON_MESSAGE_CAPACITY);
     }
 }
 
 static void run_task(int task, answers *a)
 {
-    for (int i = 0; (task == POINTS || task == TANGENTS) && i < case_count; i++)
-        if (task == POINTS)
-            a->points[i].status = ENTRY(toron_hyperelastic_point)(properties[i], PROPERTIES, deformations[i], NULL, NULL,
-                                                                  a->points[i].state, a->points[i].stress, NULL, 0, NULL);
-        else
-            a->points[i].tangent_status = ENTRY(toron_hyperelastic_point_tangent)(
-                properties[i], PROPERTIES, deformations[i], NULL, NULL, NULL, NULL, TORON_TANGENT_JAUMANN, a->points[i].tangent);
+    for (int i = 0; (task == POINTS || task == TANGENTS) && i < case_count; i++) {
+        toron_hyperelastic room;
+        toron_point point = {.size = sizeof point, .measure = TORON_TANGENT_JAUMANN, .deformation_gradient = deformations[i]};
+        if (task == POINTS) {
+            point.state_new = a->points[i].state, point.stress = a->points[i].stress;
+            a->points[i].status = ENTRY(toron_hyperelastic_point)(law_of(i, &room), &point, NULL, 0);
+        } else {
+            point.tangent = a->points[i].tangent;
+            a->points[i].tangent_status = ENTRY(toron_hyperelastic_point_with_properties)(properties[i], PROPERTIES, &point, NULL,
+                                                                                          0);
+        }
+    }
     for (size_t size = 0; (task == BLOCKS || task == LINEAR_BLOCKS) && size < SIZES; size++)
         for (int32_t level = 0; level < LEVELS; level++)
             (task == BLOCKS ? one_block : one_linear_block)(a, size, level);
-    if (task == VALIDATIONS)
-        validate(a);
+    if (task == PREPARATIONS)
+        prepare_laws(a);
 }
 
 typedef struct {
@@ -101,11 +137,21 @@ static void *run(void *argument)
 {
     thread *t = argument;
     pthread_barrier_wait(&everyone_is_there);
-    for (long round = 0; round < rounds; round++) {
+    for (long round = 0; round <= rounds; round++) {
         answers *a = round == 0 ? &t->first : &t->again;
         for (int i = 0; i < TASKS; i++)
             run_task((i + t->number) % TASKS, a);
         t->changes += memcmp(a, &t->first, sizeof *a) != 0;
+        if (round > 0)
+            continue;
+        pthread_barrier_wait(&everyone_is_there);
+        for (int i = 0; t->number == 0 && i < case_count; i++)
+            PREPARE(&laws[i], sizeof laws[i], properties[i], PROPERTIES, NULL, 0);
+        if (t->number == 0) {
+            PREPARE_LINEAR(&linear_law, sizeof linear_law, linear_properties, LINEAR, NULL, 0);
+            laws_are_shared = 1;
+        }
+        pthread_barrier_wait(&everyone_is_there);
     }
     return NULL;
 }
@@ -151,6 +197,8 @@ int main(int argc, char **argv)
         pthread_join(threads[i], NULL);
     for (int task = 0; task < TASKS; task++)
         run_task(task, &alone->first);
+    CHECK(alone->first.points[0].status == TORON_OK && alone->first.preparations[1].status == TORON_PROPERTY_OUT_OF_BOUNDS,
+          "the law");
     for (int i = 0; i < THREADS; i++) {
         CHECK(all[i].changes == 0, "thread %d: %ld rounds differ", i, all[i].changes);
         CHECK(memcmp(&all[i].first, &alone->first, sizeof alone->first) == 0, "thread %d differs", i);

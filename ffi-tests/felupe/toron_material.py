@@ -1,8 +1,7 @@
 """The yarn law as a material of felupe: the library's block entry through ctypes, on felupe's own arrays.
 
-A block is component-major: component c of point i at c n + i, F by columns. felupe's arrays are (3, 3, quadrature points,
-cells), F by rows, but it writes F into whatever array it is given: `attach` gives it one whose memory is by columns. Nothing
-is copied on the way in, nor the tangent on the way out.
+felupe's arrays are (3, 3, quadrature points, cells), and the library takes a pointer to each component of F: nothing is copied on
+the way in, nor the tangent on the way out.
 """
 
 import ctypes
@@ -10,53 +9,65 @@ import ctypes
 import felupe
 import numpy as np
 
-STATE, NOMINAL = 11, 3
-_pointer = ctypes.POINTER(ctypes.c_double)
+NOMINAL = 3
+_pointer, _size = ctypes.c_void_p, ctypes.c_size_t
+
+
+class Law(ctypes.Structure):
+    """`toron_hyperelastic_f64` of toron.h."""
+
+    _fields_ = [("tag", ctypes.c_uint64), ("size", ctypes.c_uint64), ("values", ctypes.c_double * 62)]
+
+
+class Layout(ctypes.Structure):
+    """`toron_layout` of toron.h."""
+
+    _fields_ = [("leading_dimension", _size), ("stride", _size)]
 
 
 class Block(ctypes.Structure):
     """`toron_block_f64` of toron.h."""
 
-    _fields_ = [("n", ctypes.c_size_t), ("leading_dimension", ctypes.c_size_t)] + [
-        (name, ctypes.c_double if name == "density" else _pointer)
-        for name in "deformation_gradient fibre energies_old invariants_old failure_old density "
-        "stress energies invariants failure modes wave_speed".split()
-    ]
-    _fields_ += [("status", ctypes.POINTER(ctypes.c_int32)), ("active", _pointer), ("level", ctypes.c_int32)]
-
-
-def _address(array):
-    assert array.flags.c_contiguous and array.dtype == np.float64
-    return array.ctypes.data_as(_pointer)
+    _fields_ = (
+        [(name, _size) for name in "size n leading_dimension".split()]
+        + [("measure", ctypes.c_int32), ("level", ctypes.c_int32), ("density", ctypes.c_double)]
+        + [("deformation_gradient", _pointer * 9), ("fibre", _pointer * 3)]
+        + [(name, _pointer) for name in "energies_old invariants_old failure_old".split()]
+        + [("stress", _pointer * 6)]
+        + [(name, _pointer) for name in "energies invariants failure modes tangent wave_speed active status".split()]
+        + [(f"{name}_layout", Layout) for name in "deformation_gradient fibre state stress modes tangent".split()]
+    )
 
 
 class Yarn:
     """Properties in the order of the library's table; no failure, so that there is no state to keep."""
 
     def __init__(self, library, properties):
-        self.properties = np.array(properties, dtype=float)
-        self.entry = ctypes.CDLL(library).toron_hyperelastic_block_tangent_f64
-        self.entry.argtypes = [_pointer, ctypes.c_size_t, ctypes.POINTER(Block), ctypes.c_int32, _pointer]
+        self.library, self.law = ctypes.CDLL(library), Law()
+        self.message = ctypes.create_string_buffer(512)
+        properties = np.array(properties, dtype=float)
+        self._check(
+            self.library.toron_hyperelastic_prepare_f64(
+                ctypes.byref(self.law), _size(ctypes.sizeof(Law)), _pointer(properties.ctypes.data), _size(properties.size), *self._room()
+            )
+        )
         self.material = felupe.Material(self._stress, self._elasticity)
 
-    def attach(self, solid):
-        """From now on felupe writes F of this solid by columns."""
-        f = solid.results.kinematics[0]
-        by_columns = np.ascontiguousarray(f.swapaxes(0, 1))
-        solid.results.kinematics = (by_columns.swapaxes(0, 1),)
+    def _room(self):
+        return self.message, _size(len(self.message))
+
+    def _check(self, status):
+        if status != 0:
+            raise ValueError(f"toron: {self.message.value.decode()} (status {status})")
 
     def _call(self, f, **outputs):
-        f = f.swapaxes(0, 1)  # the memory is by columns
-        n = f[0, 0].size
-        tangent = outputs.pop("tangent", None)
-        block = Block(n=n, leading_dimension=n, deformation_gradient=_address(f))
+        columns = [f[i, j] for j in range(3) for i in range(3)]
+        assert all(x.flags.c_contiguous and x.dtype == np.float64 for x in [*columns, *outputs.values()])
+        block = Block(size=ctypes.sizeof(Block), n=f[0, 0].size, measure=NOMINAL)
+        block.deformation_gradient[:] = [x.ctypes.data for x in columns]
         for name, array in outputs.items():
-            setattr(block, name, _address(array))
-        worst = self.entry(
-            _address(self.properties), self.properties.size, block, NOMINAL, tangent if tangent is None else _address(tangent)
-        )
-        if worst != 0:
-            raise ValueError(f"toron: status {worst}")
+            setattr(block, name, array.ctypes.data)
+        self._check(self.library.toron_hyperelastic_block_f64(ctypes.byref(self.law), ctypes.byref(block), *self._room()))
 
     def _stress(self, x):
         """P = F S, S being the sum over the modes, 11 22 33 12 23 31."""

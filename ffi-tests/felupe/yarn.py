@@ -44,7 +44,6 @@ def main(library):
     field = felupe.FieldContainer([felupe.Field(felupe.RegionHexahedron(mesh), dim=3)])
     yarn = Yarn(library, PROPERTIES)
     solid = felupe.SolidBody(yarn.material, field)
-    yarn.attach(solid)
     # The plate covers the half of the segment that is far from the clamp.
     under = skin[mesh.points[skin, 0] > 0.5 * HALF_LENGTH]
     contact = felupe.ContactRigidPlane(field, points=under, centerpoint=plate, normal=[0, 0, -1], multiplier=1e3)

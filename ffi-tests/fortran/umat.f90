@@ -55,8 +55,8 @@ program umat_test
   call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40', 11, 12, 3)
   call refused('number of properties: 10 given, 11 needed', 10, 12, 3)
   props(3) = 2
-  call refused('fewer state variables', 11, 10, 3)
-  call refused('a count that this function does not support', 11, 12, 2)
+  call refused('number of state variables (*DEPVAR): 10 given, 11 needed', 11, 10, 3)
+  call refused('NSHR (1 for plane strain and axisymmetric solids): 2 given, 3 needed', 11, 12, 2)
   props(9:11) = real([0.6, 0.0, 0.8], c_double)
   call refused('neither in the plane', 11, 12, 1)
   call check_written(7, 'material FIBRE:')

@@ -59,8 +59,8 @@ program vumat_test
   call refused('property 3 (p, transverse compaction exponent) is 0.5; allowed: a number > 1, at most 40', 11, nstatev, 3)
   call refused('number of properties: 10 given, 11 needed', 10, nstatev, 3)
   props(3) = 2
-  call refused('fewer state variables', 11, 10, 3)
-  call refused('a count that this function does not support', 11, nstatev, 1)
+  call refused('number of state variables (*DEPVAR): 10 given, 11 needed', 11, 10, 3)
+  call refused('NSHR (solids only): 1 given, 3 needed', 11, nstatev, 1)
   call check_written(7, 'material FIBRE:')
   call finish
 

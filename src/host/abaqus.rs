@@ -16,10 +16,16 @@
 //! `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`.
 
 use core::cell::Cell;
+use core::mem::MaybeUninit;
+use core::slice;
+
+use libc::{c_char, size_t};
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, StressAndState};
+use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::level::Level;
 use crate::law::number::real::Real;
 use crate::law::number::vector::{cross, dot};
 use crate::law::parameters;
@@ -28,22 +34,39 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status;
 use crate::law::voigt::Moduli;
 
-use super::border::properties;
-use super::environment::in_default_environment;
+use super::border::{Message, check_pointers, entry, properties};
+use super::c::level;
+use super::structures::{read, structures};
 
 /// The value that PNEWDT is lowered to if a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// Checks the numbers of components and state variables; `allowed` holds the allowed numbers of shear components. Returns a
-/// status code.
-fn counts(direct: i32, shear: i32, allowed: &[i32], state: i32) -> i32 {
-    if direct != 3 || !allowed.contains(&shear) {
-        status::BAD_COUNT
-    } else if state < HYPERELASTIC_STATE as i32 {
-        status::STATE_COUNT
-    } else {
-        status::OK
+/// Checks the numbers of components and state variables, of which `allowed` are the numbers of shear components. `texts` says what
+/// direct and shear components are.
+///
+/// # Errors
+/// The first number that is wrong.
+fn check_counts(direct: i32, shear: i32, allowed: &[i32], state: i32, texts: [&'static str; 2]) -> Result<(), Error> {
+    let wrong = |code: i32, what: &'static str, found: i32, wanted: usize| {
+        Err(Error::Count { code, what, found: i64::from(found), wanted: wanted as i64 })
+    };
+    if direct != 3 {
+        return wrong(status::BAD_COUNT, texts[0], direct, 3);
     }
+    if !allowed.contains(&shear) {
+        return wrong(status::BAD_COUNT, texts[1], shear, 3);
+    }
+    if state < HYPERELASTIC_STATE as i32 {
+        return wrong(status::STATE_COUNT, "number of state variables (*DEPVAR)", state, HYPERELASTIC_STATE);
+    }
+    Ok(())
+}
+
+/// The number of properties, which Abaqus passes with a sign.
+fn property_count(nprops: i32) -> Result<usize, Error> {
+    let (found, wanted) = (i64::from(nprops), parameters::HYPERELASTIC_PROPERTIES as i64);
+    let what = "number of properties";
+    usize::try_from(nprops).map_err(|_| Error::Count { code: status::PROPERTY_COUNT, what, found, wanted })
 }
 
 /// Checks the arguments of a UMAT, evaluates its point with or without DDSDDE and stores the results. Returns the status code.
@@ -65,51 +88,76 @@ unsafe fn umat<D: Derivative<N>, const N: usize>(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
+    message: Message,
     tangent: D,
 ) -> i32
 where
     for<'a> Umat<'a>: Sink<f64, N>,
 {
-    let pointers = [stress.cast_const(), statev, sse, pnewdt, dfgrd1, props];
-    if pointers.iter().any(|pointer| pointer.is_null()) {
-        return status::NULL_ARGUMENT;
-    }
-    if nlgeom == 0 {
-        return status::NO_DEFORMATION_GRADIENT;
-    }
-    let code = counts(ndi, nshr, &[1, 3], nstatv);
-    if code != status::OK {
-        return code;
-    }
-    // SAFETY: not null, and the caller's promise.
-    let (properties, f, state) = unsafe {
-        (
-            properties(props, usize::try_from(nprops).unwrap_or(0), &parameters::HYPERELASTIC),
-            &*dfgrd1.cast::<[[f64; 3]; 3]>(),
-            &*statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
-        )
-    };
-    let properties = match properties {
-        Ok(properties) => properties,
-        Err(error) => return error.code(),
-    };
-    if nshr == 1 {
-        let code = in_default_environment(|| match Hyperelastic::new(properties) {
-            Err(error) => error.code(),
-            Ok(_) if out_of_plane(properties) => status::FIBRE_OUT_OF_PLANE,
-            Ok(_) => status::OK,
-        });
+    let solid = ndi == 3 && (nshr == 3 || nshr == 1) && nstatv >= HYPERELASTIC_STATE as i32 && nlgeom != 0;
+    let given = !stress.is_null() & !statev.is_null() & !sse.is_null() & !pnewdt.is_null() & !dfgrd1.is_null();
+    if !solid || !given || props.is_null() || nprops != parameters::HYPERELASTIC_PROPERTIES as i32 || nshr == 1 {
+        // Every argument is looked at only if one of them is wrong, or if the element is two-dimensional.
+        let pointers = [
+            (stress.cast_const(), "stress"),
+            (statev, "statev"),
+            (sse, "sse"),
+            (pnewdt, "pnewdt"),
+            (dfgrd1, "dfgrd1"),
+            (props, "props"),
+        ];
+        // SAFETY: the caller's promise.
+        let code = unsafe {
+            entry(message, || {
+                check_pointers(&pointers)?;
+                check_umat(nstatv, ndi, nshr, nlgeom)?;
+                let properties = properties(props, property_count(nprops)?, &parameters::HYPERELASTIC)?;
+                if nshr == 1 {
+                    Hyperelastic::new(properties)?;
+                    if out_of_plane(properties) {
+                        return Err(Error::Plain(status::FIBRE_OUT_OF_PLANE));
+                    }
+                }
+                Ok(status::OK)
+            })
+        };
         if code != status::OK {
             return code;
         }
     }
     // The structures are built inside the closure, so that their fields need not be copied as a whole.
-    in_default_environment(move || {
+    let body = move || {
+        // SAFETY: not null, and the caller's promise.
+        let (source, f, state) = unsafe {
+            (
+                slice::from_raw_parts(props, parameters::HYPERELASTIC_PROPERTIES),
+                &*dfgrd1.cast::<[[f64; 3]; 3]>(),
+                &*statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
+            )
+        };
         let mut status = status::OK;
         let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
-        let call = Call { properties, f, fibre: None, state, tangent, sink };
-        evaluate_call(call).map_or_else(|error| error.code(), |()| status)
-    })
+        evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
+        Ok(status)
+    };
+    // SAFETY: the caller's promise.
+    unsafe { entry(message, body) }
+}
+
+/// Checks the numbers of a UMAT.
+///
+/// # Errors
+/// The first that is wrong.
+#[cold]
+fn check_umat(nstatv: i32, ndi: i32, nshr: i32, nlgeom: i32) -> Result<(), Error> {
+    if nlgeom == 0 {
+        return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+    }
+    let texts = [
+        "direct stress components, NDI (solids only)",
+        "shear stress components, NSHR (1 for plane strain and axisymmetric solids)",
+    ];
+    check_counts(ndi, nshr, &[1, 3], nstatv, texts)
 }
 
 /// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
@@ -130,11 +178,14 @@ pub unsafe extern "C" fn umat_f64(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
-    let ddsdde = core::ptr::null_mut();
+    let (ddsdde, message) = (core::ptr::null_mut(), Message { text: message, capacity });
+    let tangent = StressAndState;
     // SAFETY: the caller's promise.
     unsafe {
-        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, StressAndState)
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
     }
 }
 
@@ -157,13 +208,18 @@ pub unsafe extern "C" fn umat_tangent_f64(
     ndi: i32,
     nshr: i32,
     nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
         if ddsdde.is_null() {
-            return umat_f64(stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom);
+            return umat_f64(
+                stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
+            );
         }
-        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, JaumannModulus)
+        let (message, tangent) = (Message { text: message, capacity }, JaumannModulus);
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
     }
 }
 
@@ -255,6 +311,8 @@ fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Vumat<T> {
+    /// The size of this structure.
+    pub size: size_t,
     /// Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
     /// (11).
     pub nblock: i32,
@@ -262,9 +320,11 @@ pub struct Vumat<T> {
     pub nshr: i32,
     pub nstatev: i32,
     pub nprops: i32,
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; 0: the best.
+    pub level: i32,
     /// If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
-    pub step_time: T,
-    pub total_time: T,
+    pub step_time: f64,
+    pub total_time: f64,
     /// In: properties, nprops.
     pub props: *const T,
     /// In, 1: current density at the middle of the step.
@@ -286,6 +346,11 @@ pub struct Vumat<T> {
     pub ener_inelas_new: *mut T,
 }
 
+structures! { Vumat, "toron_vumat_f64", "toron_vumat_f32", "block"; }
+
+#[cfg(target_pointer_width = "64")]
+const _: () = assert!(size_of::<Vumat<f64>>() == 6 * 8 + 13 * 8 && size_of::<Vumat<f32>>() == size_of::<Vumat<f64>>());
+
 /// Component `c` of point `i` in an array of a VUMAT.
 macro_rules! at {
     ($array:expr, $block:expr, $c:expr, $i:expr) => {
@@ -295,43 +360,35 @@ macro_rules! at {
 
 /// # Safety
 /// As for `toron_abaqus_vumat_f64`.
-unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
-    if block.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    // SAFETY: not null, and the caller's promise.
-    let block = unsafe { &*block };
-    let pointers = [
-        block.props,
-        block.density,
-        block.strain_inc,
-        block.stretch_old,
-        block.stretch_new,
-        block.stress_old,
-        block.state_old,
-        block.ener_intern_old,
-        block.ener_inelas_old,
-        block.stress_new,
-        block.state_new,
-        block.ener_intern_new,
-        block.ener_inelas_new,
-    ];
-    if pointers.iter().any(|pointer| pointer.is_null()) {
-        return status::NULL_ARGUMENT;
-    }
-    let code = counts(block.ndir, block.nshr, &[3], block.nstatev);
-    if code != status::OK {
-        return code;
-    }
+unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    let block = unsafe { read(block, &mut room) }?;
+    check_pointers(&[
+        (block.props, "props"),
+        (block.density, "density"),
+        (block.strain_inc, "strain_inc"),
+        (block.stretch_old, "stretch_old"),
+        (block.stretch_new, "stretch_new"),
+        (block.stress_old, "stress_old"),
+        (block.state_old, "state_old"),
+        (block.ener_intern_old, "ener_intern_old"),
+        (block.ener_inelas_old, "ener_inelas_old"),
+        (block.stress_new, "stress_new"),
+        (block.state_new, "state_new"),
+        (block.ener_intern_new, "ener_intern_new"),
+        (block.ener_inelas_new, "ener_inelas_new"),
+    ])?;
+    let texts = ["direct stress components, NDIR (solids only)", "shear stress components, NSHR (solids only)"];
+    check_counts(block.ndir, block.nshr, &[3], block.nstatev, texts)?;
     let Ok(n) = usize::try_from(block.nblock) else {
-        return status::BAD_COUNT;
+        let (code, value) = (status::BAD_COUNT, i64::from(block.nblock));
+        return Err(Error::Range { code, name: "nblock", value, least: 0, greatest: i64::MAX });
     };
-    let count = usize::try_from(block.nprops).unwrap_or(0);
+    let level = level(block.level)?;
+    let count = property_count(block.nprops)?;
     // SAFETY: not null, and the caller's promise.
-    let law = match unsafe { properties(block.props, count, &parameters::HYPERELASTIC) }.and_then(Hyperelastic::new) {
-        Ok(law) => law,
-        Err(error) => return error.code(),
-    };
+    let law = Hyperelastic::new(unsafe { properties(block.props, count, &parameters::HYPERELASTIC) }?)?;
     // SAFETY: the caller's promise, from here on.
     unsafe {
         for i in 0..n {
@@ -342,12 +399,11 @@ unsafe fn vumat<T: Precision>(block: *const Vumat<T>) -> i32 {
             }
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
         }
-        let zero = T::splat(0.0);
-        if block.step_time == zero && block.total_time == zero {
+        if block.step_time == 0.0 && block.total_time == 0.0 {
             elastic_check(&law, block, n);
-            return status::OK;
+            return Ok(status::OK);
         }
-        stretched(&law, block, n)
+        stretched(&law, block, n, level)
     }
 }
 
@@ -384,7 +440,12 @@ unsafe fn elastic_check<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn stretched<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: usize) -> i32 {
+unsafe fn stretched<T: Precision>(
+    law: &Hyperelastic<T>,
+    block: &Vumat<T>,
+    n: usize,
+    level: Option<Level>,
+) -> Result<i32, Error> {
     const CHUNK: usize = 64;
     let mut worst = status::OK;
     let mut start = 0;
@@ -402,20 +463,18 @@ unsafe fn stretched<T: Precision>(law: &Hyperelastic<T>, block: &Vumat<T>, n: us
             invariants: block.state_new.wrapping_add(row(INVARIANTS)),
             failure: block.state_new.wrapping_add(row(FAILURE_INDEX)),
             status: codes.as_mut_ptr(),
+            level,
             ..Pointers::without_arrays(CHUNK.min(n - start), n)
         };
         // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
-        match unsafe { law.raw_block(&pointers) } {
-            Ok(code) => worst = worst.min(code),
-            Err(error) => return error.code(),
-        }
+        worst = worst.min(unsafe { law.raw_block(&pointers) }?);
         for (i, &code) in (start..n).zip(&codes) {
             // SAFETY: i < n.
             unsafe { finish(block, i, code) };
         }
         start += CHUNK;
     }
-    worst
+    Ok(worst)
 }
 
 /// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is
@@ -447,9 +506,9 @@ unsafe fn finish<T: Real<Mask = bool>>(block: &Vumat<T>, i: usize, code: i32) {
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
+pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe { vumat(block) })
+    unsafe { entry(Message { text: message, capacity }, move || vumat(block)) }
 }
 
 /// `toron_abaqus_vumat_f32` of the C interface; package `toron-c` documents its arguments.
@@ -457,7 +516,7 @@ pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>) -> i32 {
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>) -> i32 {
+pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe { vumat(block) })
+    unsafe { entry(Message { text: message, capacity }, move || vumat(block)) }
 }

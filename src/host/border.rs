@@ -20,7 +20,7 @@ pub(super) unsafe fn properties<'a, T>(
     table: &'static [Property],
 ) -> Result<&'a [T], Error> {
     if properties.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
+        return Err(Error::Null { name: "properties" });
     }
     if count != table.len() {
         let (found, wanted) = (i64::try_from(count).unwrap_or(i64::MAX), table.len() as i64);
@@ -30,10 +30,132 @@ pub(super) unsafe fn properties<'a, T>(
     Ok(unsafe { slice::from_raw_parts(properties, count) })
 }
 
-/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error.
+/// Refuses the first of these arguments that is null.
+#[cold]
+#[inline(never)]
+pub(super) fn check_pointers<T>(pointers: &[(*const T, &'static str)]) -> Result<(), Error> {
+    match pointers.iter().find(|(pointer, _)| pointer.is_null()) {
+        Some(&(_, name)) => Err(Error::Null { name }),
+        None => Ok(()),
+    }
+}
+
+/// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error.
+#[derive(Clone, Copy)]
+pub(super) struct Message {
+    pub text: *mut c_char,
+    pub capacity: size_t,
+}
+
+impl Message {
+    /// Writes the pieces of a text, at most `capacity` bytes with the terminating null.
+    ///
+    /// # Safety
+    /// `text` is null or points to `capacity` writable bytes.
+    pub unsafe fn write(self, pieces: impl FnOnce(&mut dyn FnMut(&str))) {
+        if self.text.is_null() || self.capacity == 0 {
+            return;
+        }
+        let (room, mut length) = (self.capacity - 1, 0);
+        pieces(&mut |piece| {
+            for &byte in piece.as_bytes() {
+                if length < room {
+                    // SAFETY: length < capacity.
+                    unsafe { *self.text.add(length) = byte as c_char };
+                    length += 1;
+                }
+            }
+        });
+        // SAFETY: length < capacity.
+        unsafe { *self.text.add(length) = 0 };
+    }
+
+    /// Writes what is wrong; returns the status code.
+    ///
+    /// # Safety
+    /// As for [`write`](Self::write), in the default floating-point environment.
+    #[cold]
+    #[inline(never)]
+    pub unsafe fn refuse(self, error: &Error) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { self.write(|sink| error.describe(sink)) };
+        error.code()
+    }
+
+    /// Writes that there is nothing of this name, and what is allowed; returns the status code.
+    ///
+    /// # Safety
+    /// As for [`write`](Self::write).
+    #[cold]
+    pub unsafe fn refuse_name<'a>(
+        self,
+        what: &str,
+        name: Result<&str, Error>,
+        allowed: impl Iterator<Item = &'a str>,
+    ) -> i32 {
+        let name = match name {
+            Ok(name) => name,
+            // SAFETY: the caller's promise; the error has no number to format.
+            Err(error) => return unsafe { self.refuse(&error) },
+        };
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.write(|sink| {
+                sink("there is no ");
+                sink(what);
+                sink(" \"");
+                sink(name);
+                sink("\"; allowed: ");
+                for (i, name) in allowed.enumerate() {
+                    sink(if i == 0 { "" } else { ", " });
+                    sink(name);
+                }
+            });
+        }
+        status::UNKNOWN_NAME
+    }
+}
+
+/// Runs the body of an entry point in the default floating-point environment. Returns its status, or that of its error, with a
+/// message.
+///
+/// # Safety
+/// As for [`Message::write`].
 #[inline(always)]
-pub(super) fn entry(body: impl FnOnce() -> Result<i32, Error>) -> i32 {
-    in_default_environment(|| body().unwrap_or_else(|error| error.code()))
+pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+    in_default_environment(|| match body() {
+        Ok(status::OK) => status::OK,
+        // SAFETY: the caller's promise.
+        Ok(code) => unsafe { message.refuse(&Error::Plain(code)) },
+        Err(error) => unsafe { message.refuse(&error) },
+    })
+}
+
+/// As [`entry`], in the caller's environment, for what computes nothing and whose errors have no number but whole ones.
+///
+/// # Safety
+/// As for [`Message::write`].
+pub(super) unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
+    // SAFETY: the caller's promise.
+    body().unwrap_or_else(|error| unsafe { message.refuse(&error) })
+}
+
+/// The worst code of a block as a result of [`entry`]: an error that names the first point at fault, if each point's code is known.
+///
+/// # Errors
+/// The code is not 0, and `codes` is not null.
+///
+/// # Safety
+/// `codes` is null or points to `n` codes.
+pub(super) unsafe fn of_points(worst: i32, codes: *const i32, n: size_t) -> Result<i32, Error> {
+    if worst == status::OK || codes.is_null() {
+        return Ok(worst);
+    }
+    // SAFETY: the caller's promise.
+    match (0..n).find(|&i| unsafe { *codes.add(i) } == worst) {
+        Some(index) => Err(Error::Point { code: worst, index }),
+        None => Ok(worst),
+    }
 }
 
 /// Copies results to the caller, unless `to` is null.
@@ -50,45 +172,22 @@ pub(super) unsafe fn store<T: Copy>(values: &[T], to: *mut T) {
     }
 }
 
-/// Writes a text with `snprintf`'s semantics: at most `capacity` bytes, always terminated; returns the length needed
-/// without the terminator.
+/// The text of a C string.
 ///
-/// # Safety
-/// `buffer` is null or points to `capacity` writable bytes.
-pub(super) unsafe fn write_text(
-    buffer: *mut c_char,
-    capacity: size_t,
-    text: impl FnOnce(&mut dyn FnMut(&str)),
-) -> size_t {
-    let mut length = 0;
-    let room = if buffer.is_null() { 0 } else { capacity.saturating_sub(1) };
-    text(&mut |piece| {
-        for &byte in piece.as_bytes() {
-            if length < room {
-                // SAFETY: length < capacity.
-                unsafe { *buffer.add(length) = byte as c_char };
-            }
-            length += 1;
-        }
-    });
-    if !buffer.is_null() && capacity > 0 {
-        // SAFETY: at most capacity − 1.
-        unsafe { *buffer.add(length.min(room)) = 0 };
-    }
-    length
-}
-
-/// The text of a C string; `None` if it is null, longer than any name, or not UTF-8.
+/// # Errors
+/// It is null. A text that is not UTF-8, or longer than any name, is no name at all: "?".
 ///
 /// # Safety
 /// `text` is null or a null-terminated string.
-pub(super) unsafe fn name<'a>(text: *const c_char) -> Option<&'a str> {
+pub(super) unsafe fn name<'a>(text: *const c_char, argument: &'static str) -> Result<&'a str, Error> {
     const LONGEST: usize = 64;
     if text.is_null() {
-        return None;
+        return Err(Error::Null { name: argument });
     }
     // SAFETY: no byte behind the terminator is read.
-    let length = (0..LONGEST).find(|&i| unsafe { *text.add(i) } == 0)?;
+    let Some(length) = (0..LONGEST).find(|&i| unsafe { *text.add(i) } == 0) else {
+        return Ok("?");
+    };
     // SAFETY: these bytes have just been read.
-    core::str::from_utf8(unsafe { slice::from_raw_parts(text.cast(), length) }).ok()
+    Ok(core::str::from_utf8(unsafe { slice::from_raw_parts(text.cast(), length) }).unwrap_or("?"))
 }

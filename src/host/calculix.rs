@@ -19,6 +19,7 @@ use core::ffi::c_char;
 
 use crate::law::derivative::SixBySix;
 use crate::law::error::Error;
+use crate::law::number::level::Level;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::Request;
@@ -115,7 +116,7 @@ impl Arguments<'_> {
         let tangent = SixBySix(request, Measure::Material);
         // SAFETY: CalculiX's promise: there are as many as state_count says.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
-        evaluate_call(Call { properties, f: self.f, fibre, state, tangent, sink: &mut answer })?;
+        evaluate_call(Call { source: properties, f: self.f, fibre, state, tangent, sink: &mut answer }, Level::Avx512)?;
         if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
             return Err(Error::Plain(answer.status)); // no smaller increment helps
         }

@@ -15,11 +15,14 @@
 use core::cell::Cell;
 use core::ffi::c_int;
 
+use libc::{c_char, size_t};
+
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
 use crate::law::derivative::StressAndState;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
 use crate::law::number::vector::dot;
@@ -30,7 +33,7 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-use super::border::{entry, properties, store};
+use super::border::{Message, check_pointers, entry, properties, store};
 use super::c::PointAnswer;
 
 /// `count` elements of a vector block from `first` on, counted from 0.
@@ -43,13 +46,42 @@ struct Elements<T> {
     failed: *mut c_int,
 }
 
+fn wrong_nhv(nhv: i32) -> Error {
+    let what = "number of history variables, NHV";
+    Error::Count { code: status::STATE_COUNT, what, found: i64::from(nhv), wanted: HYPERELASTIC_STATE as i64 }
+}
+
+/// Checks the elements of a vector block and their leading dimension.
+fn check_elements(lft: i32, llt: i32, nlq: i32) -> Result<(), Error> {
+    let wrong = |name: &'static str, value: i32, least: i64| {
+        let value = i64::from(value);
+        Err(Error::Range { code: status::BAD_COUNT, name, value, least, greatest: i64::MAX })
+    };
+    if lft < 1 {
+        return wrong("lft", lft, 1);
+    }
+    if llt < lft - 1 {
+        return wrong("llt (no less than lft - 1)", llt, i64::from(lft) - 1);
+    }
+    if nlq < llt {
+        let (found, wanted) = (i64::from(nlq), i64::from(llt));
+        return Err(Error::Count {
+            code: status::BAD_LEADING_DIMENSION,
+            what: "leading dimension, nlq",
+            found,
+            wanted,
+        });
+    }
+    Ok(())
+}
+
 /// The law with the properties of the card. Refuses a wrong number of history variables.
 ///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
 unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, Error> {
     if nhv != HYPERELASTIC_STATE as i32 {
-        return Err(Error::Plain(status::STATE_COUNT));
+        return Err(wrong_nhv(nhv));
     }
     // SAFETY: the caller's promise.
     Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
@@ -140,7 +172,7 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 /// `cm` has the law's properties, `hsv` its state and F.
 unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
     if nhv != HYPERELASTIC_STATE as i32 {
-        return Err(Error::Plain(status::STATE_COUNT));
+        return Err(wrong_nhv(nhv));
     }
     // SAFETY: the caller's promise.
     unsafe {
@@ -187,14 +219,16 @@ unsafe fn scalar<T: Registers>(
     nhv: i32,
     failel: *mut c_int,
 ) -> Result<i32, Error> {
-    if cm.is_null() || sig.is_null() || hsv.is_null() || failel.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
+    // Each pointer is looked at only if one of them is null.
+    if cm.is_null() | sig.is_null() | hsv.is_null() | failel.is_null() {
+        check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
+        check_pointers(&[(failel.cast_const(), "failel")])?;
     }
     // SAFETY: the caller's promise.
-    let (properties, f, state) = unsafe { element(cm, hsv, nhv) }?;
+    let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
-    evaluate_call(Call { properties, f, fibre: None, state, tangent: StressAndState, sink })?;
+    evaluate_call(Call { source, f, fibre: None, state, tangent: StressAndState, sink }, Level::Avx512)?;
     Ok(status)
 }
 
@@ -203,9 +237,17 @@ unsafe fn scalar<T: Registers>(
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, nhv: i32, failel: *mut c_int) -> i32 {
+pub unsafe extern "C" fn umat_f64(
+    cm: *const f64,
+    sig: *mut f64,
+    hsv: *mut f64,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
+    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
 }
 
 /// `toron_lsdyna_umat_f32` of the C interface; package `toron-c` documents its arguments.
@@ -213,9 +255,17 @@ pub unsafe extern "C" fn umat_f64(cm: *const f64, sig: *mut f64, hsv: *mut f64, 
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn umat_f32(cm: *const f32, sig: *mut f32, hsv: *mut f32, nhv: i32, failel: *mut c_int) -> i32 {
+pub unsafe extern "C" fn umat_f32(
+    cm: *const f32,
+    sig: *mut f32,
+    hsv: *mut f32,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { scalar(cm, sig, hsv, nhv, failel) })
+    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
 }
 
 /// # Safety
@@ -231,15 +281,11 @@ unsafe fn vector<T: Precision>(
     nlq: i32,
     failels: *mut c_int,
 ) -> Result<i32, Error> {
-    if cm.is_null() || stress.iter().any(|component| component.is_null()) || hsvs.is_null() || failels.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
-    if lft < 1 || llt < lft - 1 {
-        return Err(Error::Plain(status::BAD_COUNT));
-    }
-    if nlq < llt {
-        return Err(Error::Plain(status::BAD_LEADING_DIMENSION));
-    }
+    check_pointers(&[(cm, "cm"), (hsvs, "hsvs")])?;
+    check_pointers(&[(failels.cast_const(), "failels")])?;
+    let [s1, s2, s3, s4, s5, s6] = stress.map(<*mut T>::cast_const);
+    check_pointers(&[(s1, "sig1"), (s2, "sig2"), (s3, "sig3"), (s4, "sig4"), (s5, "sig5"), (s6, "sig6")])?;
+    check_elements(lft, llt, nlq)?;
     let elements = Elements {
         stress,
         history: hsvs,
@@ -279,9 +325,15 @@ pub unsafe extern "C" fn umat_vector_f64(
     llt: i32,
     nlq: i32,
     failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels)
+        })
+    }
 }
 
 /// `toron_lsdyna_umat_vector_f32` of the C interface; package `toron-c` documents its arguments.
@@ -304,19 +356,23 @@ pub unsafe extern "C" fn umat_vector_f32(
     llt: i32,
     nlq: i32,
     failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels) })
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels)
+        })
+    }
 }
 
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
 unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
-    if cm.is_null() || hsv.is_null() || es.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
+    check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: the caller's promise.
-    let (properties, f, state) = unsafe { element(cm, hsv, nhv) }?;
+    let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let none = core::ptr::null_mut;
     let mut status = status::OK;
     let sink = PointAnswer {
@@ -329,7 +385,7 @@ unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es
         status: &mut status,
     };
     let tangent = SixBySix(Request::default(), Measure::Truesdell);
-    evaluate_call(Call { properties, f, fibre: None, state, tangent, sink })?;
+    evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
     Ok(status)
 }
 
@@ -338,9 +394,16 @@ unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es: *mut f64) -> i32 {
+pub unsafe extern "C" fn utan_f64(
+    cm: *const f64,
+    hsv: *const f64,
+    nhv: i32,
+    es: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
+    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
 }
 
 /// `toron_lsdyna_utan_f32` of the C interface; package `toron-c` documents its arguments.
@@ -348,9 +411,16 @@ pub unsafe extern "C" fn utan_f64(cm: *const f64, hsv: *const f64, nhv: i32, es:
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn utan_f32(cm: *const f32, hsv: *const f32, nhv: i32, es: *mut f32) -> i32 {
+pub unsafe extern "C" fn utan_f32(
+    cm: *const f32,
+    hsv: *const f32,
+    nhv: i32,
+    es: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { scalar_tangent(cm, hsv, nhv, es) })
+    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
 }
 
 /// # Safety
@@ -364,15 +434,8 @@ unsafe fn vector_tangent<T: Precision>(
     nlq: i32,
     dsave: *mut T,
 ) -> Result<i32, Error> {
-    if cm.is_null() || hsvs.is_null() || dsave.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
-    if lft < 1 || llt < lft - 1 {
-        return Err(Error::Plain(status::BAD_COUNT));
-    }
-    if nlq < llt {
-        return Err(Error::Plain(status::BAD_LEADING_DIMENSION));
-    }
+    check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
+    check_elements(lft, llt, nlq)?;
     let (start, stride) = ((lft - 1) as usize, nlq as usize);
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
     let pointers = Pointers {
@@ -405,9 +468,11 @@ pub unsafe extern "C" fn utan_vector_f64(
     llt: i32,
     nlq: i32,
     dsave: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave)) }
 }
 
 /// `toron_lsdyna_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
@@ -423,9 +488,11 @@ pub unsafe extern "C" fn utan_vector_f32(
     llt: i32,
     nlq: i32,
     dsave: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    entry(move || unsafe { vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave) })
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave)) }
 }
 
 /// `toron_lsdyna_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
@@ -433,11 +500,16 @@ pub unsafe extern "C" fn utan_vector_f32(
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn bulk_and_shear_f64(values: *const f64, count: usize, bulk: *mut f64, shear: *mut f64) -> i32 {
-    if bulk.is_null() || shear.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    entry(move || {
+pub unsafe extern "C" fn bulk_and_shear_f64(
+    values: *const f64,
+    count: usize,
+    bulk: *mut f64,
+    shear: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let body = move || {
+        check_pointers(&[(bulk.cast_const(), "bulk"), (shear, "shear")])?;
         // SAFETY: the caller's promise.
         let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
         let [k, g] = law.bulk_and_shear();
@@ -447,5 +519,7 @@ pub unsafe extern "C" fn bulk_and_shear_f64(values: *const f64, count: usize, bu
             store(&[g], shear);
         }
         Ok(status::OK)
-    })
+    };
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, body) }
 }

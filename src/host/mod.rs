@@ -6,4 +6,5 @@ pub mod c;
 pub mod calculix;
 pub mod environment;
 pub mod lsdyna;
+mod structures;
 pub mod units;

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::parameters::Property;
-use super::status::{BAD_ARGUMENT, PROPERTY_DIRECTION, meaning};
+use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, PROPERTY_DIRECTION, UNKNOWN_FIELD, meaning};
 
 /// An error, with the values that its message contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,8 +14,22 @@ pub enum Error {
     Property { code: i32, index: usize, property: &'static Property, value: f64 },
     /// A direction among the properties is zero or parallel to another one; `index`, from 0, is that of its first component.
     Direction { index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
+    /// A whole number among the arguments is outside its range.
+    Range { code: i32, name: &'static str, value: i64, least: i64, greatest: i64 },
+    /// A whole number among the arguments is none of those that have a meaning.
+    Choice { name: &'static str, value: i64, wanted: &'static str },
     /// A scalar argument does not have an allowed value.
     Argument { name: &'static str, value: f64, wanted: &'static str },
+    /// An argument or an array that must not be null is null.
+    Null { name: &'static str },
+    /// A prepared law that this function has not written.
+    NotPrepared { by: &'static str },
+    /// A structure whose size is not set, or wrong.
+    Size { structure: &'static str, size: usize, known: usize },
+    /// What is wrong at a point of a block, counted from 0.
+    Point { code: i32, index: usize },
+    /// A structure that is longer than this version of the library knows, and not 0 there.
+    UnknownField { structure: &'static str, offset: usize, known: usize },
     /// An error that its status code describes completely.
     Plain(i32),
 }
@@ -24,9 +38,17 @@ impl Error {
     /// The status code, one of [`status`](super::status).
     pub fn code(&self) -> i32 {
         match *self {
-            Error::Count { code, .. } | Error::Property { code, .. } | Error::Plain(code) => code,
+            Error::Count { code, .. }
+            | Error::Property { code, .. }
+            | Error::Point { code, .. }
+            | Error::Range { code, .. }
+            | Error::Plain(code) => code,
+            Error::Size { .. } => BAD_SIZE,
             Error::Direction { .. } => PROPERTY_DIRECTION,
-            Error::Argument { .. } => BAD_ARGUMENT,
+            Error::Argument { .. } | Error::Choice { .. } => BAD_ARGUMENT,
+            Error::Null { .. } => NULL_ARGUMENT,
+            Error::NotPrepared { .. } => NOT_PREPARED,
+            Error::UnknownField { .. } => UNKNOWN_FIELD,
         }
     }
 
@@ -76,6 +98,61 @@ impl Error {
                 describe_number(value, sink);
                 sink("; allowed: ");
                 sink(wanted);
+            }
+            Error::Choice { name, value, wanted } => {
+                sink("argument ");
+                sink(name);
+                sink(" is ");
+                describe_integer(value, sink);
+                sink("; allowed: ");
+                sink(wanted);
+            }
+            Error::Range { name, value, least, greatest, .. } => {
+                sink("argument ");
+                sink(name);
+                sink(" is ");
+                describe_integer(value, sink);
+                sink("; allowed: ");
+                describe_integer(least, sink);
+                if greatest == i64::MAX {
+                    sink(" or more");
+                } else if greatest > least {
+                    sink(" to ");
+                    describe_integer(greatest, sink);
+                }
+            }
+            Error::Null { name } => {
+                sink("argument ");
+                sink(name);
+                sink(" is null");
+            }
+            Error::NotPrepared { by } => {
+                sink("the law has not been prepared by ");
+                sink(by);
+            }
+            Error::Size { structure, size, known } => {
+                sink("the size of ");
+                sink(structure);
+                sink(" is given as ");
+                describe_integer(i64::try_from(size).unwrap_or(i64::MAX), sink);
+                sink("; it is ");
+                describe_integer(known as i64, sink);
+                sink(" in this version of the library");
+            }
+            Error::Point { code, index } => {
+                sink("point ");
+                describe_integer(index as i64, sink);
+                sink(", counted from 0: ");
+                Error::Plain(code).describe(sink);
+            }
+            Error::UnknownField { structure, offset, known } => {
+                sink("byte ");
+                describe_integer(offset as i64, sink);
+                sink(" of ");
+                sink(structure);
+                sink(" is not 0; this version of the library knows ");
+                describe_integer(known as i64, sink);
+                sink(" bytes of it");
             }
             Error::Plain(code) => match meaning(code) {
                 Some(text) => sink(text),

@@ -51,6 +51,16 @@ impl<R: Real> Failure<R> {
         }
     }
 
+    /// Its numbers, from which [`from_numbers`](Self::from_numbers) makes it again.
+    pub fn numbers(&self) -> [R; 5] {
+        [self.limit, self.inverse_limit, self.threshold, self.alpha, self.beta]
+    }
+
+    #[inline(always)]
+    pub fn from_numbers([limit, inverse_limit, threshold, alpha, beta]: [R; 5]) -> Self {
+        Failure { limit, inverse_limit, threshold, alpha, beta }
+    }
+
     /// The same criterion with its numbers converted by `lane`.
     #[inline(always)]
     pub fn map<L>(self, lane: impl Fn(R) -> L) -> Failure<L> {

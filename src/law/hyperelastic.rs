@@ -156,7 +156,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
 
 /// The frame of the fibre direction among the properties.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PropertyFrame<T> {
+pub(crate) struct PropertyFrame<T> {
     pub frame: FibreFrame<T>,
     /// Whether the fibre lies along the first axis.
     pub aligned: bool,

@@ -51,9 +51,11 @@ pub enum Criterion {
 #[derive(Clone, Copy, Debug)]
 pub struct LinearElastic<R = f64> {
     pub(super) stiffness: [R; 6],
-    limit: R,
+    pub(super) limit: R,
     /// Columns: fibre, second axis, third axis in the reference placement.
-    axes: Matrix<R>,
+    pub(super) axes: Matrix<R>,
+    /// The second axis of the properties as a unit vector; 0 if any will do.
+    pub(super) second_axis: [R; 3],
 }
 
 /// The results of the law at one point.
@@ -74,16 +76,19 @@ pub struct LinearPoint {
 pub(super) struct Wanted {
     pub stress: bool,
     pub state: bool,
+    pub wave_modulus: bool,
 }
 
 impl Wanted {
-    pub const ALL: Wanted = Wanted { stress: true, state: true };
+    pub const STRESS_AND_STATE: Wanted = Wanted { stress: true, state: true, wave_modulus: false };
 }
 
 /// The results of the law for the points in the lanes of `R`.
 pub(super) struct Answer<R: Real> {
     pub stress: [R; 6],
     pub state: [R; LINEAR_ELASTIC_STATE],
+    /// ρ0 c² for an upper bound c of the wave speed at the end of the step.
+    pub wave_modulus: R,
     /// The material axes at both ends of the step, as columns.
     pub q0: Matrix<R>,
     pub q1: Matrix<R>,
@@ -110,24 +115,19 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
             return direction(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3], "any vector but zero");
         }
         let second = [n_1, n_2, n_3];
-        let axes = if second.iter().all(|&x| x.into() == 0.0) {
-            [frame.m, frame.t1, frame.t2]
-        } else {
-            let (n, usable) = FibreFrame::new(second);
-            let across = along(n.m, -dot(frame.m, n.m), frame.m);
-            let (n, apart) = FibreFrame::new(across);
-            if !(usable && apart && T::splat(1e-6).lt(dot(across, across))) {
-                let wanted = "any vector that is not along the fibre, or zero";
-                return direction(LINEAR_SECOND_AXIS, "second axis", second, wanted);
-            }
-            [frame.m, n.m, cross(frame.m, n.m)]
-        };
-        Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes })
+        let (axes, usable) = axes_of(&frame, second);
+        if !usable {
+            let wanted = "any vector that is not along the fibre, or zero";
+            return direction(LINEAR_SECOND_AXIS, "second axis", second, wanted);
+        }
+        let zero = T::splat(0.0);
+        let second_axis = if is_zero(second) { [zero; 3] } else { FibreFrame::new(second).0.m };
+        Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes, second_axis })
     }
 
     /// The same law in another number type: each of its numbers in all lanes of `L`.
     #[inline(always)]
-    pub(super) fn lanes<L: Real>(&self) -> LinearElastic<L> {
+    pub(crate) fn lanes<L: Real>(&self) -> LinearElastic<L> {
         let lane = |x: T| L::splat(x.into());
         let vector = |v: [T; 3]| [lane(v[0]), lane(v[1]), lane(v[2])];
         let [e_1, e_2, e_3, g_12, g_23, g_31] = self.stiffness;
@@ -135,6 +135,7 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
             stiffness: [lane(e_1), lane(e_2), lane(e_3), lane(g_12), lane(g_23), lane(g_31)],
             limit: lane(self.limit),
             axes: [vector(self.axes[0]), vector(self.axes[1]), vector(self.axes[2])],
+            second_axis: vector(self.second_axis),
         }
     }
 }
@@ -143,6 +144,19 @@ impl LinearElastic {
     /// The material axes in the reference placement, as columns; the initial axes for [`Rotation::Spin`].
     pub fn reference_axes(&self) -> Matrix3<f64> {
         self.axes.into()
+    }
+
+    /// The same law with other material axes, for a point of a crimped yarn: its fibre direction, and its second axis, or `None`
+    /// for that of the properties; both of any length, the second axis 0 if any will do.
+    ///
+    /// # Errors
+    /// A direction that has no length or is not finite, or a second axis along the fibre.
+    pub fn along(&self, fibre: [f64; 3], second_axis: Option<[f64; 3]>) -> Result<Self, Error> {
+        let (axes, usable) = self.axes_along(fibre, second_axis);
+        if !usable {
+            return Err(Error::Plain(status::FIBRE_DIRECTION));
+        }
+        Ok(LinearElastic { axes, ..*self })
     }
 
     /// One step, from the deformation gradient `f0` and the old state to the deformation gradient `f1`.
@@ -159,7 +173,8 @@ impl LinearElastic {
         axes: &mut Matrix3<f64>,
     ) -> LinearPoint {
         let columns = (*axes).into();
-        let answer = self.respond(&(*f0).into(), &(*f1).into(), &columns, state, rotation, criterion, Wanted::ALL);
+        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, rotation, criterion };
+        let answer = self.respond(step, &self.axes, true, state, Wanted::STRESS_AND_STATE);
         if rotation == Rotation::Spin {
             *axes = answer.q1.into();
         }
@@ -179,9 +194,11 @@ impl LinearElastic {
         state: &[f64; LINEAR_ELASTIC_STATE],
         criterion: Criterion,
     ) -> LinearPoint {
-        let (stress, new) = self.advance(strain, jacobian, state, criterion, Wanted::ALL);
+        let (stress, new) = self.advance(strain, jacobian, state, criterion, Wanted::STRESS_AND_STATE);
         let nowhere = [[0.0; 3]; 3];
-        let mut answer = Answer { stress, state: new, q0: nowhere, q1: nowhere, status: 0.0, taken: true };
+        let wave_modulus = self.wave_modulus();
+        let mut answer =
+            Answer { stress, state: new, wave_modulus, q0: nowhere, q1: nowhere, status: 0.0, taken: true };
         let finite = strain.iter().all(|x| x.is_finite()) && jacobian.is_finite();
         answer.taken = finite & answer.sound(state);
         if !answer.taken {
@@ -190,43 +207,94 @@ impl LinearElastic {
         answer.point()
     }
 
-    /// ρ0 c² for an upper bound c of the wave speed in the unstressed material: with Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²) no
-    /// eigenvalue exceeds the largest of E_i and 2G.
+    /// The results at a point that keeps its old state, with the status of the reason.
+    pub(crate) fn kept(&self, state: &[f64; LINEAR_ELASTIC_STATE], why: i32) -> LinearPoint {
+        let nowhere = [[0.0; 3]; 3];
+        let (wave_modulus, stress) = (self.wave_modulus(), [0.0; 6]);
+        let mut answer =
+            Answer { stress, state: *state, wave_modulus, q0: nowhere, q1: nowhere, status: 0.0, taken: false };
+        answer.keep(state, f64::from(why));
+        answer.point()
+    }
+
+    /// ρ0 c² for an upper bound c of the wave speed in the unstressed material.
     pub fn wave_modulus(&self) -> f64 {
-        self.stiffness[0].max(self.stiffness[1]).max(2.0 * self.stiffness[3])
+        self.modulus_at_rest()
     }
 }
 
+/// The arguments of a step.
+#[derive(Clone, Copy)]
+pub(super) struct Step<'a, R> {
+    /// Columns of F at both ends.
+    pub f0: &'a Matrix<R>,
+    pub f1: &'a Matrix<R>,
+    /// The material axes in space at the start; read for [`Rotation::Spin`] only.
+    pub axes: &'a Matrix<R>,
+    pub rotation: Rotation,
+    pub criterion: Criterion,
+}
+
 impl<R: Real> LinearElastic<R> {
-    /// One step for the points in the lanes, from the columns of F at both ends. `axes` is read for [`Rotation::Spin`] only.
+    /// With Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²) no eigenvalue exceeds the largest of E_i and 2G.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
+    fn modulus_at_rest(&self) -> R {
+        let [e_1, e_2, _, g, ..] = self.stiffness;
+        e_1.max(e_2).max(g + g)
+    }
+
+    /// ρ0 c² for an upper bound c of the wave speed, given J and the Cauchy stress.
+    ///
+    /// For a wave of direction n and polarisation u, unit vectors, the rate of the stress is C : D + Ωσ − σΩ with the spin Ω of the
+    /// material frame, and the terms of the change of area and volume cancel, so that ρ c² = u·(C : D + Ωσ − σΩ)n. Ω has an axial
+    /// vector of at most unit length in every one of the frames, so that its terms are at most twice the largest principal
+    /// stress by its size.
+    #[inline(always)]
+    fn wave_modulus_at(&self, jacobian: R, stress: &[R; 6]) -> R {
+        let [s_11, s_22, s_33, s_12, s_23, s_31] = *stress;
+        // The largest sum of a row: no square, which might overflow, and exact for a stress along an axis.
+        let row = |a: R, b: R, c: R| a.abs() + b.abs() + c.abs();
+        let size = row(s_11, s_12, s_31).max(row(s_12, s_22, s_23)).max(row(s_31, s_23, s_33));
+        let at_rest = self.modulus_at_rest();
+        (jacobian * (at_rest + (size + size))).max(at_rest)
+    }
+
+    /// The material axes for a fibre direction, and for a second axis, or that of the properties; and where they are usable.
+    #[inline(always)]
+    pub(super) fn axes_along(&self, fibre: [R; 3], second_axis: Option<[R; 3]>) -> (Matrix<R>, R::Mask) {
+        let (frame, usable) = FibreFrame::new(fibre);
+        let (axes, apart) = axes_of(&frame, second_axis.unwrap_or(self.second_axis));
+        (axes, usable & apart)
+    }
+
+    /// One step for the points in the lanes. `reference` holds their material axes in the reference placement, `usable` says where
+    /// there are such axes.
+    #[inline(always)]
     pub(super) fn respond<T>(
         &self,
-        f0: &Matrix<R>,
-        f1: &Matrix<R>,
-        axes: &Matrix<R>,
+        step: Step<'_, R>,
+        reference: &Matrix<R>,
+        usable: R::Mask,
         old: &[R; LINEAR_ELASTIC_STATE],
-        rotation: Rotation,
-        criterion: Criterion,
         wanted: Wanted,
     ) -> Answer<R>
     where
         R: Lanes<T>,
     {
+        let Step { f0, f1, axes, rotation, criterion } = step;
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
         let upright = zero.lt(j0) & zero.lt(j1);
-        let able = upright & Failure::intact(old[LINEAR_FAILED]);
+        let able = upright & usable & Failure::intact(old[LINEAR_FAILED]);
         // F1 F0⁻¹ − 1.
         let inverse = j0.reciprocal();
         let change = product(&difference(f1, f0), &transposed(&minors));
         let change = scaled(inverse, &change);
         let (q0, q1) = match rotation {
-            Rotation::Fibre => (fibre_axes(f0, &self.axes), fibre_axes(f1, &self.axes)),
+            Rotation::Fibre => (fibre_axes(f0, reference), fibre_axes(f1, reference)),
             Rotation::Polar => {
                 let (r0, r1) = (polar_rotation(f0, able), polar_rotation(f1, able));
-                (product(&r0, &self.axes), product(&r1, &self.axes))
+                (product(&r0, reference), product(&r1, reference))
             }
             Rotation::Spin => (*axes, rotated_by_spin(axes, &change)),
         };
@@ -245,17 +313,22 @@ impl<R: Real> LinearElastic<R> {
             half * (rate[2][0] + rate[0][2]),
         ];
         let (stress, state) = self.advance(&strain, half * (j0 + j1), old, criterion, wanted);
+        // Its size is the same in the material axes.
+        let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
-        let mut answer = Answer { stress, state, q0, q1, status: zero, taken: able };
+        let mut answer = Answer { stress, state, wave_modulus, q0, q1, status: zero, taken: able };
         // If squares of lengths overflow, there are no axes.
         let in_range = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
-        answer.taken = upright & converged & in_range & answer.sound(old);
+        answer.taken = upright & usable & converged & in_range & answer.sound(old);
+        answer.taken = answer.taken & wave_modulus.lt(R::splat(f64::INFINITY));
         if R::any(!answer.taken) {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(converged, zero, code(status::INCREMENT_TOO_LARGE));
             let why = R::select(upright, why, code(status::INVERTED));
+            let why = R::select(usable, why, code(status::FIBRE_DIRECTION));
             let finite = is_finite(f0) & is_finite(f1) & is_finite(axes);
             answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
+            answer.wave_modulus = R::select(answer.taken, answer.wave_modulus, self.modulus_at_rest());
         }
         answer
     }
@@ -284,7 +357,9 @@ impl<R: Real> LinearElastic<R> {
             Criterion::FibreStress => s_11,
         };
         let work = (R::splat(0.5) * jacobian).mul_add(twice_work, old[LINEAR_WORK]);
-        let failed = R::select(zero.lt(self.limit) & self.limit.le(measure), one, zero);
+        // Without a new state no point fails.
+        let reached = zero.lt(self.limit) & self.limit.le(measure);
+        let failed = if wanted.state { R::select(reached, one, zero) } else { zero };
         (stress, [s_11, s_22, s_33, s_12, s_23, s_31, largest, work, failed, one - failed])
     }
 }
@@ -333,6 +408,26 @@ impl Answer<f64> {
     pub fn point(&self) -> LinearPoint {
         LinearPoint { stress: self.stress, state: self.state, status: self.status as i32 }
     }
+}
+
+/// Whether all components are 0.
+fn is_zero<T: Real + Into<f64>>([x, y, z]: [T; 3]) -> bool {
+    [x.into(), y.into(), z.into()] == [0.0; 3]
+}
+
+/// The material axes from the frame of the fibre direction and a second axis of any length, made orthogonal to the fibre, or 0 if
+/// any will do; and where that axis is usable.
+#[inline(always)]
+fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix<R>, R::Mask) {
+    let zero = R::splat(0.0);
+    // A sum, so that a NaN does not count as 0.
+    let any = (second[0].abs() + second[1].abs() + second[2].abs()).le(zero);
+    let (n, usable) = FibreFrame::new(second);
+    let across = along(n.m, -dot(frame.m, n.m), frame.m);
+    let (n, apart) = FibreFrame::new(across);
+    let usable = usable & apart & R::splat(1e-6).lt(dot(across, across));
+    let chosen = [frame.m, n.m, cross(frame.m, n.m)];
+    (selected(any, &[frame.m, frame.t1, frame.t2], &chosen), any | usable)
 }
 
 /// The axes that follow the fibre: F m and F n made orthonormal in this order, and their vector product.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::linear_elastic::{Answer, Criterion, LinearElastic, LinearPoint, Rotation, Wanted};
+use super::linear_elastic::{Answer, Criterion, LinearElastic, LinearPoint, Rotation, Step, Wanted};
+use super::number::vector::Matrix;
 use super::state::{LINEAR_ELASTIC_STATE, LINEAR_LARGEST, LINEAR_STRESS};
 use super::status;
 use super::stress::{components, matrix, pulled_back, truesdell_of_jaumann};
@@ -21,41 +22,56 @@ impl LinearElastic {
         criterion: Criterion,
         axes: &mut Matrix3<f64>,
     ) -> (LinearPoint, LinearTangent) {
-        let none = LinearTangent::default();
         let columns = (*axes).into();
-        let mut answer = self.respond(&(*f0).into(), &(*f1).into(), &columns, state, rotation, criterion, Wanted::ALL);
-        let tangent = if answer.taken { self.tangent_of(&answer, f0, f1, rotation) } else { Some(none) };
-        if tangent.is_none() {
-            answer.taken = false;
-            answer.keep(state, f64::from(status::OVERFLOW));
-        }
+        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, rotation, criterion };
+        let (answer, tangent) = self.respond_with_tangent(step, &self.axes, true, state, Wanted::STRESS_AND_STATE);
         if rotation == Rotation::Spin {
             *axes = answer.q1.into();
         }
-        (answer.point(), tangent.unwrap_or(none))
+        (answer.point(), tangent)
+    }
+
+    /// As [`step_with_tangent`](Self::step_with_tangent), with the arguments and the results of a step in lanes.
+    pub(super) fn respond_with_tangent(
+        &self,
+        step: Step<'_, f64>,
+        reference: &Matrix<f64>,
+        usable: bool,
+        state: &[f64; LINEAR_ELASTIC_STATE],
+        wanted: Wanted,
+    ) -> (Answer<f64>, LinearTangent) {
+        let none = LinearTangent::default();
+        let mut answer = self.respond(step, reference, usable, state, wanted);
+        let tangent = if answer.taken { self.tangent_of(&answer, step, reference) } else { Some(none) };
+        if tangent.is_none() {
+            self.overflow(&mut answer, state);
+        }
+        (answer, tangent.unwrap_or(none))
+    }
+
+    /// Takes the step back: a result does not fit the number format.
+    pub(super) fn overflow(&self, answer: &mut Answer<f64>, state: &[f64; LINEAR_ELASTIC_STATE]) {
+        answer.taken = false;
+        answer.keep(state, f64::from(status::OVERFLOW));
+        answer.wave_modulus = self.wave_modulus();
     }
 
     /// ∂τ/∂L over J for a step to (1 + L) F, column by column: the strain that L adds in the material axes, which L rotates as
     /// well, and the rotation of the stress with these axes. `None` if it cannot be computed or is not finite.
-    fn tangent_of(
-        &self,
-        answer: &Answer<f64>,
-        f0: &Matrix3<f64>,
-        f1: &Matrix3<f64>,
-        rotation: Rotation,
-    ) -> Option<LinearTangent> {
-        let step = Step::new(answer, f0, f1)?;
-        let Step { q1, local, .. } = &step;
+    fn tangent_of(&self, answer: &Answer<f64>, step: Step<'_, f64>, reference: &Matrix<f64>) -> Option<LinearTangent> {
+        let (f0, f1) = (&Matrix3::from(*step.f0), &Matrix3::from(*step.f1));
+        let motion = Motion::new(answer, f0, f1)?;
+        let Motion { q1, local, .. } = &motion;
         let mut stress = [0.0; 6];
         stress.copy_from_slice(&answer.state[LINEAR_STRESS..LINEAR_LARGEST]);
         let stress = matrix(&stress);
         let cauchy = q1 * stress * q1.transpose();
-        let turning = Turning::new(&step, f1, &self.reference_axes(), rotation)?;
+        let turning = Turning::new(&motion, f1, &Matrix3::from(*reference), step.rotation)?;
         let mut tangent = LinearTangent::default();
         for (column, entries) in tangent.0.iter_mut().enumerate() {
             let mut l = Matrix3::zeros();
             l[column] = 1.0;
-            let turn = turning.of(&step, &l);
+            let turn = turning.of(&motion, &l);
             let seen = q1.transpose() * l * q1 - turn;
             let rate = logarithm_derivative(local, &(seen * local))?;
             let mut added = Matrix3::zeros();
@@ -73,7 +89,7 @@ impl LinearElastic {
 }
 
 /// The kinematics of a step.
-struct Step {
+struct Motion {
     /// F1 F0⁻¹.
     relative: Matrix3<f64>,
     /// The material axes at its end, as columns.
@@ -82,11 +98,11 @@ struct Step {
     local: Matrix3<f64>,
 }
 
-impl Step {
+impl Motion {
     fn new(answer: &Answer<f64>, f0: &Matrix3<f64>, f1: &Matrix3<f64>) -> Option<Self> {
         let (q0, q1) = (Matrix3::from(answer.q0), Matrix3::from(answer.q1));
         let relative = f1 * f0.try_inverse()?;
-        Some(Step { relative, q1, local: q1.transpose() * relative * q0 })
+        Some(Motion { relative, q1, local: q1.transpose() * relative * q0 })
     }
 }
 
@@ -118,23 +134,23 @@ enum Turning {
 }
 
 impl Turning {
-    fn new(step: &Step, f: &Matrix3<f64>, axes: &Matrix3<f64>, rotation: Rotation) -> Option<Self> {
+    fn new(motion: &Motion, f: &Matrix3<f64>, axes: &Matrix3<f64>, rotation: Rotation) -> Option<Self> {
         Some(match rotation {
             Rotation::Fibre => Turning::Fibre,
             Rotation::Polar => {
-                let r = step.q1 * axes.transpose();
+                let r = motion.q1 * axes.transpose();
                 let u = r.transpose() * f;
                 let u = (u + u.transpose()) * 0.5;
                 let inverse = (Matrix3::identity() * u.trace() - u).try_inverse()?;
                 Turning::Polar(*axes, r, u, inverse)
             }
-            Rotation::Spin => Turning::Spin(HalfSpin::new(&step.relative)?),
+            Rotation::Spin => Turning::Spin(HalfSpin::new(&motion.relative)?),
         })
     }
 
     /// Ω for the motion L.
-    fn of(&self, step: &Step, l: &Matrix3<f64>) -> Matrix3<f64> {
-        let seen = step.q1.transpose() * l * step.q1;
+    fn of(&self, motion: &Motion, l: &Matrix3<f64>) -> Matrix3<f64> {
+        let seen = motion.q1.transpose() * l * motion.q1;
         match self {
             // e1 follows L e1, and e3 stays normal to e1 and e2 as L moves them: Ω has the entries of L below the diagonal.
             Turning::Fibre => skew(&Vector3::new(seen.m32, -seen.m31, seen.m21)),
@@ -145,10 +161,10 @@ impl Turning {
                 axes.transpose() * skew(&(inverse * twice)) * axes
             }
             Turning::Spin(HalfSpin { gradient, middle, forward, .. }) => {
-                let moved = (Matrix3::identity() - gradient) * l * step.relative * middle;
+                let moved = (Matrix3::identity() - gradient) * l * motion.relative * middle;
                 let half = (moved - moved.transpose()) * 0.5;
                 let back = forward.transpose(); // (1 + w)⁻¹
-                step.q1.transpose() * forward * half * back * step.q1 * 2.0
+                motion.q1.transpose() * forward * half * back * motion.q1 * 2.0
             }
         }
     }
@@ -207,6 +223,30 @@ impl LinearTangent {
         }
         nominal
     }
+}
+
+/// The entries of a tangent row by row, and the number of rows.
+pub(super) fn by_rows(
+    tangent: &LinearTangent,
+    measure: Measure,
+    f: &Matrix3<f64>,
+    cauchy: &[f64; 6],
+) -> ([f64; 81], usize) {
+    let mut entries = [0.0; 81];
+    if measure == Measure::Nominal {
+        let nominal = tangent.nominal(f, cauchy);
+        for (row, to) in entries.chunks_exact_mut(9).enumerate() {
+            for (x, from) in to.iter_mut().zip(nominal.iter().skip(row).step_by(9)) {
+                *x = *from;
+            }
+        }
+        return (entries, 9);
+    }
+    let rows = tangent.matrix(measure, f, cauchy).unwrap_or_default();
+    for (x, from) in entries.iter_mut().zip(rows.as_flattened()) {
+        *x = *from;
+    }
+    (entries, 6)
 }
 
 /// The derivative of ln A = 2 artanh((A − 1)(A + 1)⁻¹) along `da`, term by term; `None` if the series does not converge.

@@ -13,6 +13,7 @@ pub mod linear_tangent;
 pub(crate) mod number;
 pub mod parameters;
 pub mod point;
+pub mod prepared;
 pub mod response;
 pub mod state;
 pub mod status;

@@ -10,6 +10,7 @@ use super::failure::Failure;
 use super::hyperelastic::{Hyperelastic, PropertyFrame};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::number::elementary::Power;
+use super::number::level::Level;
 #[cfg(target_arch = "x86_64")]
 use super::number::level::has_fma;
 use super::number::real::{Real, Single};
@@ -131,7 +132,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 }
 
 /// The source of the law for a point: a law that has been prepared, or the properties, which are passed with the call.
-pub(super) trait Source<T>: Copy {
+pub(crate) trait Source<T>: Copy {
     /// The frame of the properties' fibre direction.
     fn frame(&self) -> PropertyFrame<T>;
 
@@ -140,6 +141,12 @@ pub(super) trait Source<T>: Copy {
     /// # Errors
     /// The first property that is wrong.
     fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error>;
+
+    /// The law as a whole.
+    ///
+    /// # Errors
+    /// The first property that is wrong.
+    fn whole(&self) -> Result<Hyperelastic<T>, Error>;
 
     /// ⟨−I_tc⟩^(p−1) with the exponent of `law`, and the failure criterion, which is not needed earlier.
     fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>);
@@ -153,6 +160,10 @@ impl<T: Real> Source<T> for &Hyperelastic<T> {
 
     #[inline(always)]
     fn law(&self, _: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
+        Ok(**self)
+    }
+
+    fn whole(&self) -> Result<Hyperelastic<T>, Error> {
         Ok(**self)
     }
 
@@ -171,6 +182,10 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     #[inline(always)]
     fn law(&self, frame: &PropertyFrame<T>) -> Result<Hyperelastic<T>, Error> {
         Hyperelastic::prepare(self, frame)
+    }
+
+    fn whole(&self) -> Result<Hyperelastic<T>, Error> {
+        Hyperelastic::new(self)
     }
 
     #[inline(always)]
@@ -226,9 +241,9 @@ pub(super) fn evaluate<
     point_in(source, &own, &f, &frame, &frame, usable, state, tangent, sink)
 }
 
-/// A call from a host that passes the properties with every point.
-pub(crate) struct Call<'a, T, D, S, const N: usize> {
-    pub properties: &'a [T],
+/// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
+pub(crate) struct Call<'a, T, L, D, S, const N: usize> {
+    pub source: L,
     /// Columns of F.
     pub f: &'a [[T; 3]; 3],
     /// A fibre direction of any length, or `None` for that of the properties.
@@ -239,7 +254,9 @@ pub(crate) struct Call<'a, T, D, S, const N: usize> {
     pub sink: S,
 }
 
-impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N: usize> Call<'_, T, D, S, N> {
+impl<T: Real<Mask = bool> + Into<f64>, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>
+    Call<'_, T, L, D, S, N>
+{
     /// Prepares the law and evaluates it in the number type `R`.
     ///
     /// # Errors
@@ -247,7 +264,7 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
-        evaluate::<T, R, &[T], D, S, N>(self.properties, self.f, self.fibre, self.state, self.tangent, self.sink)
+        evaluate::<T, R, L, D, S, N>(self.source, self.f, self.fibre, self.state, self.tangent, self.sink)
     }
 
     /// Prepares the law and evaluates it with the instructions that every processor of the architecture has.
@@ -256,7 +273,7 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     /// The first property that is wrong; the sink is not called.
     #[inline(never)]
     pub(super) fn evaluate_baseline(self) -> Result<(), Error> {
-        let law = Hyperelastic::new(self.properties)?;
+        let law = self.source.whole()?;
         let state = self.state.each_ref().map(Cell::get);
         let (point, entries) = law.point_with(self.f, self.fibre, &state, self.tangent.general());
         self.sink.take(point, entries);
@@ -264,24 +281,27 @@ impl<T: Real<Mask = bool> + Into<f64>, D: Derivative<N>, S: Sink<T, N>, const N:
     }
 }
 
-/// Evaluates a call with the best instructions that the processor has. The status is that of [`Hyperelastic::point_along`]; the
-/// other results differ from its results by no more than four roundings of the input would change them.
+/// Evaluates a call with the best instructions that the processor has and `level` allows. The status is that of
+/// [`Hyperelastic::point_along`]; the other results differ from its results by no more than four roundings of the input would
+/// change them.
 ///
 /// # Errors
 /// The first property that is wrong; the sink is not called.
 #[inline(always)]
-pub(crate) fn evaluate_call<T: Registers, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-    call: Call<'_, T, D, S, N>,
+#[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // there is only one level
+pub(crate) fn evaluate_call<T: Registers, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
+    call: Call<'_, T, L, D, S, N>,
+    level: Level,
 ) -> Result<(), Error> {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2,fma")]
-        fn with_fma<T: Registers, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-            call: Call<'_, T, D, S, N>,
+        fn with_fma<T: Registers, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
+            call: Call<'_, T, L, D, S, N>,
         ) -> Result<(), Error> {
             call.evaluate::<T::Point>()
         }
-        if has_fma() {
+        if level > Level::Baseline && has_fma() {
             // SAFETY: the processor has AVX2 and FMA, as `has_fma` has found.
             return unsafe { with_fma(call) };
         }

@@ -17,6 +17,12 @@ pub const UNKNOWN_NAME: i32 = -104;
 pub const BAD_ARGUMENT: i32 = -105;
 /// The host passes no deformation gradient: a small-strain analysis, F = 0, or F not stored where it is read.
 pub const NO_DEFORMATION_GRADIENT: i32 = -106;
+/// A prepared law that its prepare function has not written, or that of another law or precision.
+pub const NOT_PREPARED: i32 = -107;
+/// The size of a structure is not set, or is not that of any version of the structure.
+pub const BAD_SIZE: i32 = -108;
+/// A structure of a newer interface requests what this version of the library does not know.
+pub const UNKNOWN_FIELD: i32 = -109;
 /// The number of properties differs from that in the table of properties.
 pub const PROPERTY_COUNT: i32 = -201;
 /// A property is NaN or infinite.
@@ -38,13 +44,13 @@ pub const NOT_FINITE: i32 = -302;
 pub const OVERFLOW: i32 = -303;
 /// An old state variable is NaN or infinite.
 pub const STATE_NOT_FINITE: i32 = -304;
-/// The fibre direction given for this point is zero, NaN or infinite.
+/// The fibre direction given for this point is zero, NaN or infinite, or along the second axis of the linear elastic law.
 pub const FIBRE_DIRECTION: i32 = -305;
 /// The step is too large to integrate: a stretch by a factor of ten or more, or a half-turn.
 pub const INCREMENT_TOO_LARGE: i32 = -306;
 
 /// Every code with its name and meaning.
-pub const TABLE: [(i32, &str, &str); 19] = [
+pub const TABLE: [(i32, &str, &str); 22] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
     (BAD_COUNT, "bad_count", "a count that this function does not support"),
@@ -56,6 +62,9 @@ pub const TABLE: [(i32, &str, &str); 19] = [
         "no_deformation_gradient",
         "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11",
     ),
+    (NOT_PREPARED, "not_prepared", "the law has not been prepared, or it is another law or precision"),
+    (BAD_SIZE, "bad_size", "the size of a structure is not set, or wrong"),
+    (UNKNOWN_FIELD, "unknown_field", "a structure requests what this version of the library does not know"),
     (PROPERTY_COUNT, "property_count", "the number of properties differs from the table"),
     (PROPERTY_NOT_FINITE, "property_not_finite", "a property is NaN or infinite"),
     (PROPERTY_OUT_OF_BOUNDS, "property_out_of_bounds", "a property is outside its bounds"),
@@ -74,7 +83,11 @@ pub const TABLE: [(i32, &str, &str); 19] = [
         "the deformation is too large or too small to evaluate, or a result does not fit the number format",
     ),
     (STATE_NOT_FINITE, "state_not_finite", "an old state variable is NaN or infinite"),
-    (FIBRE_DIRECTION, "fibre_direction", "the fibre direction of this point is zero, NaN or infinite"),
+    (
+        FIBRE_DIRECTION,
+        "fibre_direction",
+        "the fibre direction of this point is zero, NaN or infinite, or along the second axis",
+    ),
     (
         INCREMENT_TOO_LARGE,
         "increment_too_large",

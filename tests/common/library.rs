@@ -11,17 +11,28 @@ pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
-/// The folder of libtoron.a, libtoron.so and libtoron_calculix.so, built from today's source as a user builds them
-/// but for the names of functions inside.
-pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| {
-    let folder = Path::new(BUILD).join("library");
-    let mut cargo = Command::new(env!("CARGO"));
+/// The library as a user installs it, from today's source, but for the names of functions inside; libtoron_calculix.so is with it.
+pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
+    let (build, installed) = (Path::new(BUILD).join("library"), Path::new(BUILD).join("installed"));
     // Names that tell what a kernel is built for.
-    cargo.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
-    cargo.args(["build", "--release", "--package=toron-c", "--package=toron-calculix", "--offline", "--manifest-path"]);
-    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")).arg("--target-dir").arg(&folder), "cargo");
-    folder.join("release")
+    let environment = |command: &mut Command| {
+        command.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
+        command.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true");
+    };
+    let mut install = Command::new(Path::new(ROOT).join("install.sh"));
+    environment(&mut install);
+    run(install.arg(format!("--prefix={}", installed.display())), "cargo");
+    let mut cargo = Command::new(env!("CARGO"));
+    environment(&mut cargo);
+    cargo.args(["build", "--release", "--package=toron-calculix", "--manifest-path"]);
+    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")), "cargo");
+    let calculix = "libtoron_calculix.so";
+    std::fs::copy(build.join("release").join(calculix), installed.join("lib").join(calculix)).expect("a copy");
+    installed
 });
+
+/// Its folder of libraries.
+pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 
 /// Runs a command to its end, which must be a good one; `package` is where a user gets it.
 pub fn run(command: &mut Command, package: &str) -> Output {

@@ -3,7 +3,9 @@
 //! The baseline gives the scalar law's bits. AVX2 and AVX-512 fuse multiplications with additions and stay within a few
 //! roundings of the input; at one level, no result depends on where its point stands.
 
+use std::mem::MaybeUninit;
 use std::ops::Range;
+use std::ptr::null_mut;
 
 use crate::common::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
 use crate::common::deformations::{Ranges, Sample, deformation, samples};
@@ -19,7 +21,7 @@ use toron::Real;
 use toron::host::c;
 use toron::law::block::Pointers;
 use toron::law::parameters::PRESETS;
-use toron::law::state::{FAILED, HYPERELASTIC_STATE};
+use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
@@ -255,28 +257,55 @@ fn lanes_stay_with_the_scalar_law_f32() {
 
 /// The law as a host calls it that hands over the properties with every point, and the modulus of the Jaumann rate.
 fn once(properties: &[f64; 11], input: &Input<f64>) -> (Point<f64>, [f64; 21]) {
-    let (props, f, old, none) = (properties.as_ptr(), input.f.as_ptr(), input.old.as_ptr(), std::ptr::null_mut());
     let mut tangent = [[f64::NAN; 6]; 6];
     let mut answers =
         [Point { stress: [0.0; 6], state: input.old, modes: [[0.0; 6]; 4], wave_modulus: 0.0, status: 0 }; 2];
     for (point, with_tangent) in answers.iter_mut().zip([true, false]) {
         let (stress, state) = (point.stress.as_mut_ptr(), point.state.as_mut_ptr());
-        // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
-        point.status = unsafe {
-            if with_tangent {
-                let to = tangent.as_mut_ptr().cast();
-                let fibre = std::ptr::null();
-                c::hyperelastic_point_tangent_f64(props, 11, f, fibre, old, state, stress, c::TORON_TANGENT_JAUMANN, to)
-            } else {
-                c::hyperelastic_point_f64(props, 11, f, std::ptr::null(), old, state, stress, none, 0.0, none)
-            }
+        let arguments = c::Point {
+            measure: c::TORON_TANGENT_JAUMANN,
+            deformation_gradient: input.f.as_ptr(),
+            state_old: input.old.as_ptr(),
+            state_new: state,
+            stress,
+            tangent: if with_tangent { tangent.as_mut_ptr().cast() } else { null_mut() },
+            ..c::Point::empty()
         };
+        // SAFETY: eleven properties and state variables, nine entries of F, six stresses, 36 moduli.
+        unsafe {
+            point.status =
+                c::hyperelastic_point_with_properties_f64(properties.as_ptr(), 11, &arguments, null_mut(), 0);
+            check_prepared(properties, &arguments, point);
+        }
     }
     // Without the tangent the answer is the same.
     let [point, alone] = answers;
     assert_eq!(bits(&alone), bits(&point), "{input:?}");
     let triangle = (0..6).flat_map(|row| tangent[row][row..].to_vec()).collect::<Vec<_>>();
     (point, triangle.try_into().expect("the upper triangle"))
+}
+
+/// With the law prepared once, the results are those of the call with properties, to four roundings of F.
+///
+/// # Safety
+/// The arrays are those of one point.
+unsafe fn check_prepared(properties: &[f64; 11], arguments: &c::Point<f64>, point: &Point<f64>) {
+    let mut law = MaybeUninit::uninit();
+    let (mut stress, mut state) = ([0.0; 6], [0.0; 11]);
+    let again = c::Point { state_new: state.as_mut_ptr(), stress: stress.as_mut_ptr(), ..*arguments };
+    // SAFETY: as the caller promises, and a law that is prepared before it is used.
+    let status = unsafe {
+        let size = size_of_val(&law);
+        match c::hyperelastic_prepare_f64(law.as_mut_ptr(), size, properties.as_ptr(), 11, null_mut(), 0) {
+            0 => c::hyperelastic_point_f64(law.as_ptr(), &again, null_mut(), 0),
+            code => code,
+        }
+    };
+    assert_eq!(status, point.status);
+    let prepared = Point { stress, state, ..*point };
+    assert_eq!(bits(&prepared).0[..14], bits(point).0[..14], "stress, energies and invariants");
+    let difference = (state[FAILURE_INDEX] - point.state[FAILURE_INDEX]).abs();
+    assert!(difference <= 4.0 * f64::EPSILON * point.state[FAILURE_INDEX].abs(), "failure index: {difference}");
 }
 
 /// Stress and state, whose zeros may differ in sign.
@@ -856,7 +885,7 @@ fn a_null_gradient_is_refused_and_no_points_are_none() {
         deformation_gradient[missing] = std::ptr::null();
         let block = Pointers { deformation_gradient, stress, ..Pointers::without_arrays(3, 3) };
         // SAFETY: each pointer is null or has three values a component.
-        assert_eq!(unsafe { law.raw_block(&block) }, Err(Error::Plain(status::NULL_ARGUMENT)));
+        assert_eq!(unsafe { law.raw_block(&block) }, Err(Error::Null { name: "deformation_gradient" }));
         assert!(owned.stress.iter().all(|&x| x == 0.0));
     }
 }

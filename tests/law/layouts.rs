@@ -4,7 +4,7 @@
 use crate::common::block::levels;
 use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
-use toron::host::c::{Block, hyperelastic_block_f64};
+use toron::host::c::{Block, hyperelastic_block_with_properties_f64};
 use toron::law::block::{Pointers, Strides, components, components_mut};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
@@ -190,18 +190,11 @@ fn few_points_are_active_alike() {
     let properties = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
     let f = [[1.01, -1.0, 1.1], [0.0; 3], [0.0; 3], [0.0; 3], [1.0; 3], [0.0; 3], [0.0; 3], [0.0; 3], [1.0; 3]];
     let (mut failure, mut active) = ([[0.0; 3]; 3], [7.0; 3]);
-    // SAFETY: all its fields may be 0.
-    let absent = unsafe { std::mem::zeroed::<Block<f64>>() };
-    let block = Block {
-        n: 3,
-        leading_dimension: 3,
-        deformation_gradient: f.as_ptr().cast(),
-        failure: failure.as_mut_ptr().cast(),
-        active: active.as_mut_ptr(),
-        ..absent
-    };
+    let mut block = Block { n: 3, failure: failure.as_mut_ptr().cast(), active: active.as_mut_ptr(), ..Block::empty() };
+    block.deformation_gradient[0] = f.as_ptr().cast();
     // SAFETY: arrays of three points.
-    let code = unsafe { hyperelastic_block_f64(properties.as_ptr(), 11, &block) };
+    let code =
+        unsafe { hyperelastic_block_with_properties_f64(properties.as_ptr(), 11, &block, std::ptr::null_mut(), 0) };
     assert_eq!((code, active), (status::INVERTED, [1.0, 0.0, 0.0]));
     assert_eq!(failure[1], [0.0, 0.0, 1.0], "the second point fails, the inverted one does not");
 }

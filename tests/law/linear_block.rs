@@ -10,7 +10,9 @@ use nalgebra::Matrix3;
 use proptest::prelude::*;
 use toron::Error;
 use toron::Level;
-use toron::law::block::linear::LinearPointers;
+use toron::Measure;
+use toron::law::block::linear::{LinearPointers, LinearStrides};
+use toron::law::block::{components, components_mut};
 use toron::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use toron::law::state::{
     LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
@@ -139,18 +141,17 @@ fn run<T: Number>(law: &LinearElastic<T>, inputs: &[Input], call: &Call) -> (Vec
     let state_old = old.as_mut_ptr();
     let state_new = if call.in_place { state_old } else { new.as_mut_ptr() };
     let block = LinearPointers {
-        n,
-        leading_dimension: stride,
-        f_old: f_old.as_ptr(),
-        f_new: f_new.as_ptr(),
+        f_old: components(f_old.as_ptr(), stride),
+        f_new: components(f_new.as_ptr(), stride),
         axes: if spin { axes.as_mut_ptr() } else { null },
         state_old,
         state_new: if wants_state { state_new } else { null },
-        stress: if wants_stress { stress.as_mut_ptr() } else { null },
+        stress: components_mut(if wants_stress { stress.as_mut_ptr() } else { null }, stride),
         status: if wants_status { codes.as_mut_ptr() } else { std::ptr::null_mut() },
         rotation: call.rotation,
         criterion: call.criterion,
         level: Some(call.level),
+        ..LinearPointers::without_arrays(n, stride)
     };
     // SAFETY: the arrays have the sizes that the block needs, and overlap only where they are the same.
     let worst = unsafe { law.raw_block(&block) }.expect("a block that is all right");
@@ -304,28 +305,19 @@ fn outputs_left_out() {
 
 #[test]
 fn blocks_that_are_refused() {
-    let (law, f) = (law::<f64>(), [1.0; 9]);
-    let (null, f) = (std::ptr::null_mut(), f.as_ptr());
-    let block = LinearPointers {
-        n: 1,
-        leading_dimension: 1,
-        f_old: f,
-        f_new: f,
-        axes: null,
-        state_old: null,
-        state_new: null,
-        stress: null,
-        status: std::ptr::null_mut(),
-        rotation: Rotation::Fibre,
-        criterion: Criterion::FibreStress,
-        level: None,
-    };
+    let (law, f, mut speed) = (law::<f64>(), [1.0; 9], 0.0);
+    let (null, f) = ([std::ptr::null(); 9], components(f.as_ptr(), 1));
+    let block = LinearPointers { f_old: f, f_new: f, ..LinearPointers::without_arrays(1, 1) };
     // SAFETY: what is not null holds one point.
     let code = |block: LinearPointers<f64>| unsafe { law.raw_block(&block) }.map_err(|error: Error| error.code());
     assert_eq!(code(LinearPointers { f_old: null, ..block }), Err(status::NULL_ARGUMENT));
     assert_eq!(code(LinearPointers { f_new: null, ..block }), Err(status::NULL_ARGUMENT));
     assert_eq!(code(LinearPointers { rotation: Rotation::Spin, ..block }), Err(status::NULL_ARGUMENT));
-    assert_eq!(code(LinearPointers { leading_dimension: 0, ..block }), Err(status::BAD_LEADING_DIMENSION));
+    let mut state = [0.0; STATE];
+    let crowded = LinearPointers { leading_dimension: 0, state_new: state.as_mut_ptr(), ..block };
+    assert_eq!(code(crowded), Err(status::BAD_LEADING_DIMENSION));
+    let unknown = LinearPointers { wave_speed: &mut speed, density: f64::NAN, ..block };
+    assert_eq!(code(unknown), Err(status::BAD_ARGUMENT));
     assert_eq!(code(LinearPointers { n: 0, leading_dimension: 0, ..block }), Ok(status::OK));
     assert_eq!(code(block), Ok(status::INVERTED));
 }
@@ -391,4 +383,167 @@ fn lanes_stay_with_the_point() {
         }
     }
     assert_eq!((LINEAR_STRESS, LINEAR_LARGEST), (0, 6), "the order of the state");
+}
+
+/// Fibre directions and second axes by points, any lengths; the last two points have no direction, or a second axis along it.
+fn directions(count: usize) -> Vec<([f64; 3], [f64; 3])> {
+    let turn = |i: usize| (0.7 * i as f64).sin_cos();
+    let mut directions: Vec<_> = (0..count)
+        .map(|i| {
+            let (s, c) = turn(i);
+            ([3.0 * c, 3.0 * s, 0.2 * s], if i % 3 == 0 { [0.0; 3] } else { [-0.1 * s, 0.2, 0.3 * c] })
+        })
+        .collect();
+    directions[count - 2].0 = [0.0; 3];
+    directions[count - 1].1 = directions[count - 1].0;
+    directions
+}
+
+/// Points with axes of their own, in rows or by components, are those of a law with these axes.
+#[test]
+fn points_with_axes_of_their_own() {
+    let inputs = steps(0.05, 41);
+    let (n, law) = (inputs.len(), law::<f64>());
+    let directions = directions(n);
+    let own = |i: usize, with_second: bool| {
+        let (fibre, second) = directions[i];
+        law.along(fibre, with_second.then_some(second))
+    };
+    for (rows, with_second) in [(false, true), (true, true), (false, false), (true, false)] {
+        // Component c of point i: in rows, or by components.
+        let stride = |components: usize| if rows { (1, components) } else { (n + 2, 1) };
+        let array = |components: usize, value: &dyn Fn(usize, usize) -> f64| {
+            let ((between, stride), mut array) = (stride(components), vec![0.0; components * (n + 2)]);
+            for (i, c) in (0..n).flat_map(|i| (0..components).map(move |c| (i, c))) {
+                array[c * between + i * stride] = value(i, c);
+            }
+            array
+        };
+        let (f_old, f_new) = (array(9, &|i, c| inputs[i].f_old[c]), array(9, &|i, c| inputs[i].f_new[c]));
+        let (fibre, second) = (array(3, &|i, c| directions[i].0[c]), array(3, &|i, c| directions[i].1[c]));
+        let (old, mut stress) = (array(STATE, &|i, c| inputs[i].old[c]), array(6, &|_, _| 0.0));
+        let (mut new, mut tangent) = (array(STATE, &|_, _| 0.0), array(81, &|_, _| 0.0));
+        let (mut active, mut codes) = (vec![7.0; n], vec![7; n]);
+        let second = if with_second { second.as_ptr() } else { std::ptr::null() };
+        let of = |components: usize| stride(components).1;
+        let block = LinearPointers {
+            f_old: components(f_old.as_ptr(), stride(9).0),
+            f_new: components(f_new.as_ptr(), stride(9).0),
+            fibre: components(fibre.as_ptr(), stride(3).0),
+            second_axis: components(second, stride(3).0),
+            state_old: old.as_ptr(),
+            state_new: new.as_mut_ptr(),
+            stress: components_mut(stress.as_mut_ptr(), stride(6).0),
+            status: codes.as_mut_ptr(),
+            active: active.as_mut_ptr(),
+            strides: LinearStrides {
+                deformation_gradient: of(9),
+                fibre: of(3),
+                axes: of(9),
+                state: of(STATE),
+                stress: of(6),
+                tangent: of(81),
+            },
+            level: Some(Level::Baseline),
+            ..LinearPointers::without_arrays(n, stride(1).0)
+        };
+        for with_tangent in [false, true] {
+            let to = if with_tangent { tangent.as_mut_ptr() } else { std::ptr::null_mut() };
+            // SAFETY: the arrays have the sizes that the block needs.
+            let worst = unsafe { law.raw_block(&LinearPointers { tangent: to, measure: Measure::Nominal, ..block }) };
+            assert_eq!(worst, Ok(status::FIBRE_DIRECTION));
+            for (i, input) in inputs.iter().enumerate() {
+                let Ok(own) = own(i, with_second) else {
+                    assert_eq!((codes[i], active[i]), (status::FIBRE_DIRECTION, 0.0), "point {i}");
+                    continue;
+                };
+                let at = |array: &[f64], components: usize, c: usize| {
+                    let (between, stride) = stride(components);
+                    array[c * between + i * stride]
+                };
+                let [f0, f1] = [input.f_old, input.f_new].map(|f| Matrix3::from_column_slice(&f));
+                let (rotation, criterion) = (Rotation::Fibre, Criterion::LargestPrincipal);
+                let (point, wanted) =
+                    own.step_with_tangent(&f0, &f1, &input.old, rotation, criterion, &mut Matrix3::identity());
+                let found: Vec<_> = (0..6).map(|c| at(&stress, 6, c)).collect();
+                assert_eq!((found, codes[i]), (point.stress.to_vec(), point.status), "point {i}");
+                let found: Vec<_> = (0..STATE).map(|c| at(&new, STATE, c)).collect();
+                assert_eq!((found, active[i]), (point.state.to_vec(), point.state[LINEAR_ALIVE]), "point {i}");
+                let nominal = wanted.nominal(&f1, &point.stress);
+                for c in (0..81).filter(|_| with_tangent) {
+                    // By rows here, by columns there.
+                    assert_eq!(at(&tangent, 81, c), nominal[c % 9 * 9 + c / 9], "point {i}, entry {c}");
+                }
+            }
+        }
+    }
+}
+
+/// The wave speed of a block.
+fn wave_speeds(inputs: &[Input], rotation: Rotation, level: Level) -> Vec<f64> {
+    let filled = |components: usize, value: &dyn Fn(&Input, usize) -> f64| -> Vec<f64> {
+        (0..components).flat_map(|c| inputs.iter().map(move |input| value(input, c))).collect()
+    };
+    let n = inputs.len();
+    let (f_old, f_new) = (filled(9, &|input, c| input.f_old[c]), filled(9, &|input, c| input.f_new[c]));
+    let (mut axes, old) = (filled(9, &|input, c| input.axes[c]), filled(STATE, &|input, c| input.old[c]));
+    let mut speeds = vec![0.0; n];
+    let block = LinearPointers {
+        f_old: components(f_old.as_ptr(), n),
+        f_new: components(f_new.as_ptr(), n),
+        axes: axes.as_mut_ptr(),
+        state_old: old.as_ptr(),
+        density: 1.0,
+        wave_speed: speeds.as_mut_ptr(),
+        rotation,
+        level: Some(level),
+        ..LinearPointers::without_arrays(n, n)
+    };
+    // SAFETY: the arrays have the sizes that the block needs.
+    unsafe { law::<f64>().raw_block(&block) }.expect("a block that is all right");
+    speeds
+}
+
+/// No wave is faster than the bound, in any frame and direction; at rest the one along the fibre is as fast.
+#[test]
+fn waves_are_no_faster_than_the_bound() {
+    let unit = |v: nalgebra::Vector3<f64>| v / v.norm();
+    // Stressed states, and a step of no length: its tangent is that of the rate.
+    let inputs: Vec<_> = steps(0.1, 60)
+        .into_iter()
+        .filter(|input| input.old[LINEAR_FAILED] == 0.0)
+        .map(|input| Input { f_new: input.f_old, ..input })
+        .collect();
+    let directions: Vec<_> = (0..200_u32)
+        .map(|k| {
+            unit(nalgebra::Vector3::from_fn(|c, _| (f64::from(k) * [0.61, 1.13, 1.71][c] + c as f64).sin() + 1e-3))
+        })
+        .collect();
+    let mut closest = 0.0_f64;
+    for (rotation, level) in ROTATIONS.into_iter().flat_map(|rotation| levels().map(move |level| (rotation, level))) {
+        for (input, speed) in inputs.iter().zip(wave_speeds(&inputs, rotation, level)) {
+            let f = Matrix3::from_column_slice(&input.f_old);
+            let mut axes = Matrix3::from_column_slice(&input.axes);
+            let (point, tangent) =
+                law::<f64>().step_with_tangent(&f, &f, &input.old, rotation, Criterion::FibreStress, &mut axes);
+            assert_eq!(point.status, status::OK);
+            let nominal = tangent.nominal(&f, &point.stress);
+            for (n, u) in directions.iter().zip(directions.iter().skip(1)).chain(directions.iter().map(|n| (n, n))) {
+                let material = f.transpose() * n;
+                let mut modulus = 0.0;
+                for (row, column) in (0..9).flat_map(|row| (0..9).map(move |column| (row, column))) {
+                    let of = |k: usize| u[k % 3] * material[k / 3];
+                    modulus += nominal[row + 9 * column] * of(row) * of(column);
+                }
+                assert!(modulus <= speed * speed * (1.0 + 1e-9), "{rotation:?}: {modulus} of {}", speed * speed);
+                closest = closest.max(modulus / (speed * speed));
+            }
+        }
+    }
+    assert!(closest > 0.7, "the fastest of these waves has {closest} of the bound's square");
+    let axes = by_columns(&law::<f64>().reference_axes());
+    let rest = Input { f_old: REST, f_new: REST, axes, old: [0.0; STATE] };
+    for level in levels() {
+        assert_eq!(wave_speeds(&[rest], Rotation::Fibre, level), [E1.sqrt()]);
+    }
 }

@@ -10,6 +10,7 @@ use toron::law::parameters::{
     self, DENSITY, HYPERELASTIC, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC, LINEAR_ELASTIC_PROPERTIES, NUMBER, PRESETS,
     STRESS, preset,
 };
+use toron::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use toron::law::state::{self, StateVariable};
 use toron::law::status;
 
@@ -285,4 +286,62 @@ fn names_of_unit_systems() {
     for name in ["", "mm", "mm-kg", "mm-kg-parsec", "mm-cm-s", "mm-kg-ms-s", "mm kg ms"] {
         assert_eq!(parse(name), None, "{name}");
     }
+}
+
+/// The texts of the tables fit the characters that the C interface has for them, the terminating null included.
+#[test]
+fn texts_fit_the_rows_of_the_c_interface() {
+    let properties = parameters::HYPERELASTIC.iter().chain(&parameters::LINEAR_ELASTIC);
+    let properties = properties.map(|row| (row.name, row.symbol, row.dimension.name, row.allowed, row.meaning));
+    let variables = state::HYPERELASTIC.iter().chain(&state::LINEAR_ELASTIC);
+    let variables = variables.map(|row| (row.name, row.symbol, row.dimension.name, "", row.meaning));
+    for (name, symbol, unit, allowed, meaning) in properties.chain(variables) {
+        assert!(name.len() < 24 && symbol.len() < 24 && unit.len() < 24, "{name}");
+        assert!(allowed.len() < 80 && meaning.len() < 100, "{name}");
+    }
+}
+
+/// The numbers of a prepared law in their order: if they or their meaning change, so must the tag in `host::c::prepared`.
+#[test]
+fn prepared_laws_hold_these_numbers() {
+    let law = Hyperelastic::new(&[82341.0, 1055.0, 2.25, 649.74, 10.0, 0.0458, 1.8, 0.1, 2.0, 0.0, 0.0]).expect("good");
+    let limit = 0.0458_f64.ln_1p();
+    let numbers = PreparedHyperelastic::from(&law).0;
+    let wanted = [
+        82341.0,
+        1055.0,
+        2.25,
+        649.74,
+        10.0,
+        1.25,
+        1.25,
+        0.0,
+        1.25 * std::f64::consts::LOG2_E,
+        f64::MIN_POSITIVE * f64::from(1 << 20),
+        0.0,
+        limit,
+        1.0 / limit,
+        0.0,
+        1.8,
+        0.1,
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+        0.0,
+        0.0,
+        0.0,
+        1.0,
+        1.0,
+    ];
+    for (k, (found, wanted)) in numbers.into_iter().zip(wanted).enumerate() {
+        assert!((found - wanted).abs() <= 4.0 * f64::EPSILON * wanted.abs(), "number {k}: {found}, {wanted}");
+    }
+    let linear =
+        LinearElastic::<f64>::new(&[79414.0, 794.0, 126.0, 3637.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0]).expect("good");
+    let wanted = [
+        79414.0, 794.0, 794.0, 126.0, 126.0, 126.0, 3637.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0,
+    ];
+    assert_eq!(PreparedLinearElastic::from(&linear).0, wanted);
 }

@@ -1,7 +1,6 @@
 //! No C entry allocates, whether the call is right or wrong.
 
 use std::ffi::{c_char, c_int};
-use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use allocation_counter::measure;
@@ -50,25 +49,20 @@ macro_rules! quiet {
     }};
 }
 
-/// The names of all entries, from their definitions.
+/// The names of all entries, as the packages that export them call them.
 fn entries() -> Vec<String> {
     let sources = [
-        ("c", include_str!("../../src/host/c/about.rs")),
-        ("c", include_str!("../../src/host/c/tables.rs")),
-        ("c", include_str!("../../src/host/c/points.rs")),
-        ("c", include_str!("../../src/host/c/tangents.rs")),
-        ("c", include_str!("../../src/host/c/blocks.rs")),
-        ("c", include_str!("../../src/host/c/linear_elastic.rs")),
-        ("abaqus", include_str!("../../src/host/abaqus.rs")),
-        ("calculix", include_str!("../../src/host/calculix.rs")),
-        ("lsdyna", include_str!("../../src/host/lsdyna.rs")),
+        include_str!("../../c/src/about.rs"),
+        include_str!("../../c/src/tables.rs"),
+        include_str!("../../c/src/hyperelastic.rs"),
+        include_str!("../../c/src/linear_elastic.rs"),
+        include_str!("../../c/src/abaqus.rs"),
+        include_str!("../../c/src/lsdyna.rs"),
+        include_str!("../../calculix/src/lib.rs"),
     ];
-    let name = |definition: &str| definition.split('(').next().map(str::to_owned);
-    let named = |(module, source): (&str, &'static str)| {
-        let definitions = source.split("extern \"C\" fn ").skip(1).filter_map(name);
-        definitions.map(|name| format!("{module}::{name}")).collect::<Vec<_>>()
-    };
-    sources.into_iter().flat_map(named).collect()
+    let calls = sources.into_iter().flat_map(|source| source.split("toron::host::").skip(1));
+    let calls = calls.filter_map(|call| call.split_once('(')).map(|(name, _)| name);
+    calls.filter(|name| name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == ':')).map(str::to_owned).collect()
 }
 
 /// A new entry has to be added to the calls below.
@@ -88,99 +82,143 @@ fn the_count_counts() {
     assert_eq!(measure(|| drop(std::hint::black_box(vec![1]))).count_total, 1);
 }
 
+/// Room for a message.
+const ROOM: usize = TORON_MESSAGE_CAPACITY;
+
 #[test]
 fn the_library_about_itself() {
-    let mut text = [0 as c_char; 200];
+    let mut text = [0 as c_char; ROOM];
+    let t = text.as_mut_ptr();
     let names: [*const c_char; 4] = [c"k_el".as_ptr(), c"alive".as_ptr(), c"nothing".as_ptr(), null()];
     assert_eq!(quiet!(c::abi_version,), TORON_ABI_VERSION);
     assert!(!quiet!(c::version,).is_null());
     for code in -400..10 {
-        assert!(quiet!(c::status_message, code, text.as_mut_ptr(), text.len()) > 0);
+        quiet!(c::status_message, code, t, ROOM);
         quiet!(c::status_message, code, null_mut(), 0);
     }
     for law in -1..3 {
-        let (properties, state) = (quiet!(c::property_count, law), quiet!(c::state_count, law));
+        let properties = quiet!(c::property_count, law, t, ROOM);
+        let state = quiet!(c::state_count, law, null_mut(), 0);
         assert_eq!(properties < 0, !(0..2).contains(&law));
         assert_eq!(state < 0, properties < 0);
         for index in -1..12 {
-            let mut row = MaybeUninit::uninit();
-            quiet!(c::property, law, index, row.as_mut_ptr());
-            quiet!(c::property, law, index, null_mut());
-            quiet!(c::state_variable, law, index, row.as_mut_ptr());
-            quiet!(c::state_variable, law, index, null_mut());
+            // SAFETY: numbers, which may be 0.
+            let mut row = unsafe { std::mem::zeroed::<TableRow>() };
+            quiet!(c::property, law, index, &mut row, t, ROOM);
+            row.size = size_of::<TableRow>();
+            quiet!(c::property, law, index, &mut row, t, ROOM);
+            quiet!(c::property, law, index, null_mut(), t, ROOM);
+            quiet!(c::state_variable, law, index, &mut row, t, ROOM);
+            quiet!(c::state_variable, law, index, null_mut(), null_mut(), 0);
         }
         for name in names {
-            quiet!(c::property_index, law, name);
-            quiet!(c::state_index, law, name);
+            quiet!(c::property_index, law, name, t, ROOM);
+            quiet!(c::state_index, law, name, t, ROOM);
         }
     }
 }
 
 /// The entries that there are in both precisions.
 macro_rules! both_precisions {
-    ($test:ident, $t:ty, $preset:path, $validate:path, $point:path, $point_tangent:path, $block:path,
-     $block_tangent:path, $vumat:path, $umat:path, $utan:path, $vector:path, $vector_tangent:path) => {
+    ($test:ident, $t:ty, $preset:path, $prepare:path, $point:path, $point_with_properties:path, $block:path,
+     $block_with_properties:path, $vumat:path, $umat:path, $utan:path, $vector:path, $vector_tangent:path) => {
         #[test]
         fn $test() {
+            let mut text = [0 as c_char; ROOM];
+            let t = text.as_mut_ptr();
             let (mut values, mut density) = ([0.0 as $t; P], 0.0 as $t);
             for preset in [c"kevlar-km2-600".as_ptr(), c"nylon".as_ptr(), null()] {
                 for units in [c"mm-kg-ms".as_ptr(), c"furlong".as_ptr(), null()] {
-                    quiet!($preset, preset, units, values.as_mut_ptr(), P, &mut density);
-                    quiet!($preset, preset, units, null_mut(), 3, null_mut());
+                    quiet!($preset, preset, units, values.as_mut_ptr(), P, &mut density, t, ROOM);
+                    quiet!($preset, preset, units, null_mut(), 3, null_mut(), null_mut(), 0);
                 }
             }
-            let (mut text, mut code) = ([0 as c_char; 200], 0);
+            let mut code = 0;
             for yarn in YARNS.map(|yarn| yarn.map(|x| x as $t)) {
-                let (yarn, message) = (yarn.as_ptr(), text.as_mut_ptr());
-                quiet!($validate, yarn, P, message, 200, &mut code);
-                quiet!($validate, yarn, 3, message, 200, &mut code);
-                quiet!($validate, null(), P, null_mut(), 0, null_mut());
+                let yarn = yarn.as_ptr();
+                // SAFETY: numbers, which may be 0.
+                let mut law = unsafe { std::mem::zeroed::<HyperelasticLaw<$t>>() };
+                // Not prepared at first, and if a property is wrong.
+                quiet!($prepare, &mut law, size_of_val(&law), yarn, 3, t, ROOM);
+                quiet!($prepare, &mut law, 8, yarn, P, t, ROOM);
+                quiet!($prepare, null_mut(), 8, null(), P, null_mut(), 0);
+                quiet!($prepare, &mut law, size_of_val(&law), yarn, P, t, ROOM);
                 for f in deformations().map(|f| f.map(|x| x as $t)) {
                     let (old, mut new, mut stress) = ([0.0 as $t; S], [0.0 as $t; S], [0.0 as $t; 6]);
                     let (mut modes, mut speed) = ([0.0 as $t; 24], 0.0 as $t);
                     let (s, m, fibre) = (stress.as_mut_ptr(), modes.as_mut_ptr(), [0.0 as $t, 1.0, 0.0]);
                     let (old, n, direction) = (old.as_ptr(), new.as_mut_ptr(), fibre.as_ptr());
-                    quiet!($point, yarn, P, f.as_ptr(), direction, old, n, s, m, 1.0, &mut speed);
-                    quiet!($point, yarn, P, null(), null(), null(), null_mut(), s, m, -1.0, &mut speed);
                     let mut tangent = [0.0 as $t; 81];
                     let c = tangent.as_mut_ptr();
-                    for measure in -1..4 {
-                        quiet!($point_tangent, yarn, P, f.as_ptr(), direction, old, n, s, measure, c);
-                        quiet!($point_tangent, yarn, P, null(), null(), old, n, s, measure, null_mut());
-                    }
-                    let mut active = 0.0;
-                    let block = Block {
-                        n: 1,
-                        leading_dimension: 1,
+                    let simple = Point {
                         deformation_gradient: f.as_ptr(),
-                        fibre: direction,
-                        energies_old: null(),
-                        invariants_old: null(),
-                        failure_old: null(),
-                        density: 1.0,
+                        state_old: old,
+                        state_new: n,
                         stress: s,
-                        energies: null_mut(),
-                        invariants: null_mut(),
-                        failure: null_mut(),
+                        ..Point::empty()
+                    };
+                    let full = Point { fibre: direction, modes: m, wave_speed: &mut speed, density: 1.0, ..simple };
+                    let points = [
+                        simple,
+                        full,
+                        Point { density: -1.0, ..full },
+                        Point { deformation_gradient: null(), ..full },
+                        Point { size: 0, ..full },
+                        Point { size: 40, ..full },
+                        Point { level: 9, ..full },
+                        Point { level: TORON_LEVEL_BASELINE, ..full },
+                    ];
+                    let tangents = (-1..5).map(|measure| Point { measure, tangent: c, ..full });
+                    for point in points.into_iter().chain(tangents) {
+                        quiet!($point, &law, &point, t, ROOM);
+                        quiet!($point, null(), &point, null_mut(), 0);
+                        quiet!($point_with_properties, yarn, P, &point, t, ROOM);
+                        quiet!($point_with_properties, yarn, 3, &point, t, ROOM);
+                    }
+                    quiet!($point, &law, null(), t, ROOM);
+                    quiet!($point_with_properties, null(), P, null(), t, ROOM);
+                    let mut active = 0.0;
+                    let mut block = Block {
+                        n: 1,
+                        density: 1.0,
                         modes: m,
                         wave_speed: &mut speed,
                         status: &mut code,
                         active: &mut active,
-                        level: TORON_LEVEL_BEST,
+                        ..Block::empty()
                     };
-                    quiet!($block, yarn, P, &block);
-                    quiet!($block, yarn, P, &Block { level: 9, ..block });
-                    quiet!($block, yarn, P, &Block { leading_dimension: 0, ..block });
-                    quiet!($block, yarn, P, null());
-                    for measure in -1..4 {
-                        quiet!($block_tangent, yarn, P, &block, measure, c);
+                    block.deformation_gradient[0] = f.as_ptr();
+                    block.fibre[0] = direction;
+                    block.stress[0] = s;
+                    let stride = |stride| Layout { leading_dimension: 1, stride };
+                    let mut components = block;
+                    components.stress[2] = s;
+                    let blocks = [
+                        block,
+                        components,
+                        Block { level: 9, ..block },
+                        Block { size: 0, ..block },
+                        Block { size: 16, ..block },
+                        Block { n: 2, leading_dimension: 1, ..block },
+                        Block { deformation_gradient_layout: stride(9), stress_layout: stride(6), ..block },
+                        Block { modes_layout: stride(24), ..block },
+                    ];
+                    let tangents = (-1..5).map(|measure| Block { measure, tangent: c, ..block });
+                    for block in blocks.into_iter().chain(tangents) {
+                        quiet!($block, &law, &block, t, ROOM);
+                        quiet!($block, null(), &block, null_mut(), 0);
+                        quiet!($block_with_properties, yarn, P, &block, t, ROOM);
+                        quiet!($block_with_properties, yarn, 3, &block, t, ROOM);
                     }
-                    quiet!($block_tangent, yarn, P, null(), 0, null_mut());
+                    quiet!($block, &law, null(), t, ROOM);
+                    quiet!($block_with_properties, null(), P, null(), t, ROOM);
 
                     let stretch = [f[0], f[4], f[8], 0.0, 0.0, 0.0];
                     let (zero, unit) = ([0.0 as $t; S], [1.0 as $t]);
                     let (mut energy, mut inelastic) = (0.0 as $t, 0.0 as $t);
                     let job = Vumat {
+                        size: size_of::<Vumat<$t>>(),
+                        level: TORON_LEVEL_BEST,
                         nblock: 1,
                         ndir: 3,
                         nshr: 3,
@@ -202,23 +240,29 @@ macro_rules! both_precisions {
                         ener_intern_new: &mut energy,
                         ener_inelas_new: &mut inelastic,
                     };
-                    quiet!($vumat, &job);
-                    quiet!($vumat, &Vumat { step_time: 0.0, total_time: 0.0, ..job });
-                    quiet!($vumat, &Vumat { nshr: 1, ..job });
-                    quiet!($vumat, null());
+                    for job in [
+                        job,
+                        Vumat { step_time: 0.0, total_time: 0.0, ..job },
+                        Vumat { nshr: 1, ..job },
+                        Vumat { size: 0, ..job },
+                    ] {
+                        quiet!($vumat, &job, t, ROOM);
+                    }
+                    quiet!($vumat, null(), null_mut(), 0);
 
                     let mut history = [0.0 as $t; S + 9];
                     history[S..].copy_from_slice(&f);
-                    let (h, mut failed) = (history.as_mut_ptr(), 0 as c_int);
-                    quiet!($umat, yarn, s, h, S as i32, &mut failed);
-                    quiet!($umat, yarn, s, h, 3, null_mut());
+                    let (h, mut failed, i) = (history.as_mut_ptr(), 0 as c_int, S as i32);
+                    quiet!($umat, yarn, s, h, i, &mut failed, t, ROOM);
+                    quiet!($umat, yarn, s, h, 3, null_mut(), null_mut(), 0);
                     let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
-                    quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, S as i32, 1, 1, 1, &mut failed);
-                    quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, S as i32, 0, 1, 1, &mut failed);
-                    quiet!($utan, yarn, h, S as i32, c);
-                    quiet!($utan, yarn, null(), 3, c);
-                    quiet!($vector_tangent, yarn, h, S as i32, 1, 1, 1, c);
-                    quiet!($vector_tangent, yarn, h, S as i32, 0, 1, 1, null_mut());
+                    for first in [1, 0] {
+                        quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, i, first, 1, 1, &mut failed, t, ROOM);
+                    }
+                    quiet!($utan, yarn, h, i, c, t, ROOM);
+                    quiet!($utan, yarn, null(), 3, c, null_mut(), 0);
+                    quiet!($vector_tangent, yarn, h, i, 1, 1, 1, c, t, ROOM);
+                    quiet!($vector_tangent, yarn, h, i, 0, 1, 1, null_mut(), null_mut(), 0);
                 }
             }
         }
@@ -229,11 +273,11 @@ both_precisions!(
     double_precision,
     f64,
     c::preset_f64,
-    c::hyperelastic_validate_f64,
+    c::hyperelastic_prepare_f64,
     c::hyperelastic_point_f64,
-    c::hyperelastic_point_tangent_f64,
+    c::hyperelastic_point_with_properties_f64,
     c::hyperelastic_block_f64,
-    c::hyperelastic_block_tangent_f64,
+    c::hyperelastic_block_with_properties_f64,
     abaqus::vumat_f64,
     lsdyna::umat_f64,
     lsdyna::utan_f64,
@@ -244,11 +288,11 @@ both_precisions!(
     single_precision,
     f32,
     c::preset_f32,
-    c::hyperelastic_validate_f32,
+    c::hyperelastic_prepare_f32,
     c::hyperelastic_point_f32,
-    c::hyperelastic_point_tangent_f32,
+    c::hyperelastic_point_with_properties_f32,
     c::hyperelastic_block_f32,
-    c::hyperelastic_block_tangent_f32,
+    c::hyperelastic_block_with_properties_f32,
     abaqus::vumat_f32,
     lsdyna::umat_f32,
     lsdyna::utan_f32,
@@ -258,29 +302,35 @@ both_precisions!(
 
 #[test]
 fn double_precision_only() {
-    let (mut bulk, mut shear) = (0.0, 0.0);
+    let (mut bulk, mut shear, mut text) = (0.0, 0.0, [0 as c_char; ROOM]);
+    let t = text.as_mut_ptr();
     for yarn in &YARNS {
         let yarn = yarn.as_ptr();
-        quiet!(lsdyna::bulk_and_shear_f64, yarn, P, &mut bulk, &mut shear);
-        quiet!(lsdyna::bulk_and_shear_f64, yarn, 3, &mut bulk, null_mut());
+        quiet!(lsdyna::bulk_and_shear_f64, yarn, P, &mut bulk, &mut shear, t, ROOM);
+        quiet!(lsdyna::bulk_and_shear_f64, yarn, 3, &mut bulk, null_mut(), null_mut(), 0);
+        // SAFETY: numbers, which may be 0.
+        let mut law = unsafe { std::mem::zeroed::<HyperelasticLaw<f64>>() };
+        quiet!(c::hyperelastic_prepare_f64, &mut law, size_of_val(&law), yarn, P, t, ROOM);
         for f in deformations() {
             let (mut stress, mut state, mut energy, mut step) = ([0.0; 6], [0.0; S], 0.0, 1.0);
             let (s, h) = (stress.as_mut_ptr(), state.as_mut_ptr());
             for count in [P as i32, -1] {
                 let (f, n) = (f.as_ptr(), S as i32);
-                quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, count, n, 3, 3, 1);
+                quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, count, n, 3, 3, 1, t, ROOM);
                 let mut c = [0.0; 36];
                 let (c, e) = (c.as_mut_ptr(), &mut energy);
-                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 3, 1);
-                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 1, 1);
+                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 3, 1, t, ROOM);
+                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 1, 1, t, ROOM);
             }
             let (mut least, mut direction) = (0.0, [0.0; 3]);
-            let (w, n) = (&mut least, direction.as_mut_ptr());
-            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, yarn, P, f.as_ptr(), null(), w, n);
-            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, yarn, P, null(), null(), w, n);
-            let (f, n) = (REST.as_ptr(), S as i32);
-            quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 0);
-            quiet!(abaqus::umat_f64, s, null_mut(), &mut energy, &mut step, f, yarn, P as i32, n, 3, 3, 1);
+            let (w, n, nothing) = (&mut least, direction.as_mut_ptr(), null_mut());
+            let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
+            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, &point, w, n, t, ROOM);
+            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, null(), w, n, t, ROOM);
+            quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, null(), &point, nothing, n, t, ROOM);
+            let (f, n, p) = (REST.as_ptr(), S as i32, P as i32);
+            quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, p, n, 3, 3, 0, t, ROOM);
+            quiet!(abaqus::umat_f64, s, nothing, &mut energy, &mut step, f, yarn, p, n, 3, 3, 1, null_mut(), 0);
         }
     }
 }
@@ -334,73 +384,111 @@ fn calculix() {
     }
 }
 
-#[test]
-fn linear_elastic() {
-    let (mut text, mut code) = ([0 as c_char; 200], 0);
-    for yarn in &LINEAR {
-        let (yarn_f32, yarn) = (yarn.map(|x| x as f32), yarn.as_ptr());
-        let (mut axes, mut state, mut stress) = (REST, [0.0; TORON_LINEAR_ELASTIC_STATE], [0.0; 6]);
-        let (a, h, s) = (axes.as_mut_ptr(), state.as_mut_ptr(), stress.as_mut_ptr());
-        quiet!(c::linear_elastic_validate_f64, yarn, L, text.as_mut_ptr(), 200, &mut code);
-        quiet!(c::linear_elastic_validate_f64, yarn, 3, null_mut(), 0, null_mut());
-        quiet!(c::linear_elastic_axes_f64, yarn, L, a);
-        quiet!(c::linear_elastic_axes_f64, yarn, L, null_mut());
-        for f in deformations() {
-            for rotation in -1..4 {
-                quiet!(c::linear_elastic_step_f64, yarn, L, REST.as_ptr(), f.as_ptr(), null(), h, s, rotation, 0, a);
-                quiet!(c::linear_elastic_step_f64, yarn, L, null(), f.as_ptr(), null(), h, s, rotation, 1, a);
-                let mut tangent = [0.0; 81];
-                let (c, r, f) = (tangent.as_mut_ptr(), REST.as_ptr(), f.as_ptr());
-                for measure in -1..4 {
-                    quiet!(c::linear_elastic_step_tangent_f64, yarn, L, r, f, null(), h, s, rotation, 0, a, measure, c);
+/// The entries of the linear elastic law.
+macro_rules! linear_elastic {
+    ($test:ident, $t:ty, $prepare:path, $axes:path, $point:path, $point_with_properties:path, $increment:path,
+     $block:path, $block_with_properties:path) => {
+        #[test]
+        fn $test() {
+            let (mut text, mut code) = ([0 as c_char; ROOM], 0);
+            let (t, rest) = (text.as_mut_ptr(), REST.map(|x| x as $t));
+            for yarn in LINEAR.map(|yarn| yarn.map(|x| x as $t)) {
+                let yarn = yarn.as_ptr();
+                // SAFETY: numbers, which may be 0.
+                let mut law = unsafe { std::mem::zeroed::<LinearElasticLaw<$t>>() };
+                quiet!($prepare, &mut law, size_of_val(&law), yarn, 3, t, ROOM);
+                quiet!($prepare, null_mut(), 3, null(), L, null_mut(), 0);
+                quiet!($prepare, &mut law, size_of_val(&law), yarn, L, t, ROOM);
+                let (mut axes, mut state, mut stress) = (rest, [0.0; TORON_LINEAR_ELASTIC_STATE], [0.0; 6]);
+                let (a, h, s) = (axes.as_mut_ptr(), state.as_mut_ptr(), stress.as_mut_ptr());
+                let (mut tangent, mut speed, mut active) = ([0.0 as $t; 81], 0.0 as $t, 0.0 as $t);
+                for direction in [[0.0 as $t, 1.0, 0.0], [0.0; 3]] {
+                    let direction = direction.as_ptr();
+                    quiet!($axes, &law, direction, null(), a, t, ROOM);
+                    quiet!($axes, &law, direction, direction, a, t, ROOM);
+                    quiet!($axes, &law, null(), null(), a, t, ROOM);
+                    quiet!($axes, &law, null(), null(), null_mut(), null_mut(), 0);
+                    for f in deformations().map(|f| f.map(|x| x as $t)) {
+                        let point = LinearPoint {
+                            density: 1.0,
+                            f_old: rest.as_ptr(),
+                            f_new: f.as_ptr(),
+                            fibre: direction,
+                            axes: a,
+                            state_new: h,
+                            stress: s,
+                            wave_speed: &mut speed,
+                            ..LinearPoint::empty()
+                        };
+                        let mut block = LinearBlock {
+                            n: 1,
+                            density: 1.0,
+                            axes: a,
+                            state_new: h,
+                            wave_speed: &mut speed,
+                            active: &mut active,
+                            status: &mut code,
+                            ..LinearBlock::empty()
+                        };
+                        (block.f_old[0], block.f_new[0]) = (rest.as_ptr(), f.as_ptr());
+                        (block.fibre[0], block.stress[0]) = (direction, s);
+                        let tangent = tangent.as_mut_ptr();
+                        for (rotation, criterion) in (-1..4).flat_map(|r| (-1..3).map(move |c| (r, c))) {
+                            let point = LinearPoint { rotation, criterion, ..point };
+                            let block = LinearBlock { rotation, criterion, ..block };
+                            quiet!($point, &law, &point, t, ROOM);
+                            quiet!($point_with_properties, yarn, L, &point, t, ROOM);
+                            quiet!($block, &law, &block, t, ROOM);
+                            quiet!($block_with_properties, yarn, L, &block, t, ROOM);
+                            let layout = Layout { leading_dimension: 1, stride: 9 };
+                            quiet!($block, &law, &LinearBlock { stress_layout: layout, ..block }, t, ROOM);
+                            for measure in -1..5 {
+                                quiet!($point, &law, &LinearPoint { measure, tangent, ..point }, t, ROOM);
+                                quiet!($block, &law, &LinearBlock { measure, tangent, ..block }, t, ROOM);
+                            }
+                        }
+                        quiet!($point, &law, &LinearPoint { f_old: null(), ..point }, t, ROOM);
+                        quiet!($point, null(), &LinearPoint { size: 0, ..point }, t, ROOM);
+                        quiet!($block, &law, &LinearBlock { n: 2, leading_dimension: 1, ..block }, t, ROOM);
+                        quiet!($block_with_properties, yarn, 3, null(), null_mut(), 0);
+                        quiet!($point_with_properties, yarn, L, null(), null_mut(), 0);
+                        for criterion in -1..3 {
+                            let increment = LinearIncrement {
+                                criterion,
+                                strain: f.as_ptr(),
+                                state_new: h,
+                                stress: s,
+                                ..LinearIncrement::empty()
+                            };
+                            quiet!($increment, &law, &increment, t, ROOM);
+                            quiet!($increment, &law, &LinearIncrement { strain: null(), ..increment }, t, ROOM);
+                        }
+                    }
                 }
-            }
-            let narrow = (yarn_f32.as_ptr(), f.map(|x| x as f32), REST.map(|x| x as f32));
-            let (mut axes_f32, mut state_f32, mut stress_f32) = (narrow.2, [0.0; TORON_LINEAR_ELASTIC_STATE], [0.0; 6]);
-            let block = LinearBlock {
-                n: 1,
-                leading_dimension: 1,
-                f_old: REST.as_ptr(),
-                f_new: f.as_ptr(),
-                axes: a,
-                state_old: null(),
-                state_new: h,
-                stress: s,
-                status: &mut code,
-                level: TORON_LEVEL_BEST,
-            };
-            let block_f32 = LinearBlock {
-                n: 1,
-                leading_dimension: 1,
-                f_old: narrow.2.as_ptr(),
-                f_new: narrow.1.as_ptr(),
-                axes: axes_f32.as_mut_ptr(),
-                state_old: null(),
-                state_new: state_f32.as_mut_ptr(),
-                stress: stress_f32.as_mut_ptr(),
-                status: &mut code,
-                level: TORON_LEVEL_BEST,
-            };
-            for rotation in -1..4 {
-                for criterion in -1..3 {
-                    quiet!(c::linear_elastic_block_f64, yarn, L, &block, rotation, criterion);
-                    quiet!(c::linear_elastic_block_f32, narrow.0, L, &block_f32, rotation, criterion);
-                }
-                quiet!(
-                    c::linear_elastic_block_f64,
-                    yarn,
-                    L,
-                    &LinearBlock { leading_dimension: 0, ..block },
-                    rotation,
-                    0
-                );
-            }
-            quiet!(c::linear_elastic_block_f64, yarn, L, null(), 0, 0);
-            quiet!(c::linear_elastic_block_f32, narrow.0, 3, null(), 0, 0);
-            for criterion in -1..3 {
-                quiet!(c::linear_elastic_increment_f64, yarn, L, f.as_ptr(), 1.0, null(), h, s, criterion);
-                quiet!(c::linear_elastic_increment_f64, yarn, L, null(), 1.0, null(), h, s, criterion);
             }
         }
-    }
+    };
 }
+
+linear_elastic!(
+    linear_elastic_in_double_precision,
+    f64,
+    c::linear_elastic_prepare_f64,
+    c::linear_elastic_axes_f64,
+    c::linear_elastic_point_f64,
+    c::linear_elastic_point_with_properties_f64,
+    c::linear_elastic_increment_f64,
+    c::linear_elastic_block_f64,
+    c::linear_elastic_block_with_properties_f64
+);
+linear_elastic!(
+    linear_elastic_in_single_precision,
+    f32,
+    c::linear_elastic_prepare_f32,
+    c::linear_elastic_axes_f32,
+    c::linear_elastic_point_f32,
+    c::linear_elastic_point_with_properties_f32,
+    c::linear_elastic_increment_f32,
+    c::linear_elastic_block_f32,
+    c::linear_elastic_block_with_properties_f32
+);

@@ -8,18 +8,19 @@ use crate::library::ROOT;
 use toron::law::status;
 
 /// Constants and structures, then what is exported.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 15] = [
     "src/law/status.rs",
-    "src/host/c/mod.rs",
+    "src/host/c/constants.rs",
     "src/host/c/tables.rs",
+    "src/host/c/arguments.rs",
+    "src/host/c/prepared.rs",
+    "src/host/c/points.rs",
     "src/host/c/blocks.rs",
     "src/host/c/linear_elastic.rs",
     "src/host/abaqus.rs",
     "c/src/about.rs",
     "c/src/tables.rs",
-    "c/src/points.rs",
-    "c/src/tangents.rs",
-    "c/src/blocks.rs",
+    "c/src/hyperelastic.rs",
     "c/src/linear_elastic.rs",
     "c/src/abaqus.rs",
     "c/src/lsdyna.rs",

@@ -5,8 +5,8 @@
 //! Counts belong to a compiler too: record them anew with a new one. Valgrind knows no AVX-512, so that the block runs at
 //! AVX2.
 //!
-//! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call. Here the change of the
-//! floating-point environment is counted too.
+//! `umat` and `point` are one point a call, in fused arithmetic; both prepare the law at every call, `point-prepared` and
+//! `point-tangent` do not. Here the change of the floating-point environment is counted too.
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::fmt::Write;
@@ -18,12 +18,15 @@ use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, run};
 /// How many points the program evaluates.
 const POINTS: f64 = 1024.0;
 /// The program's names of what it runs, and the function whose instructions count.
-const ENTRIES: [(&str, &str); 8] = [
+const ENTRIES: [(&str, &str); 11] = [
     ("umat-f64", "toron_abaqus_umat_f64"),
     ("umat-tangent-f64", "toron_abaqus_umat_tangent_f64"),
-    ("point-f64", "toron_hyperelastic_point_f64"),
+    ("point-f64", "toron_hyperelastic_point_with_properties_f64"),
+    ("point-prepared-f64", "toron_hyperelastic_point_f64"),
+    ("point-tangent-f64", "toron_hyperelastic_point_f64"),
     ("block-stress-f64", "toron_hyperelastic_block_f64"),
     ("block-state-f64", "toron_hyperelastic_block_f64"),
+    ("block-tangent-f64", "toron_hyperelastic_block_f64"),
     ("block-stress-f32", "toron_hyperelastic_block_f32"),
     ("block-state-f32", "toron_hyperelastic_block_f32"),
     ("linear-block-f64", "toron_linear_elastic_block_f64"),

@@ -20,11 +20,12 @@ fn programs() -> Vec<Program> {
     let in_both = |precision| {
         let cases = vec![CASES.to_str().expect("UTF-8")];
         let sample = vec!["--sample", "--default"];
-        [("about", vec![]), ("points", cases.clone()), ("hosts", cases), ("environment", sample)]
-            .map(|(name, arguments)| Program { name, precision, arguments })
+        let alone = ["about", "linear_elastic", "structures", "layouts"].map(|name| (name, vec![]));
+        let others = [("points", cases.clone()), ("hosts", cases), ("environment", sample)];
+        let programs = alone.into_iter().chain(others);
+        programs.map(move |(name, arguments)| Program { name, precision, arguments })
     };
-    let linear_elastic = Program { name: "linear_elastic", precision: &[], arguments: vec![] };
-    PRECISIONS.into_iter().flat_map(in_both).chain([linear_elastic]).collect()
+    PRECISIONS.into_iter().flat_map(in_both).collect()
 }
 
 fn build(name: &str, precision: &[&str], options: &[&str]) -> PathBuf {

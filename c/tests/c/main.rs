@@ -10,6 +10,8 @@ mod ffi;
 mod fortran_module;
 mod freestanding;
 mod header;
+mod installed;
 mod instruction_counts;
 mod instrumented;
 mod machine_code;
+mod structures;

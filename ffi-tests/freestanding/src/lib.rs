@@ -10,20 +10,16 @@
 pub mod abaqus;
 #[path = "../../../c/src/about.rs"]
 pub mod about;
-#[path = "../../../c/src/blocks.rs"]
-pub mod blocks;
 #[path = "../../../calculix/src/lib.rs"]
 pub mod calculix;
+#[path = "../../../c/src/hyperelastic.rs"]
+pub mod hyperelastic;
 #[path = "../../../c/src/linear_elastic.rs"]
 pub mod linear_elastic;
 #[path = "../../../c/src/lsdyna.rs"]
 pub mod lsdyna;
-#[path = "../../../c/src/points.rs"]
-pub mod points;
 #[path = "../../../c/src/tables.rs"]
 pub mod tables;
-#[path = "../../../c/src/tangents.rs"]
-pub mod tangents;
 
 unsafe extern "C" {
     fn toron_an_entry_can_panic() -> !;

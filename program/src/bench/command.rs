@@ -84,7 +84,10 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
     let mut times = vec![Vec::new(); hosts.len() + entries.len()];
     for n in SIZES {
         let mut scene = Scene::<T>::impact(n);
-        let mut arrays = (n <= LARGEST_HOST).then(|| HostArrays::new(&scene));
+        let mut arrays = match n <= LARGEST_HOST {
+            true => Some(HostArrays::new(&values, &scene).map_err(Error::Evaluation)?),
+            false => None,
+        };
         let mut best = vec![None; times.len()];
         for _ in 0..ROUNDS {
             let (of_hosts, of_entries) = best.split_at_mut(hosts.len());

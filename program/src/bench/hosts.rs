@@ -6,22 +6,26 @@ use nalgebra::{Matrix3, Scalar};
 
 use super::entries::each_point;
 use super::scene::Scene;
-use crate::entries::blocks::{SolverBlock, hyperelastic_block};
-use crate::entries::hosts::{CalculixPoint, LsdynaElement, LsdynaVector, OnePoint, Umat, VumatArrays};
+use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
+use crate::entries::hosts::{CalculixPoint, Given, LsdynaElement, LsdynaVector, OnePoint, Umat, VumatArrays};
 use crate::entries::precision::BlockPrecision;
+use toron::host::c::HyperelasticLaw;
 use toron::law::block::Precision;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
 use toron::law::status;
 
-/// A C entry as its host calls it. Those for one point are called point by point on the scene's arrays; they prepare the law at
-/// every call. The others have arrays of their own, laid out as the host keeps them, with the scene's deformations.
+/// A C entry as its host calls it. Those for one point are called point by point on the scene's arrays; but for `Point` they
+/// prepare the law at every call. The others have arrays of their own, laid out as the host keeps them, with the scene's
+/// deformations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Host {
-    /// `toron_hyperelastic_point`, with dS/dE or with none.
+    /// `toron_hyperelastic_point`, with a law that has been prepared, with dS/dE or with none.
     Point {
         tangent: bool,
     },
+    /// `toron_hyperelastic_point_with_properties`.
+    PointWithProperties,
     /// `toron_hyperelastic_block`.
     Block,
     Umat {
@@ -36,9 +40,10 @@ pub enum Host {
 
 impl Host {
     /// Those in either precision.
-    pub const BOTH: [Host; 6] = [
+    pub const BOTH: [Host; 7] = [
         Host::Point { tangent: false },
         Host::Point { tangent: true },
+        Host::PointWithProperties,
         Host::Block,
         Host::Vumat,
         Host::Lsdyna,
@@ -51,6 +56,7 @@ impl Host {
         match self {
             Host::Point { tangent: false } => "C point",
             Host::Point { tangent: true } => "C point with dS/dE",
+            Host::PointWithProperties => "C point with properties",
             Host::Block => "C block",
             Host::Umat { tangent: false } => "UMAT",
             Host::Umat { tangent: true } => "UMAT with DDSDDE",
@@ -64,14 +70,20 @@ impl Host {
 
 /// The arrays of the hosts that keep points in arrays.
 pub struct HostArrays<T> {
+    law: HyperelasticLaw<T>,
     state: Vec<T>,
     vumat: VumatArrays<T>,
     lsdyna: LsdynaVector<T>,
 }
 
 impl<T: Precision + BlockPrecision> HostArrays<T> {
-    /// With the scene's deformations, or their symmetric parts for a host that passes a stretch: for small shears that is one.
-    pub fn new(scene: &Scene<T>) -> Self {
+    /// With the law of these properties and the scene's deformations, or their symmetric parts for a host that passes a
+    /// stretch: for small shears that is one.
+    ///
+    /// # Errors
+    /// The properties are wrong.
+    pub fn new(properties: &[T; HYPERELASTIC_PROPERTIES], scene: &Scene<T>) -> Result<Self, String> {
+        let law = prepared(properties)?;
         let (n, stride) = (scene.n, scene.leading_dimension);
         let (mut vumat, mut lsdyna) = (VumatArrays::new(n), LsdynaVector::new(n));
         let half = T::splat(0.5);
@@ -84,7 +96,7 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
                 lsdyna.history[(HYPERELASTIC_STATE + c) * n + i] = f(c % 3, c / 3);
             }
         }
-        HostArrays { state: vec![T::splat(0.0); HYPERELASTIC_STATE * stride], vumat, lsdyna }
+        Ok(HostArrays { law, state: vec![T::splat(0.0); HYPERELASTIC_STATE * stride], vumat, lsdyna })
     }
 }
 
@@ -96,12 +108,16 @@ pub fn call<T: Precision + BlockPrecision + Scalar>(
     arrays: &mut HostArrays<T>,
 ) {
     let columns = |f: &Matrix3<T>| -> [T; 9] { std::array::from_fn(|c| f[c]) };
+    let law = &arrays.law;
     match host {
-        Host::Point { tangent } => {
+        Host::Point { .. } | Host::PointWithProperties => {
+            let tangent = host == Host::Point { tangent: true };
+            let prepared = host != Host::PointWithProperties;
+            let law = if prepared { Given::Prepared(law) } else { Given::Properties(properties) };
             let mut point = OnePoint::default();
             each_point(scene, |f, state| {
                 point.state = *state;
-                let status = point.call(properties, &columns(f), tangent);
+                let status = point.call(law, &columns(f), tangent);
                 black_box(&point.tangent);
                 (point.stress, point.state, status)
             });
@@ -118,7 +134,7 @@ pub fn call<T: Precision + BlockPrecision + Scalar>(
                 wave_speed: None,
                 status: &mut scene.status,
             };
-            hyperelastic_block(properties, block);
+            hyperelastic_block(law, block);
         }
         Host::Vumat => {
             arrays.vumat.call(properties);

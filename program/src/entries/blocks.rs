@@ -1,10 +1,45 @@
 //! The blocks of an explicit solver, and the calls of the C entries on them.
 
-use std::ptr::{null, null_mut};
+use std::ffi::c_char;
+use std::mem::MaybeUninit;
+use std::ptr::null_mut;
 
-use super::precision::BlockPrecision;
-use toron::host::c::{self, Block, LinearBlock};
+use super::precision::{BlockPrecision, PrepareEntry};
+use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw};
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
+
+/// The hyperelastic law, prepared through `toron_hyperelastic_prepare_f64` or `_f32`.
+///
+/// # Errors
+/// The properties are wrong: the entry's message.
+pub fn prepared<T: BlockPrecision>(properties: &[T]) -> Result<HyperelasticLaw<T>, String> {
+    prepare(T::PREPARE, properties)
+}
+
+/// The same for the linear elastic law.
+///
+/// # Errors
+/// The properties are wrong: the entry's message.
+pub fn prepared_linear<T: BlockPrecision>(properties: &[T]) -> Result<LinearElasticLaw<T>, String> {
+    prepare(T::PREPARE_LINEAR, properties)
+}
+
+fn prepare<L: Copy, T>(entry: PrepareEntry<L, T>, properties: &[T]) -> Result<L, String> {
+    let (mut law, mut text) = (MaybeUninit::<L>::zeroed(), [0_u8; c::TORON_MESSAGE_CAPACITY]);
+    let (values, count, room) = (properties.as_ptr(), properties.len(), text.as_mut_ptr().cast::<c_char>());
+    // SAFETY: the arrays have the sizes passed; a prepared law consists of numbers, which may be 0.
+    unsafe {
+        match entry(law.as_mut_ptr(), size_of::<L>(), values, count, room, text.len()) {
+            0 => Ok(law.assume_init()),
+            _ => Err(message_in(&text)),
+        }
+    }
+}
+
+/// The text that an entry has written.
+pub(super) fn message_in(text: &[u8]) -> String {
+    String::from_utf8_lossy(text.split(|&byte| byte == 0).next().unwrap_or_default()).into_owned()
+}
 
 /// The arrays of an explicit solver, component-major with one leading dimension; the history is replaced in place.
 #[derive(Debug)]
@@ -32,7 +67,7 @@ pub struct SolverBlock<'a, T> {
 ///
 /// # Panics
 /// An array is shorter than its components need.
-pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBlock<'_, T>) -> i32 {
+pub fn hyperelastic_block<T: BlockPrecision>(law: &HyperelasticLaw<T>, block: SolverBlock<'_, T>) -> i32 {
     let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, .. } = block;
     let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
     let (density, wave_speed) = block.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
@@ -43,27 +78,24 @@ pub fn hyperelastic_block<T: BlockPrecision>(properties: &[T], block: SolverBloc
     let part = |wanted: bool, row: usize| if wanted { unsafe { state.add(row * stride) } } else { null_mut() };
     let (energies, invariants) = (part(block.energies, ENERGIES), part(block.energies, INVARIANTS));
     let failure = part(block.failure, FAILURE_INDEX);
-    let arrays = Block {
+    let mut arrays = Block {
         n,
         leading_dimension: stride,
-        deformation_gradient: deformation_gradient.as_ptr(),
-        fibre: null(),
         energies_old: energies,
         invariants_old: invariants,
         failure_old: failure,
-        density,
-        stress: stress.as_mut_ptr(),
+        density: density.into(),
         energies,
         invariants,
         failure,
-        modes: null_mut(),
         wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
         status: status.as_mut_ptr(),
-        active: null_mut(),
-        level: c::TORON_LEVEL_BEST,
+        ..Block::empty()
     };
+    arrays.deformation_gradient[0] = deformation_gradient.as_ptr();
+    arrays.stress[0] = stress.as_mut_ptr();
     // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly.
-    unsafe { T::ENTRY(properties.as_ptr(), properties.len(), &arrays) }
+    unsafe { T::BLOCK(law, &arrays, null_mut(), 0) }
 }
 
 /// The arrays of an explicit solver for the linear elastic law, as those of [`SolverBlock`].
@@ -89,7 +121,7 @@ pub struct LinearSolverBlock<'a, T> {
 /// # Panics
 /// An array is shorter than its components need.
 pub fn linear_elastic_block<T: BlockPrecision>(
-    properties: &[T],
+    law: &LinearElasticLaw<T>,
     block: LinearSolverBlock<'_, T>,
     frame: LinearFrame,
     criterion: i32,
@@ -99,25 +131,24 @@ pub fn linear_elastic_block<T: BlockPrecision>(
     assert!(n <= stride && holds(f_old.len(), 9) && holds(f_new.len(), 9));
     assert!(holds(state.len(), LINEAR_ELASTIC_STATE) && holds(stress.len(), 6) && status.len() >= n);
     let state = state.as_mut_ptr();
-    let arrays = LinearBlock {
+    let mut arrays = LinearBlock {
         n,
         leading_dimension: stride,
-        f_old: f_old.as_ptr(),
-        f_new: f_new.as_ptr(),
-        axes: null_mut(),
+        rotation: match frame {
+            LinearFrame::Fibre => c::TORON_ROTATION_FIBRE,
+            LinearFrame::Polar => c::TORON_ROTATION_POLAR,
+        },
+        criterion,
         state_old: state,
         state_new: state,
-        stress: stress.as_mut_ptr(),
         status: status.as_mut_ptr(),
-        level: c::TORON_LEVEL_BEST,
+        ..LinearBlock::empty()
     };
-    let rotation = match frame {
-        LinearFrame::Fibre => c::TORON_ROTATION_FIBRE,
-        LinearFrame::Polar => c::TORON_ROTATION_POLAR,
-    };
+    (arrays.f_old[0], arrays.f_new[0]) = (f_old.as_ptr(), f_new.as_ptr());
+    arrays.stress[0] = stress.as_mut_ptr();
     // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, and neither frame
     // needs axes.
-    unsafe { T::LINEAR_ENTRY(properties.as_ptr(), properties.len(), &arrays, rotation, criterion) }
+    unsafe { T::LINEAR_BLOCK(law, &arrays, null_mut(), 0) }
 }
 
 /// The frames of the linear elastic law that follow from the deformation gradient alone.

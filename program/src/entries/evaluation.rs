@@ -1,10 +1,12 @@
 //! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for `eval`.
 
-use std::ptr::{null, null_mut};
+use std::ffi::c_char;
+use std::ptr::null_mut;
 
-use super::hosts::{OnePoint, Umat};
-use super::precision::{BlockPrecision, FromF64};
-use toron::host::c::{self, Block};
+use super::blocks::{message_in, prepared};
+use super::hosts::{Given, OnePoint, Umat, call_point};
+use super::precision::BlockPrecision;
+use toron::host::c::{self, Block, Point};
 use toron::host::{abaqus, lsdyna};
 use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
@@ -24,30 +26,40 @@ pub struct Answer {
 
 /// What a status means; for properties, which one is wrong.
 pub fn message(code: i32, properties: &[f64; HYPERELASTIC_PROPERTIES]) -> String {
-    let mut text = [0_u8; 512];
-    let room = text.as_mut_ptr().cast();
-    // SAFETY: the arrays have the sizes passed.
-    let length = unsafe {
-        match c::hyperelastic_validate_f64(properties.as_ptr(), properties.len(), room, 512, null_mut()) {
-            0 => c::status_message(code, room, 512),
-            length => length,
-        }
+    let Err(message) = prepared(properties) else {
+        let mut text = [0_u8; c::TORON_MESSAGE_CAPACITY];
+        // SAFETY: the text has the size passed.
+        unsafe { c::status_message(code, text.as_mut_ptr().cast(), text.len()) };
+        return message_in(&text);
     };
-    String::from_utf8_lossy(&text[..length.min(511)]).into_owned()
+    message
 }
 
-/// One point in either precision: stress and state as a solver asks for them, the modes by a call of their own, DDSDDE by a third.
+/// One point in either precision, from its properties: stress and state as a solver asks for them, the modes by a call of their own,
+/// DDSDDE by a third.
 pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> Answer {
-    let mut single = OnePoint::default();
-    let status = single.call(properties, f, false);
-    let mut modes = [[T::default(); 6]; 4];
-    let (values, count) = (properties.as_ptr(), properties.len());
-    let nothing = null_mut();
-    // SAFETY: the arrays have the sizes that the entry asks for.
-    unsafe {
-        let (old, modes) = (null(), modes.as_mut_ptr().cast());
-        T::POINT(values, count, f.as_ptr(), null(), old, nothing, nothing, modes, T::default(), nothing);
+    evaluate_point(Given::Properties(properties), f, tangent)
+}
+
+/// The same with a law that has been prepared.
+pub fn prepared_point<T: BlockPrecision>(
+    properties: &[T; HYPERELASTIC_PROPERTIES],
+    f: &[T; 9],
+    tangent: bool,
+) -> Answer {
+    match prepared(properties) {
+        Ok(law) => evaluate_point(Given::Prepared(&law), f, tangent),
+        Err(_) => point(properties, f, tangent),
     }
+}
+
+fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: bool) -> Answer {
+    let mut single = OnePoint::default();
+    let status = single.call(law, f, false);
+    let mut modes = [[T::default(); 6]; 4];
+    let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
+    // SAFETY: the arrays have the sizes that the entry asks for.
+    unsafe { call_point(law, &Point { modes: modes.as_mut_ptr().cast(), ..point }) };
     let mut answer = Answer {
         status,
         stress: single.stress.map(Into::into),
@@ -57,12 +69,9 @@ pub fn point<T: BlockPrecision>(properties: &[T; HYPERELASTIC_PROPERTIES], f: &[
     };
     if tangent {
         let mut rows = [[T::default(); 6]; 6];
+        let point = Point { measure: c::TORON_TANGENT_JAUMANN, tangent: rows.as_mut_ptr().cast(), ..point };
         // SAFETY: as above. The status is that of the call before, or the tangent's own.
-        answer.status = unsafe {
-            let measure = c::TORON_TANGENT_JAUMANN;
-            let (old, rows) = (null(), rows.as_mut_ptr().cast());
-            T::POINT_TANGENT(values, count, f.as_ptr(), null(), old, nothing, nothing, measure, rows)
-        };
+        answer.status = unsafe { call_point(law, &point) };
         answer.ddsdde = Some(rows.map(|row| row.map(Into::into)));
     }
     answer
@@ -84,14 +93,11 @@ fn place(line: usize) -> (usize, usize, usize) {
     (n, line * 5 % n, n + line % 4)
 }
 
-pub type BlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const Block<T>, i32, *mut T) -> i32;
-
-pub fn block<T: Copy + Default + Into<f64> + FromF64>(
+pub fn block<T: BlockPrecision>(
     properties: &[T; HYPERELASTIC_PROPERTIES],
     f: &[T; 9],
     line: usize,
     tangent: bool,
-    entry: BlockEntry<T>,
 ) -> Answer {
     let (n, at, stride) = place(line);
     let array = |components: usize| vec![T::default(); components * stride];
@@ -107,30 +113,31 @@ pub fn block<T: Copy + Default + Into<f64> + FromF64>(
     let (mut stress, mut modes, mut state) = (array(6), array(24), array(HYPERELASTIC_STATE));
     let mut codes = vec![0; n];
     let part = |state: &mut Vec<T>, row: usize| state[row * stride..].as_mut_ptr();
-    let block = Block {
+    let mut rows = array(36);
+    let mut block = Block {
         n,
         leading_dimension: stride,
-        deformation_gradient: gradient.as_ptr(),
-        // Every other line gives the direction point by point.
-        fibre: if line.is_multiple_of(2) { fibre.as_ptr() } else { null() },
-        energies_old: null(),
-        invariants_old: null(),
-        failure_old: null(),
-        density: T::default(),
-        stress: stress.as_mut_ptr(),
+        measure: c::TORON_TANGENT_JAUMANN,
         energies: part(&mut state, ENERGIES),
         invariants: part(&mut state, INVARIANTS),
         failure: part(&mut state, FAILURE_INDEX),
         modes: modes.as_mut_ptr(),
-        wave_speed: null_mut(),
+        tangent: if tangent { rows.as_mut_ptr() } else { null_mut() },
         status: codes.as_mut_ptr(),
-        active: null_mut(),
-        level: c::TORON_LEVEL_BEST,
+        ..Block::empty()
     };
-    let mut rows = array(36);
-    let wanted = if tangent { rows.as_mut_ptr() } else { null_mut() };
+    block.deformation_gradient[0] = gradient.as_ptr();
+    block.stress[0] = stress.as_mut_ptr();
+    // Every other line gives the direction point by point.
+    if line.is_multiple_of(2) {
+        block.fibre[0] = fibre.as_ptr();
+    }
     // SAFETY: the arrays have the sizes that the structure tells.
-    let worst = unsafe { entry(properties.as_ptr(), properties.len(), &block, c::TORON_TANGENT_JAUMANN, wanted) };
+    let worst = match prepared(properties) {
+        Ok(law) => unsafe { T::BLOCK(&law, &block, null_mut(), 0) },
+        // The code of wrong properties.
+        Err(_) => point(properties, f, tangent).status,
+    };
     let value = |array: &[T], c: usize| array[c * stride + at].into();
     let mut answer = Answer { status: codes[at], ..Answer::default() };
     if worst > status::INVERTED && worst != status::OK {
@@ -158,11 +165,11 @@ pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: 
 }
 
 /// A VUMAT of one point at the stretch U, 11 22 33 12 23 31; the stress is the corotational one.
-pub fn vumat<T: Copy + Default + Into<f64>>(
+pub fn vumat<T: BlockPrecision>(
     properties: &[f64; HYPERELASTIC_PROPERTIES],
     stretch: [f64; 6],
     round: impl Fn(f64) -> T,
-    entry: unsafe extern "C" fn(*const abaqus::Vumat<T>) -> i32,
+    entry: unsafe extern "C" fn(*const abaqus::Vumat<T>, *mut c_char, usize) -> i32,
 ) -> Answer {
     let stretch = stretch.map(&round);
     let properties = properties.map(&round);
@@ -175,8 +182,8 @@ pub fn vumat<T: Copy + Default + Into<f64>>(
         nshr: 3,
         nstatev: HYPERELASTIC_STATE as i32,
         nprops: HYPERELASTIC_PROPERTIES as i32,
-        step_time: one[0],
-        total_time: one[0],
+        step_time: 1.0,
+        total_time: 1.0,
         props: properties.as_ptr(),
         density: one.as_ptr(),
         strain_inc: zeros.as_ptr(),
@@ -190,9 +197,10 @@ pub fn vumat<T: Copy + Default + Into<f64>>(
         state_new: state.as_mut_ptr(),
         ener_intern_new: energy.as_mut_ptr(),
         ener_inelas_new: inelastic.as_mut_ptr(),
+        ..abaqus::Vumat::empty()
     };
     // SAFETY: the arrays have the sizes that the structure tells, for one point.
-    let status = unsafe { entry(&block) };
+    let status = unsafe { entry(&block, null_mut(), 0) };
     Answer { status, stress: stress.map(Into::into), state: state.map(Into::into), ..Answer::default() }
 }
 
@@ -202,7 +210,7 @@ fn lsdyna_constants(properties: &[f64; HYPERELASTIC_PROPERTIES]) -> [f64; 48] {
     cm[..HYPERELASTIC_PROPERTIES].copy_from_slice(properties);
     let [bulk, shear] = [11, 12].map(|i| &raw mut cm[i]);
     // SAFETY: the arrays have the sizes that the entry asks for. Bad properties are the material routine's to report.
-    unsafe { lsdyna::bulk_and_shear_f64(properties.as_ptr(), properties.len(), bulk, shear) };
+    unsafe { lsdyna::bulk_and_shear_f64(properties.as_ptr(), properties.len(), bulk, shear, null_mut(), 0) };
     cm
 }
 
@@ -225,6 +233,8 @@ pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent
             history.as_mut_ptr(),
             HYPERELASTIC_STATE as i32,
             &mut failed,
+            null_mut(),
+            0,
         )
     };
     answer.state.copy_from_slice(&history[..HYPERELASTIC_STATE]);
@@ -234,7 +244,10 @@ pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent
         // The element fails by its flag: the tangent of the intact one is wanted.
         history[FAILED] = 0.0;
         // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe { lsdyna::utan_f64(cm.as_ptr(), history.as_ptr(), HYPERELASTIC_STATE as i32, es.as_mut_ptr().cast()) };
+        unsafe {
+            let (count, to) = (HYPERELASTIC_STATE as i32, es.as_mut_ptr().cast());
+            lsdyna::utan_f64(cm.as_ptr(), history.as_ptr(), count, to, null_mut(), 0);
+        }
         answer.ddsdde = Some(jaumann(&es, &answer.stress));
     }
     answer
@@ -271,6 +284,8 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
             (first + n) as i32,
             nlq as i32,
             failed.as_mut_ptr(),
+            null_mut(),
+            0,
         )
     };
     let at = first + at;
@@ -301,6 +316,8 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
                 (first + n) as i32,
                 nlq as i32,
                 dsave.as_mut_ptr(),
+                null_mut(),
+                0,
             )
         };
         let truesdell = std::array::from_fn(|i| std::array::from_fn(|j| dsave[(6 * i + j) * nlq + at]));

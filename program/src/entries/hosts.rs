@@ -1,14 +1,22 @@
 //! Points and arrays as their hosts keep them, and the calls of the C entries on them.
 
 use std::ffi::{c_char, c_int};
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 use nalgebra::Matrix3;
 
 use super::precision::BlockPrecision;
-use toron::host::{abaqus, c, calculix};
+use toron::host::c::{self, HyperelasticLaw, Point};
+use toron::host::{abaqus, calculix};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
+
+/// The law as an entry for points takes it: its properties, which are checked in every call, or prepared from them.
+#[derive(Clone, Copy)]
+pub enum Given<'a, T> {
+    Properties(&'a [T; HYPERELASTIC_PROPERTIES]),
+    Prepared(&'a HyperelasticLaw<T>),
+}
 
 /// One point through the C entry: stress and state, the old one on entry; with `tangent` dS/dE.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,19 +28,31 @@ pub struct OnePoint<T> {
 
 impl<T: BlockPrecision> OnePoint<T> {
     /// Calls the entry; returns its status.
-    pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES], f: &[T; 9], tangent: bool) -> i32 {
-        let (values, count, state) = (properties.as_ptr(), properties.len(), self.state.as_mut_ptr());
-        let stress = self.stress.as_mut_ptr();
-        // SAFETY: the arrays have the sizes that the entries ask for; the new state replaces the old one.
-        unsafe {
-            if tangent {
-                let rows = self.tangent.as_mut_ptr().cast();
-                let measure = c::TORON_TANGENT_MATERIAL;
-                T::POINT_TANGENT(values, count, f.as_ptr(), null(), state, state, stress, measure, rows)
-            } else {
-                let nothing = null_mut();
-                T::POINT(values, count, f.as_ptr(), null(), state, state, stress, nothing, T::default(), nothing)
-            }
+    pub fn call(&mut self, law: Given<'_, T>, f: &[T; 9], tangent: bool) -> i32 {
+        let point = Point {
+            measure: c::TORON_TANGENT_MATERIAL,
+            deformation_gradient: f.as_ptr(),
+            state_old: self.state.as_ptr(),
+            state_new: self.state.as_mut_ptr(),
+            stress: self.stress.as_mut_ptr(),
+            tangent: if tangent { self.tangent.as_mut_ptr().cast() } else { null_mut() },
+            ..Point::empty()
+        };
+        // SAFETY: the arrays have the sizes that the entry asks for; the new state replaces the old one.
+        unsafe { call_point(law, &point) }
+    }
+}
+
+/// Calls the entry for one point; returns its status.
+///
+/// # Safety
+/// The arrays of the point have the sizes that the entry asks for.
+pub unsafe fn call_point<T: BlockPrecision>(law: Given<'_, T>, point: &Point<T>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        match law {
+            Given::Properties(values) => T::POINT_WITH_PROPERTIES(values.as_ptr(), values.len(), point, null_mut(), 0),
+            Given::Prepared(law) => T::POINT(law, point, null_mut(), 0),
         }
     }
 }
@@ -50,7 +70,8 @@ impl<T: BlockPrecision> LsdynaElement<T> {
         let (count, mut failed) = (HYPERELASTIC_STATE as i32, 0);
         // SAFETY: the arrays have the sizes that the entry asks for.
         unsafe {
-            T::LSDYNA(properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr(), count, &mut failed)
+            let (values, stress, history) = (properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr());
+            T::LSDYNA(values, stress, history, count, &mut failed, null_mut(), 0)
         }
     }
 }
@@ -75,9 +96,9 @@ impl<T: BlockPrecision> LsdynaVector<T> {
         let n = self.n;
         let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| self.stress[c * n..].as_mut_ptr());
         let (history, count, last) = (self.history.as_mut_ptr(), HYPERELASTIC_STATE as i32, n as i32);
-        let failed = self.failed.as_mut_ptr();
+        let (values, failed, nothing) = (properties.as_ptr(), self.failed.as_mut_ptr(), null_mut());
         // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe { T::LSDYNA_VECTOR(properties.as_ptr(), s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed) }
+        unsafe { T::LSDYNA_VECTOR(values, s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed, nothing, 0) }
     }
 }
 
@@ -112,7 +133,7 @@ impl<T: BlockPrecision> VumatArrays<T> {
 
     /// Calls the entry; returns its status.
     pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
-        let (zeros, one) = (self.zeros.as_ptr(), T::from_f64(1.0));
+        let zeros = self.zeros.as_ptr();
         let [internal, inelastic] = &mut self.energies;
         let block = abaqus::Vumat {
             nblock: self.n as i32,
@@ -120,8 +141,8 @@ impl<T: BlockPrecision> VumatArrays<T> {
             nshr: 3,
             nstatev: HYPERELASTIC_STATE as i32,
             nprops: HYPERELASTIC_PROPERTIES as i32,
-            step_time: one,
-            total_time: one,
+            step_time: 1.0,
+            total_time: 1.0,
             props: properties.as_ptr(),
             density: self.ones.as_ptr(),
             strain_inc: zeros,
@@ -135,9 +156,10 @@ impl<T: BlockPrecision> VumatArrays<T> {
             state_new: self.state_new.as_mut_ptr(),
             ener_intern_new: internal.as_mut_ptr(),
             ener_inelas_new: inelastic.as_mut_ptr(),
+            ..abaqus::Vumat::empty()
         };
         // SAFETY: the arrays have the sizes that the structure tells.
-        unsafe { T::VUMAT(&block) }
+        unsafe { T::VUMAT(&block, null_mut(), 0) }
     }
 }
 
@@ -233,6 +255,8 @@ impl Umat {
                 3,
                 3,
                 1,
+                null_mut(),
+                0,
             )
         }
     }

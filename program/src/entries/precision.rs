@@ -1,9 +1,10 @@
 //! The C entries that there are in both precisions.
 
-use std::ffi::c_int;
+use std::ffi::{c_char, c_int};
 
-use toron::host::c::{self, Block, LinearBlock};
+use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
 use toron::host::{abaqus, lsdyna};
+use toron::law::block::Precision;
 
 /// Rounding to the precision of an entry.
 pub trait FromF64 {
@@ -25,21 +26,23 @@ impl FromF64 for f32 {
 }
 
 /// A precision of the entries that there are in both.
-pub trait BlockPrecision: Copy + Default + Into<f64> + FromF64 + Send + Sync + 'static {
-    const ENTRY: unsafe extern "C" fn(*const Self, usize, *const Block<Self>) -> i32;
-    const LINEAR_ENTRY: LinearBlockEntry<Self>;
-    const POINT: PointEntry<Self>;
-    const POINT_TANGENT: PointTangentEntry<Self>;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<Self>) -> i32;
-    const LSDYNA: unsafe extern "C" fn(*const Self, *mut Self, *mut Self, i32, *mut c_int) -> i32;
+pub trait BlockPrecision: Precision + Default + FromF64 + Send + Sync + 'static {
+    const PREPARE: PrepareEntry<HyperelasticLaw<Self>, Self>;
+    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<Self>, Self>;
+    const BLOCK: PreparedEntry<HyperelasticLaw<Self>, Block<Self>>;
+    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<Self>, LinearBlock<Self>>;
+    const POINT: PreparedEntry<HyperelasticLaw<Self>, Point<Self>>;
+    const POINT_WITH_PROPERTIES: PropertiesEntry<Self, Point<Self>>;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<Self>, *mut c_char, usize) -> i32;
+    const LSDYNA: LsdynaEntry<Self>;
     const LSDYNA_VECTOR: LsdynaVectorEntry<Self>;
 }
 
-pub type LinearBlockEntry<T> = unsafe extern "C" fn(*const T, usize, *const LinearBlock<T>, i32, i32) -> i32;
-pub type PointEntry<T> =
-    unsafe extern "C" fn(*const T, usize, *const T, *const T, *const T, *mut T, *mut T, *mut T, T, *mut T) -> i32;
-pub type PointTangentEntry<T> =
-    unsafe extern "C" fn(*const T, usize, *const T, *const T, *const T, *mut T, *mut T, i32, *mut T) -> i32;
+/// An entry that prepares a law, one that takes it, and one that takes the properties; the last two arguments are for a message.
+pub type PrepareEntry<L, T> = unsafe extern "C" fn(*mut L, usize, *const T, usize, *mut c_char, usize) -> i32;
+pub type PreparedEntry<L, S> = unsafe extern "C" fn(*const L, *const S, *mut c_char, usize) -> i32;
+pub type PropertiesEntry<T, S> = unsafe extern "C" fn(*const T, usize, *const S, *mut c_char, usize) -> i32;
+pub type LsdynaEntry<T> = unsafe extern "C" fn(*const T, *mut T, *mut T, i32, *mut c_int, *mut c_char, usize) -> i32;
 pub type LsdynaVectorEntry<T> = unsafe extern "C" fn(
     *const T,
     *mut T,
@@ -54,24 +57,30 @@ pub type LsdynaVectorEntry<T> = unsafe extern "C" fn(
     i32,
     i32,
     *mut c_int,
+    *mut c_char,
+    usize,
 ) -> i32;
 
 impl BlockPrecision for f64 {
-    const ENTRY: unsafe extern "C" fn(*const f64, usize, *const Block<f64>) -> i32 = c::hyperelastic_block_f64;
-    const LINEAR_ENTRY: LinearBlockEntry<f64> = c::linear_elastic_block_f64;
-    const POINT: PointEntry<f64> = c::hyperelastic_point_f64;
-    const POINT_TANGENT: PointTangentEntry<f64> = c::hyperelastic_point_tangent_f64;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f64>) -> i32 = abaqus::vumat_f64;
-    const LSDYNA: unsafe extern "C" fn(*const f64, *mut f64, *mut f64, i32, *mut c_int) -> i32 = lsdyna::umat_f64;
+    const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = c::hyperelastic_prepare_f64;
+    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f64>, f64> = c::linear_elastic_prepare_f64;
+    const BLOCK: PreparedEntry<HyperelasticLaw<f64>, Block<f64>> = c::hyperelastic_block_f64;
+    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> = c::linear_elastic_block_f64;
+    const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = c::hyperelastic_point_f64;
+    const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> = c::hyperelastic_point_with_properties_f64;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f64>, *mut c_char, usize) -> i32 = abaqus::vumat_f64;
+    const LSDYNA: LsdynaEntry<f64> = lsdyna::umat_f64;
     const LSDYNA_VECTOR: LsdynaVectorEntry<f64> = lsdyna::umat_vector_f64;
 }
 
 impl BlockPrecision for f32 {
-    const ENTRY: unsafe extern "C" fn(*const f32, usize, *const Block<f32>) -> i32 = c::hyperelastic_block_f32;
-    const LINEAR_ENTRY: LinearBlockEntry<f32> = c::linear_elastic_block_f32;
-    const POINT: PointEntry<f32> = c::hyperelastic_point_f32;
-    const POINT_TANGENT: PointTangentEntry<f32> = c::hyperelastic_point_tangent_f32;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f32>) -> i32 = abaqus::vumat_f32;
-    const LSDYNA: unsafe extern "C" fn(*const f32, *mut f32, *mut f32, i32, *mut c_int) -> i32 = lsdyna::umat_f32;
+    const PREPARE: PrepareEntry<HyperelasticLaw<f32>, f32> = c::hyperelastic_prepare_f32;
+    const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f32>, f32> = c::linear_elastic_prepare_f32;
+    const BLOCK: PreparedEntry<HyperelasticLaw<f32>, Block<f32>> = c::hyperelastic_block_f32;
+    const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> = c::linear_elastic_block_f32;
+    const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = c::hyperelastic_point_f32;
+    const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> = c::hyperelastic_point_with_properties_f32;
+    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f32>, *mut c_char, usize) -> i32 = abaqus::vumat_f32;
+    const LSDYNA: LsdynaEntry<f32> = lsdyna::umat_f32;
     const LSDYNA_VECTOR: LsdynaVectorEntry<f32> = lsdyna::umat_vector_f32;
 }

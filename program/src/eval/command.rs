@@ -12,17 +12,21 @@ use super::polar::polar_decomposition;
 use crate::common::error::Error;
 use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
-use toron::host::{abaqus, c};
+use toron::host::abaqus;
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 use toron::law::{status, stress};
 
 /// The C entry that evaluates a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Entry {
-    /// `toron_hyperelastic_point_f64`.
+    /// `toron_hyperelastic_point_f64`, with the law prepared.
     Law,
     /// `toron_hyperelastic_point_f32`, inputs rounded to single precision.
     LawF32,
+    /// `toron_hyperelastic_point_with_properties_f64`.
+    LawWithProperties,
+    /// `toron_hyperelastic_point_with_properties_f32`, inputs rounded to single precision.
+    LawWithPropertiesF32,
     /// `toron_hyperelastic_block_f64`, the point amid others.
     Block,
     /// `toron_hyperelastic_block_f32`, inputs rounded to single precision.
@@ -198,20 +202,14 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
     let properties = [p.kel, p.ktc, p.p, p.ktd, p.kld, p.eps_lim, p.alpha, p.beta, m1, m2, m3];
     let f = Matrix3::from(point.f).transpose();
     let columns: [f64; 9] = std::array::from_fn(|c| f[c]);
+    let single = |x: f64| x as f32;
     let answer = match entry {
-        Entry::Law => evaluation::point(&properties, &columns, tangent),
-        Entry::LawF32 => evaluation::point(&properties.map(|x| x as f32), &columns.map(|x| x as f32), tangent),
-        Entry::Block => evaluation::block(&properties, &columns, line, tangent, c::hyperelastic_block_tangent_f64),
-        Entry::BlockF32 => {
-            let single = |x: f64| x as f32;
-            evaluation::block(
-                &properties.map(single),
-                &columns.map(single),
-                line,
-                tangent,
-                c::hyperelastic_block_tangent_f32,
-            )
-        }
+        Entry::Law => evaluation::prepared_point(&properties, &columns, tangent),
+        Entry::LawF32 => evaluation::prepared_point(&properties.map(single), &columns.map(single), tangent),
+        Entry::LawWithProperties => evaluation::point(&properties, &columns, tangent),
+        Entry::LawWithPropertiesF32 => evaluation::point(&properties.map(single), &columns.map(single), tangent),
+        Entry::Block => evaluation::block(&properties, &columns, line, tangent),
+        Entry::BlockF32 => evaluation::block(&properties.map(single), &columns.map(single), line, tangent),
         Entry::Umat => evaluation::umat(&properties, &columns, tangent),
         Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
         Entry::VumatSp => {

@@ -9,8 +9,7 @@ use super::medium::{Entry, Medium};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
-use toron::host::c::TORON_CRITERION_FIBRE;
-use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
 
@@ -174,14 +173,14 @@ impl<T: Number> ElementBlock<T> {
         run_widest(Deform { shapes: &self.shapes, displacement, scratch });
         let start = Instant::now();
         match &medium.entry {
-            Entry::Hyperelastic(properties) => {
-                let code = self.call_hyperelastic(properties, medium, scratch, options);
+            Entry::Hyperelastic(law) => {
+                let code = self.call_hyperelastic(law, medium, scratch, options);
                 sums.refused = sums.refused.or(refused(code));
             }
-            Entry::LinearElastic { properties, frame, criterion } => {
-                self.call_linear_elastic(properties, *frame, *criterion, scratch);
+            Entry::LinearElastic { law, frame, criterion, .. } => {
+                let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
                 scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
-                sums.refused = sums.refused.or(scratch.status[..self.shapes.n].iter().find_map(|&code| refused(code)));
+                sums.refused = sums.refused.or(refused(code));
             }
         }
         sums.law += start.elapsed();
@@ -206,7 +205,7 @@ impl<T: Number> ElementBlock<T> {
 
     fn call_hyperelastic(
         &mut self,
-        properties: &[T; HYPERELASTIC_PROPERTIES],
+        law: &HyperelasticLaw<T>,
         medium: &Medium<T>,
         scratch: &mut Scratch<T>,
         options: StepOptions,
@@ -223,16 +222,16 @@ impl<T: Number> ElementBlock<T> {
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             status: &mut scratch.status,
         };
-        hyperelastic_block(properties, arrays)
+        hyperelastic_block(law, arrays)
     }
 
     fn call_linear_elastic(
         &mut self,
-        properties: &[T; LINEAR_ELASTIC_PROPERTIES],
+        law: &LinearElasticLaw<T>,
         frame: LinearFrame,
         criterion: i32,
         scratch: &mut Scratch<T>,
-    ) {
+    ) -> i32 {
         let stride = self.shapes.stride;
         let arrays = LinearSolverBlock {
             n: self.shapes.n,
@@ -243,9 +242,9 @@ impl<T: Number> ElementBlock<T> {
             stress: &mut scratch.stress,
             status: &mut scratch.status,
         };
-        // The code is the worst of the points': each has its own in `status`.
-        linear_elastic_block(properties, arrays, frame, criterion);
+        let code = linear_elastic_block(law, arrays, frame, criterion);
         self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
+        code
     }
 
     /// The largest square of a frequency, from the law's bound of the wave speed, and the largest rate of damping; which
@@ -333,7 +332,7 @@ impl<T: Number> ElementBlock<T> {
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
-            Entry::LinearElastic { properties, .. } => self.variable(LINEAR_STRESS, i) / properties[0].into(),
+            Entry::LinearElastic { modulus, .. } => self.variable(LINEAR_STRESS, i) / modulus,
         }
     }
 }

@@ -3,9 +3,9 @@
 
 use super::lanes::Number;
 use crate::common::error::Error;
-use crate::entries::blocks::LinearFrame;
+use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
 use crate::material::model::{Law, Material};
-use toron::host::c::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
+use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
 use toron::{Criterion, Rotation};
@@ -24,11 +24,17 @@ pub struct Control {
 /// Names of the energy densities: the hyperelastic law's modes, and the linear elastic law's work, which has no modes.
 pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
-/// A law's properties as its C entry takes them.
+/// A law as its C entry takes it.
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
-    Hyperelastic([T; HYPERELASTIC_PROPERTIES]),
-    LinearElastic { properties: [T; LINEAR_ELASTIC_PROPERTIES], frame: LinearFrame, criterion: i32 },
+    Hyperelastic(HyperelasticLaw<T>),
+    /// With the modulus along the fibre.
+    LinearElastic {
+        law: LinearElasticLaw<T>,
+        modulus: f64,
+        frame: LinearFrame,
+        criterion: i32,
+    },
 }
 
 /// A material as the host uses it.
@@ -51,7 +57,7 @@ pub struct Medium<T> {
 
 impl<T: Number> Medium<T> {
     /// # Errors
-    /// The frame is the spin's, which needs axes of its own.
+    /// The frame is the spin's, which needs axes of its own; a property that is wrong.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
         let property = |name: &str| material.property(name).unwrap_or_default();
         let (entry, along, across, shear) = match &material.law {
@@ -64,7 +70,8 @@ impl<T: Number> Medium<T> {
                 // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
                 let p = property("p");
                 let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
-                (Entry::Hyperelastic(properties), property("k_el"), across, property("k_td") / 4.0)
+                let law = prepared(&properties).map_err(Error::Input)?;
+                (Entry::Hyperelastic(law), property("k_el"), across, property("k_td") / 4.0)
             }
             Law::LinearElastic { law, frame, criterion } => {
                 let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
@@ -83,7 +90,9 @@ impl<T: Number> Medium<T> {
                     Criterion::FibreStress => TORON_CRITERION_FIBRE,
                 };
                 let [across, shear] = [property("e_2"), property("g")];
-                (Entry::LinearElastic { properties, frame, criterion }, law.wave_modulus(), across, shear)
+                let prepared = prepared_linear(&properties).map_err(Error::Input)?;
+                let modulus = property("e_1");
+                (Entry::LinearElastic { law: prepared, modulus, frame, criterion }, law.wave_modulus(), across, shear)
             }
         };
         // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.

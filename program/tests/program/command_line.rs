@@ -157,7 +157,7 @@ fn a_summary_tells_the_law_and_its_wave() {
 #[test]
 fn the_version_names_the_interface() {
     let output = toron(Path::new("."), &["--version"]);
-    assert_eq!(text(&output.stdout).trim(), concat!("toron ", env!("CARGO_PKG_VERSION"), " (ABI 1)"));
+    assert_eq!(text(&output.stdout).trim(), concat!("toron ", env!("CARGO_PKG_VERSION"), " (ABI 2)"));
 }
 
 #[test]

@@ -11,7 +11,8 @@ use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
-const ENTRIES: [&str; 8] = ["law", "block", "block-f32", "umat", "vumat", "vumat-sp", "ls-dyna", "ls-dyna-vector"];
+const ENTRIES: [&str; 9] =
+    ["law", "law-with-properties", "block", "block-f32", "umat", "vumat", "vumat-sp", "ls-dyna", "ls-dyna-vector"];
 
 /// The lines that the program answers to this input; its exit code must be 0 and its complaints none.
 fn eval(via: &str, input: &[u8]) -> Vec<Value> {
@@ -287,7 +288,8 @@ fn a_tangent_of_a_vumat_is_refused() {
 }
 
 fn refusal(via: &str) -> String {
-    let others = "law, law-f32, block, block-f32, umat, ls-dyna, ls-dyna-vector";
+    let others = "law, law-f32, law-with-properties, law-with-properties-f32, block, block-f32, umat, ls-dyna, \
+                  ls-dyna-vector";
     format!("toron: --tangent with --via {via}, which has no DDSDDE; allowed with {others}\n")
 }
 

@@ -2,10 +2,10 @@
 
 use libc::{c_char, size_t};
 
-use crate::law::error::Error;
-
 use super::constants::TORON_ABI_VERSION;
-use crate::host::border::write_text;
+use crate::host::border::Message;
+use crate::law::error::Error;
+use crate::law::status;
 
 /// `toron_version` of the C interface.
 #[inline(never)]
@@ -24,7 +24,8 @@ pub extern "C" fn abi_version() -> i32 {
 /// # Safety
 /// As documented there.
 #[inline(never)]
-pub unsafe extern "C" fn status_message(status: i32, buffer: *mut c_char, capacity: size_t) -> size_t {
+pub unsafe extern "C" fn status_message(status: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { write_text(buffer, capacity, |sink| Error::Plain(status).describe(sink)) }
+    unsafe { Message { text: message, capacity }.write(|sink| Error::Plain(status).describe(sink)) };
+    if status::meaning(status).is_some() { status::OK } else { status::UNKNOWN_NAME }
 }

@@ -1,131 +1,261 @@
 //! Blocks of points of the hyperelastic law.
 
-use libc::size_t;
+use core::mem::MaybeUninit;
+use core::ptr::{null, null_mut};
 
-use crate::law::block::{Pointers, Precision, components, components_mut, raw_block_of};
+use libc::{c_char, size_t};
+
+use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure};
+use super::prepared::{HyperelasticLaw, numbers};
+use crate::host::border::{Message, entry, of_points, properties};
+use crate::host::structures::{read, structures};
+use crate::law::block::{Law, Pointers, Precision, Strides, components, components_mut, raw_block_of};
 use crate::law::error::Error;
-use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
 use crate::law::parameters;
-use crate::law::status;
+use crate::law::tangent::Measure;
 
-use super::constants::{TORON_LEVEL_AVX2, TORON_LEVEL_AVX512, TORON_LEVEL_BASELINE, TORON_LEVEL_BEST};
-use crate::host::border::{entry, properties};
-
-/// A block of points: component-major arrays, component c of point i at `c * leading_dimension + i`.
+/// A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+/// out, and an output that is left out is not computed.
 ///
-/// Optional arrays may be null: an output whose pointer is null is not computed. The arrays of the old state may be the
-/// same as those of the new state; otherwise arrays must not overlap. Energies, invariants and failure may be parts of one
-/// component-major state array of 11 components, starting at components 0, 4 and 8.
+/// Component c of point i is at `c * leading_dimension + i`, unless the layout of the array says otherwise. F, fibre and stress
+/// have a pointer for each component, so that they may be in separate arrays; if only the first is set, the others follow it by
+/// the layout. The arrays of the old and the new state may be the same; otherwise arrays must not overlap. Energies, invariants
+/// and failure may be parts of one array of 11 components, starting at components 0, 4 and 8.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Block<T> {
-    /// Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+    /// The size of this structure.
+    pub size: size_t,
+    /// The number of points.
     pub n: size_t,
+    /// In numbers, from one component to the next; 0: n.
     pub leading_dimension: size_t,
-    /// In, 9 components: F by columns. Must not be null.
-    pub deformation_gradient: *const T,
-    /// In, 3 components: the fibre direction of each point, any length; if null, the one in the properties.
-    pub fibre: *const T,
+    /// In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+    pub measure: i32,
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it. AVX2 and
+    /// AVX-512 give identical bits; the baseline differs in the last digits.
+    pub level: i32,
+    /// In: reference density; read if `wave_speed` is not null.
+    pub density: f64,
+    /// In, 9 components: F by columns. The first must not be null.
+    pub deformation_gradient: [*const T; 9],
+    /// In, 3 components: the fibre direction of each point, of any length; if null, that of the properties.
+    pub fibre: [*const T; 3],
     /// In, 4, 4 and 3 components: the old state; if null, all 0.
     pub energies_old: *const T,
     pub invariants_old: *const T,
     pub failure_old: *const T,
-    /// In: reference density; used only if wave_speed is not null.
-    pub density: T,
-    /// Out, 6: Cauchy stress 11 22 33 12 23 31.
-    pub stress: *mut T,
+    /// Out, 6 components: Cauchy stress 11 22 33 12 23 31.
+    pub stress: [*mut T; 6],
     /// Out, 4: W_el W_tc W_td W_ld.
     pub energies: *mut T,
     /// Out, 4: I_el I_tc I_td I_ld.
     pub invariants: *mut T,
-    /// Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays
-    /// failed.
+    /// Out, 3: failure index, failed, alive. If null, no point fails, but a point whose old failure flag is set stays failed.
     pub failure: *mut T,
     /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
     pub modes: *mut T,
-    /// Out, 1 component: an upper bound of the wave speed, to be used with current element lengths; never below the speed
-    /// along a fibre at rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the
-    /// exact speed.
+    /// Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): entry (row, column), counted from 0, is component 6 row + column (9 row
+    /// + column); else as in `toron_point_f64`.
+    pub tangent: *mut T,
+    /// Out, a number for each point: an upper bound of the wave speed, as in `toron_point_f64`.
     pub wave_speed: *mut T,
-    /// Out: a status code for each point.
-    pub status: *mut i32,
-    /// Out, 1 component: 1, or 0 if the point has failed or cannot be evaluated: what a solver deletes elements by.
+    /// Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated: what a solver deletes elements by.
     pub active: *mut T,
-    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-    /// is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
-    pub level: i32,
+    /// Out, a number for each point: its status code.
+    pub status: *mut i32,
+    /// Where the entries of these arrays are. That of the state holds for energies, invariants and failure, old and new.
+    pub deformation_gradient_layout: Layout,
+    pub fibre_layout: Layout,
+    pub state_layout: Layout,
+    pub stress_layout: Layout,
+    pub modes_layout: Layout,
+    pub tangent_layout: Layout,
 }
 
-#[inline(always)]
-pub(super) fn level(level: i32) -> Result<Option<Level>, Error> {
-    match level {
-        TORON_LEVEL_BEST => Ok(None),
-        TORON_LEVEL_BASELINE => Ok(Some(Level::Baseline)),
-        TORON_LEVEL_AVX2 => Ok(Some(Level::Avx2)),
-        TORON_LEVEL_AVX512 => Ok(Some(Level::Avx512)),
-        _ => Err(Error::Argument {
-            name: "level",
-            value: f64::from(level),
-            wanted: "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)",
-        }),
-    }
-}
+structures! { Block, "toron_block_f64", "toron_block_f32", "block"; }
+
+#[cfg(target_pointer_width = "64")]
+const _: () =
+    assert!(size_of::<Block<f64>>() == 5 * 8 + 29 * 8 + 12 * 8 && size_of::<Block<f32>>() == size_of::<Block<f64>>());
 
 impl<T: Scalar> Block<T> {
+    /// Whether all arrays are placed in the usual way: one pointer each, and one leading dimension for all. Most blocks are, and
+    /// most calls have so few points that to look at every layout would take time.
     #[inline(always)]
-    pub(super) fn pointers(&self) -> Result<Pointers<T>, Error> {
-        let stride = self.leading_dimension;
-        Ok(Pointers {
-            deformation_gradient: components(self.deformation_gradient, stride),
-            fibre: components(self.fibre, stride),
+    fn is_plain(&self) -> bool {
+        let [f, fibre] = [&self.deformation_gradient_layout, &self.fibre_layout];
+        let [state, stress] = [&self.state_layout, &self.stress_layout];
+        let [modes, tangent] = [&self.modes_layout, &self.tangent_layout];
+        let leading_dimensions = f.leading_dimension
+            | fibre.leading_dimension
+            | state.leading_dimension
+            | stress.leading_dimension
+            | modes.leading_dimension
+            | tangent.leading_dimension;
+        let strides = f.stride | fibre.stride | state.stride | stress.stride | modes.stride | tangent.stride;
+        let [_, f1, f2, f3, f4, f5, f6, f7, f8] = self.deformation_gradient;
+        let [_, m1, m2] = self.fibre;
+        let [_, s1, s2, s3, s4, s5] = self.stress;
+        let inputs = [f1, f2, f3, f4, f5, f6, f7, f8, m1, m2];
+        let (mut others, mut c) = (leading_dimensions | strides, 0);
+        while c < inputs.len() {
+            others |= inputs[c].addr();
+            c += 1;
+        }
+        others |= s1.addr() | s2.addr() | s3.addr() | s4.addr() | s5.addr();
+        others == 0 && self.n <= leading_dimension(self.leading_dimension, self.n)
+    }
+
+    /// Checks what the law itself does not check, but for the layouts.
+    #[inline(always)]
+    fn check(&self) -> Result<(), Error> {
+        check_points(self.n)?;
+        check_density::<T>(self.density, !self.wave_speed.is_null() && self.n > 0)?;
+        level(self.level)?;
+        if !self.tangent.is_null() {
+            measure(self.measure)?;
+        }
+        Ok(())
+    }
+
+    /// Checks where the entries of the arrays are that have a pointer for each component; the law checks the others.
+    fn check_layouts(&self) -> Result<(), Error> {
+        let (n, leading_dimension) = (self.n, leading_dimension(self.leading_dimension, self.n));
+        let [f, fibre, stress] = [self.deformation_gradient_layout, self.fibre_layout, self.stress_layout];
+        f.or(leading_dimension).check(
+            &self.deformation_gradient,
+            null(),
+            n,
+            ["deformation_gradient, one of its components,", "leading dimension of deformation_gradient"],
+        )?;
+        let names = ["fibre, one of its components,", "leading dimension of fibre"];
+        fibre.or(leading_dimension).check(&self.fibre, null(), n, names)?;
+        let names = ["stress, one of its components,", "leading dimension of stress"];
+        stress.or(leading_dimension).check(&self.stress, null_mut(), n, names)
+    }
+
+    /// The block as the law takes it, if it [is plain](Self::is_plain).
+    #[inline(always)]
+    fn plain_pointers(&self) -> Pointers<T> {
+        let leading_dimension = leading_dimension(self.leading_dimension, self.n);
+        Pointers {
+            n: self.n,
+            leading_dimension,
+            modes_leading_dimension: leading_dimension,
+            tangent_leading_dimension: leading_dimension,
+            strides: Strides::UNIT,
+            deformation_gradient: components(self.deformation_gradient[0], leading_dimension),
+            fibre: components(self.fibre[0], leading_dimension),
             energies_old: self.energies_old,
             invariants_old: self.invariants_old,
             failure_old: self.failure_old,
-            density: self.density,
-            stress: components_mut(self.stress, stride),
+            density: T::splat(self.density),
+            stress: components_mut(self.stress[0], leading_dimension),
             energies: self.energies,
             invariants: self.invariants,
             failure: self.failure,
             modes: self.modes,
             wave_speed: self.wave_speed,
+            tangent: self.tangent,
+            measure: measure(self.measure).unwrap_or(Measure::Jaumann),
             status: self.status,
             active: self.active,
-            level: level(self.level)?,
-            ..Pointers::without_arrays(self.n, stride)
-        })
+            level: level(self.level).unwrap_or(None),
+        }
+    }
+
+    /// The block as the law takes it, whose layouts [have been checked](Self::check_layouts).
+    fn pointers(&self) -> Pointers<T> {
+        let leading_dimension = leading_dimension(self.leading_dimension, self.n);
+        let [f, fibre] = [self.deformation_gradient_layout, self.fibre_layout].map(|x| x.or(leading_dimension));
+        let [state, stress] = [self.state_layout, self.stress_layout].map(|x| x.or(leading_dimension));
+        let [modes, tangent] = [self.modes_layout, self.tangent_layout].map(|x| x.or(leading_dimension));
+        Pointers {
+            leading_dimension: state.leading_dimension,
+            modes_leading_dimension: modes.leading_dimension,
+            tangent_leading_dimension: tangent.leading_dimension,
+            strides: Strides {
+                deformation_gradient: f.stride,
+                fibre: fibre.stride,
+                state: state.stride,
+                stress: stress.stride,
+                modes: modes.stride,
+                tangent: tangent.stride,
+            },
+            deformation_gradient: f.components(&self.deformation_gradient),
+            fibre: fibre.components(&self.fibre),
+            stress: stress.components_mut(&self.stress),
+            ..self.plain_pointers()
+        }
     }
 }
 
 /// # Safety
 /// As for `toron_hyperelastic_block_f64`.
-unsafe fn block<T: Precision>(values: *const T, count: size_t, block: *const Block<T>) -> Result<i32, Error> {
-    if block.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
+unsafe fn evaluate<T: Precision>(law: Law<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
     unsafe {
-        let properties = properties(values, count, &parameters::HYPERELASTIC)?;
-        raw_block_of(properties, &(*block).pointers()?)
+        let block = read(block, &mut room)?;
+        block.check()?;
+        let worst = if block.is_plain() {
+            raw_block_of(law, &block.plain_pointers())?
+        } else {
+            evaluate_in_layouts(law, block)?
+        };
+        of_points(worst, block.status, block.n)
     }
 }
 
-/// `toron_hyperelastic_block_f64` of the C interface; package `toron-c` documents its arguments.
-///
 /// # Safety
-/// As documented there.
+/// As for [`evaluate`].
 #[inline(never)]
-pub unsafe extern "C" fn hyperelastic_block_f64(values: *const f64, count: size_t, block: *const Block<f64>) -> i32 {
+unsafe fn evaluate_in_layouts<T: Precision>(law: Law<'_, T>, block: &Block<T>) -> Result<i32, Error> {
+    block.check_layouts()?;
     // SAFETY: the caller's promise.
-    entry(move || unsafe { self::block(values, count, block) })
+    unsafe { raw_block_of(law, &block.pointers()) }
 }
 
-/// `toron_hyperelastic_block_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn hyperelastic_block_f32(values: *const f32, count: size_t, block: *const Block<f32>) -> i32 {
-    // SAFETY: the caller's promise.
-    entry(move || unsafe { self::block(values, count, block) })
+macro_rules! entries {
+    ($t:ty: $block:ident, $with_properties:ident) => {
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $block(
+            law: *const HyperelasticLaw<$t>,
+            block: *const Block<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || evaluate(Law::Prepared(numbers(law)?), block)) }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $with_properties(
+            values: *const $t,
+            count: size_t,
+            block: *const Block<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    evaluate(Law::Properties(properties(values, count, &parameters::HYPERELASTIC)?), block)
+                })
+            }
+        }
+    };
 }
+
+entries!(f64: hyperelastic_block_f64, hyperelastic_block_with_properties_f64);
+entries!(f32: hyperelastic_block_f32, hyperelastic_block_with_properties_f32);

@@ -2,8 +2,8 @@
 
 use crate::law::{parameters, state};
 
-/// Version of the binary interface. It changes when a caller compiled with an older header would no longer work.
-pub const TORON_ABI_VERSION: i32 = 1;
+/// Version of the binary interface. A program built against it runs with every later library of the same number.
+pub const TORON_ABI_VERSION: i32 = 2;
 
 /// Selects the hyperelastic yarn law in the functions for tables.
 pub const TORON_HYPERELASTIC: i32 = 0;
@@ -48,6 +48,9 @@ pub const TORON_LEVEL_BASELINE: i32 = 1;
 pub const TORON_LEVEL_AVX2: i32 = 2;
 /// At most AVX-512.
 pub const TORON_LEVEL_AVX512: i32 = 3;
+
+/// Room for any message, its terminating null included.
+pub const TORON_MESSAGE_CAPACITY: usize = 512;
 
 const _: () = {
     assert!(TORON_HYPERELASTIC_PROPERTIES == parameters::HYPERELASTIC_PROPERTIES);

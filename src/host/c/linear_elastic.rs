@@ -1,338 +1,470 @@
-//! The linear elastic law: properties, one point, blocks.
+//! The linear elastic law: one point, blocks, strain increments, initial axes.
+
+use core::mem::MaybeUninit;
+use core::ptr::{null, null_mut};
 
 use libc::{c_char, size_t};
-use nalgebra::Matrix3;
 
-use crate::host::environment::in_default_environment;
+use super::arguments::{Layout, check_density, check_points, criterion, leading_dimension, level, measure, rotation};
+use super::prepared::{LinearElasticLaw, numbers};
+use crate::host::border::{Message, entry, of_points, properties, store};
+use crate::host::structures::{read, structures};
 use crate::law::block::Precision;
-use crate::law::block::linear::LinearPointers;
+use crate::law::block::linear::{LinearPointers, LinearStrides};
+use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
-use crate::law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::real::Scalar;
 use crate::law::parameters;
+use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-use super::blocks;
-use super::constants::{TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
-use super::constants::{TORON_ROTATION_FIBRE, TORON_ROTATION_POLAR, TORON_ROTATION_SPIN};
-use super::tangents;
-use crate::host::border::write_text;
-use crate::host::border::{entry, properties, store};
+/// A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+/// output that is left out is not computed. The arrays of the old and the new state may be the same.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct LinearPoint<T> {
+    /// The size of this structure.
+    pub size: size_t,
+    /// In: the frame that turns with the material, one of `TORON_ROTATION_...` (0, the fibre's, is right for a yarn), and the
+    /// stress that is compared with the strength, one of `TORON_CRITERION_...`.
+    pub rotation: i32,
+    pub criterion: i32,
+    /// In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+    pub measure: i32,
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`, as in `toron_block_f64`.
+    pub level: i32,
+    /// In: reference density; read if `wave_speed` is not null.
+    pub density: f64,
+    /// In, 9 each: F by columns at both ends of the step. Must not be null.
+    pub f_old: *const T,
+    pub f_new: *const T,
+    /// In, 3 each, of any length: the fibre direction and the second material axis in the reference placement; if null, those of
+    /// the properties. The second axis may be 0 if any will do. Not read for `TORON_ROTATION_SPIN`.
+    pub fibre: *const T,
+    pub second_axis: *const T,
+    /// In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
+    /// `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+    pub axes: *mut T,
+    /// In, 10: the old state; if null, all 0.
+    pub state_old: *const T,
+    /// Out, 10: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+    pub state_new: *mut T,
+    /// Out, 6: Cauchy stress in global axes, 11 22 33 12 23 31.
+    pub stress: *mut T,
+    /// Out, 1: an upper bound of the wave speed at the end of the step, to be used with current element lengths.
+    pub wave_speed: *mut T,
+    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent consistent with the step, as in `toron_point_f64`, but not symmetric.
+    /// `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
+    /// precision, and so are then all other results.
+    pub tangent: *mut T,
+}
 
-/// The array at `from`, or zeros if that is null.
+/// A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
+/// out, and an output that is left out is not computed.
 ///
-/// # Safety
-/// `from` is null or points to N values.
-unsafe fn load<const N: usize>(from: *const f64) -> [f64; N] {
-    // SAFETY: the caller's promise.
-    if from.is_null() { [0.0; N] } else { unsafe { *from.cast() } }
-}
-
-/// # Safety
-/// As for `toron_linear_elastic_step_f64`.
-unsafe fn linear_elastic<T: Precision>(values: *const T, count: size_t) -> Result<LinearElastic<T>, Error> {
-    // SAFETY: the caller's promise.
-    LinearElastic::new(unsafe { properties(values, count, &parameters::LINEAR_ELASTIC) }?)
-}
-
-fn rotation(rotation: i32) -> Result<Rotation, Error> {
-    match rotation {
-        TORON_ROTATION_FIBRE => Ok(Rotation::Fibre),
-        TORON_ROTATION_POLAR => Ok(Rotation::Polar),
-        TORON_ROTATION_SPIN => Ok(Rotation::Spin),
-        _ => Err(Error::Argument {
-            name: "rotation",
-            value: f64::from(rotation),
-            wanted: "0 (fibre), 1 (polar) or 2 (spin)",
-        }),
-    }
-}
-
-fn criterion(criterion: i32) -> Result<Criterion, Error> {
-    match criterion {
-        TORON_CRITERION_PRINCIPAL => Ok(Criterion::LargestPrincipal),
-        TORON_CRITERION_FIBRE => Ok(Criterion::FibreStress),
-        _ => Err(Error::Argument {
-            name: "criterion",
-            value: f64::from(criterion),
-            wanted: "0 (largest principal stress) or 1 (fibre stress)",
-        }),
-    }
-}
-
-/// # Safety
-/// As for `toron_linear_elastic_step_f64`.
-unsafe fn store_linear(point: &LinearPoint, state_new: *mut f64, stress: *mut f64) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        store(&point.state, state_new);
-        store(&point.stress, stress);
-    }
-    point.status
-}
-
-/// `toron_linear_elastic_validate_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_validate_f64(
-    values: *const f64,
-    count: size_t,
-    message: *mut c_char,
-    capacity: size_t,
-    status: *mut i32,
-) -> size_t {
-    // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe {
-        let error = linear_elastic(values, count).err();
-        store(&[error.map_or(status::OK, |error| error.code())], status);
-        write_text(message, capacity, |sink| {
-            if let Some(error) = error {
-                error.describe(sink);
-            }
-        })
-    })
-}
-
-/// `toron_linear_elastic_axes_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_axes_f64(values: *const f64, count: size_t, axes: *mut f64) -> i32 {
-    if axes.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        store(linear_elastic(values, count)?.reference_axes().as_slice(), axes);
-        Ok(status::OK)
-    })
-}
-
-/// # Safety
-/// As for `toron_linear_elastic_step_f64`.
-#[allow(clippy::too_many_arguments)]
-unsafe fn linear_step(
-    values: *const f64,
-    count: size_t,
-    f_old: *const f64,
-    f_new: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    rotation: i32,
-    criterion: i32,
-    axes: *mut f64,
-    tangent: Option<(i32, *mut f64)>,
-) -> Result<i32, Error> {
-    // SAFETY: the caller's promise.
-    let law = unsafe { linear_elastic(values, count) }?;
-    let criterion = self::criterion(criterion)?;
-    let rotation = self::rotation(rotation)?;
-    let wanted = tangent.map(|(measure, to)| tangents::measure(measure).map(|measure| (measure, to))).transpose()?;
-    let spin = rotation == Rotation::Spin;
-    if wanted.is_some_and(|(_, to)| to.is_null()) {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
-    if f_old.is_null() || f_new.is_null() || (spin && axes.is_null()) {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
-    }
-    // SAFETY: the caller's promise; axes are read for the spin frame only.
-    unsafe {
-        let mut turning = if spin { Matrix3::from_column_slice(&load::<9>(axes)) } else { law.reference_axes() };
-        let [f0, f1] = [f_old, f_new].map(|f| Matrix3::from_column_slice(&load::<9>(f)));
-        let old = load(state_old);
-        let point = match wanted {
-            None => law.step(&f0, &f1, &old, rotation, criterion, &mut turning),
-            Some((measure, to)) => {
-                let (point, tangent) = law.step_with_tangent(&f0, &f1, &old, rotation, criterion, &mut turning);
-                match tangent.matrix(measure, &f1, &point.stress) {
-                    Some(rows) => store(rows.as_flattened(), to),
-                    None if measure == Measure::Nominal => store(&tangent.nominal(&f1, &point.stress), to),
-                    None => store(&[0.0; 36], to),
-                }
-                point
-            }
-        };
-        if spin {
-            store(turning.as_slice(), axes);
-        }
-        Ok(store_linear(&point, state_new, stress))
-    }
-}
-
-/// `toron_linear_elastic_step_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_step_f64(
-    values: *const f64,
-    count: size_t,
-    f_old: *const f64,
-    f_new: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    rotation: i32,
-    criterion: i32,
-    axes: *mut f64,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, None)
-    })
-}
-
-/// `toron_linear_elastic_step_tangent_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_step_tangent_f64(
-    values: *const f64,
-    count: size_t,
-    f_old: *const f64,
-    f_new: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    rotation: i32,
-    criterion: i32,
-    axes: *mut f64,
-    measure: i32,
-    tangent: *mut f64,
-) -> i32 {
-    let tangent = Some((measure, tangent));
-    // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        linear_step(values, count, f_old, f_new, state_old, state_new, stress, rotation, criterion, axes, tangent)
-    })
-}
-
-/// `toron_linear_elastic_increment_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_increment_f64(
-    values: *const f64,
-    count: size_t,
-    strain: *const f64,
-    jacobian: f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    criterion: i32,
-) -> i32 {
-    if strain.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        let law = linear_elastic(values, count)?;
-        let point = law.increment(&load(strain), jacobian, &load(state_old), self::criterion(criterion)?);
-        Ok(store_linear(&point, state_new, stress))
-    })
-}
-
-/// A block of points of the linear elastic law: component-major arrays, component c of point i at
-/// `c * leading_dimension + i`.
-///
-/// Optional arrays may be null: an output whose pointer is null is not computed. The array of the old state may be the same
-/// as that of the new state.
+/// Entries are placed as in `toron_block_f64`; the arrays hold what they hold in `toron_linear_point_f64`.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct LinearBlock<T> {
-    /// Number of points; and the leading dimension: the distance from one component to the next in numbers, at least n.
+    /// The size of this structure.
+    pub size: size_t,
+    /// The number of points.
     pub n: size_t,
+    /// In numbers, from one component to the next; 0: n.
     pub leading_dimension: size_t,
-    /// In, 9 components each: F by columns at both ends of the step. Must not be null.
-    pub f_old: *const T,
-    pub f_new: *const T,
-    /// In and out, 9 components: the current material axes in global coordinates, axis 1, then 2, then 3. Must not be null
-    /// for `TORON_ROTATION_SPIN`; not used for the other frames.
+    /// In: one of `TORON_ROTATION_...`, `TORON_CRITERION_...`, `TORON_TANGENT_...` and `TORON_LEVEL_...`.
+    pub rotation: i32,
+    pub criterion: i32,
+    pub measure: i32,
+    pub level: i32,
+    /// In: reference density; read if `wave_speed` is not null.
+    pub density: f64,
+    /// In, 9 components each: F by columns at both ends of the step. The first must not be null.
+    pub f_old: [*const T; 9],
+    pub f_new: [*const T; 9],
+    /// In, 3 components each: fibre direction and second axis of each point.
+    pub fibre: [*const T; 3],
+    pub second_axis: [*const T; 3],
+    /// In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
     pub axes: *mut T,
-    /// In, 10: the old state; null: all 0.
+    /// In, 10 components: the old state; if null, all 0.
     pub state_old: *const T,
-    /// Out, 10: the new state. If null, no point fails, but a point whose old failure flag is set stays failed.
+    /// Out, 10 components: the new state.
     pub state_new: *mut T,
     /// Out, 6 components: Cauchy stress in global axes, 11 22 33 12 23 31.
-    pub stress: *mut T,
-    /// Out: a status code for each point.
+    pub stress: [*mut T; 6],
+    /// Out, 36 components (81 for `TORON_TANGENT_NOMINAL`): the tangent.
+    pub tangent: *mut T,
+    /// Out, a number for each point: an upper bound of the wave speed.
+    pub wave_speed: *mut T,
+    /// Out, a number for each point: 1, or 0 if it has failed or cannot be evaluated.
+    pub active: *mut T,
+    /// Out, a number for each point: its status code.
     pub status: *mut i32,
-    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best available one below it
-    /// is used. AVX2 and AVX-512 give identical bits; the baseline differs in the last digits.
-    pub level: i32,
+    /// Where the entries of these arrays are. That of F holds for both ends, that of the fibre for the second axis too, that of
+    /// the state for the old and the new one.
+    pub deformation_gradient_layout: Layout,
+    pub fibre_layout: Layout,
+    pub axes_layout: Layout,
+    pub state_layout: Layout,
+    pub stress_layout: Layout,
+    pub tangent_layout: Layout,
+}
+
+/// A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
+/// is 0.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct LinearIncrement<T> {
+    /// The size of this structure.
+    pub size: size_t,
+    /// In: one of `TORON_CRITERION_...`.
+    pub criterion: i32,
+    /// 0.
+    pub reserved: i32,
+    /// In: the volume ratio J, a factor of the work per reference volume; 0: 1, not known.
+    pub jacobian: f64,
+    /// In, 6: tensor components 11 22 33 12 23 31 (half the engineering shears) in the material axes. Must not be null.
+    pub strain: *const T,
+    /// In, 10: the old state; if null, all 0.
+    pub state_old: *const T,
+    /// Out, 10: the new state; null: it is not returned.
+    pub state_new: *mut T,
+    /// Out, 6: Cauchy stress in the material axes.
+    pub stress: *mut T,
+}
+
+structures! {
+    LinearPoint, "toron_linear_point_f64", "toron_linear_point_f32", "point";
+    LinearBlock, "toron_linear_block_f64", "toron_linear_block_f32", "block";
+    LinearIncrement, "toron_linear_increment_f64", "toron_linear_increment_f32", "increment";
+}
+
+#[cfg(target_pointer_width = "64")]
+const _: () = {
+    assert!(size_of::<LinearPoint<f64>>() == 4 * 8 + 10 * 8 && size_of::<LinearPoint<f32>>() == 4 * 8 + 10 * 8);
+    assert!(size_of::<LinearBlock<f64>>() == 6 * 8 + 37 * 8 + 12 * 8);
+    assert!(size_of::<LinearBlock<f32>>() == size_of::<LinearBlock<f64>>());
+    assert!(size_of::<LinearIncrement<f64>>() == 7 * 8 && size_of::<LinearIncrement<f32>>() == 7 * 8);
+};
+
+/// A law from its properties, or one that has been prepared from them.
+#[derive(Clone, Copy)]
+enum Given<'a, T> {
+    Properties(&'a [T]),
+    Prepared(&'a crate::law::prepared::PreparedLinearElastic<T>),
+}
+
+impl<T: Scalar> Given<'_, T> {
+    fn law(self) -> Result<LinearElastic<T>, Error> {
+        match self {
+            Given::Properties(properties) => LinearElastic::new(properties),
+            Given::Prepared(prepared) => Ok(prepared.law()),
+        }
+    }
+}
+
+/// The measure of a tangent that is requested.
+fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
+    if tangent.is_null() { Ok(Measure::Jaumann) } else { self::measure(measure) }
+}
+
+/// A point as a block of one.
+///
+/// # Safety
+/// As for `toron_linear_elastic_point_f64`.
+unsafe fn point<T: Precision>(law: Given<'_, T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let point = read(point, &mut room)?;
+        check_density::<T>(point.density, !point.wave_speed.is_null())?;
+        law.law()?.raw_block(&LinearPointers {
+            f_old: components(point.f_old, 1),
+            f_new: components(point.f_new, 1),
+            fibre: components(point.fibre, 1),
+            second_axis: components(point.second_axis, 1),
+            axes: point.axes,
+            state_old: point.state_old,
+            state_new: point.state_new,
+            density: T::splat(point.density),
+            stress: components_mut(point.stress, 1),
+            wave_speed: point.wave_speed,
+            tangent: point.tangent,
+            measure: measure_of(point.tangent, point.measure)?,
+            rotation: rotation(point.rotation)?,
+            criterion: criterion(point.criterion)?,
+            level: level(point.level)?,
+            ..LinearPointers::without_arrays(1, 1)
+        })
+    }
+}
+
+impl<T: Scalar> LinearBlock<T> {
+    fn pointers(&self) -> Result<LinearPointers<T>, Error> {
+        let leading_dimension = leading_dimension(self.leading_dimension, self.n);
+        let (f, fibre) =
+            (self.deformation_gradient_layout.or(leading_dimension), self.fibre_layout.or(leading_dimension));
+        let (axes, state) = (self.axes_layout.or(leading_dimension), self.state_layout.or(leading_dimension));
+        let (stress, tangent) = (self.stress_layout.or(leading_dimension), self.tangent_layout.or(leading_dimension));
+        let n = self.n;
+        check_points(n)?;
+        check_density::<T>(self.density, !self.wave_speed.is_null() && n > 0)?;
+        f.check(&self.f_old, null(), n, ["f_old, one of its components,", "leading dimension of f_old"])?;
+        f.check(&self.f_new, null(), n, ["f_new, one of its components,", "leading dimension of f_new"])?;
+        fibre.check(&self.fibre, null(), n, ["fibre, one of its components,", "leading dimension of fibre"])?;
+        fibre.check(
+            &self.second_axis,
+            null(),
+            n,
+            ["second_axis, one of its components,", "leading dimension of second_axis"],
+        )?;
+        stress.check(&self.stress, null_mut(), n, ["stress, one of its components,", "leading dimension of stress"])?;
+        Ok(LinearPointers {
+            n,
+            leading_dimension: state.leading_dimension,
+            axes_leading_dimension: axes.leading_dimension,
+            tangent_leading_dimension: tangent.leading_dimension,
+            strides: LinearStrides {
+                deformation_gradient: f.stride,
+                fibre: fibre.stride,
+                axes: axes.stride,
+                state: state.stride,
+                stress: stress.stride,
+                tangent: tangent.stride,
+            },
+            f_old: f.components(&self.f_old),
+            f_new: f.components(&self.f_new),
+            fibre: fibre.components(&self.fibre),
+            second_axis: fibre.components(&self.second_axis),
+            axes: self.axes,
+            state_old: self.state_old,
+            state_new: self.state_new,
+            density: T::splat(self.density),
+            stress: stress.components_mut(&self.stress),
+            wave_speed: self.wave_speed,
+            tangent: self.tangent,
+            measure: measure_of(self.tangent, self.measure)?,
+            status: self.status,
+            active: self.active,
+            rotation: rotation(self.rotation)?,
+            criterion: criterion(self.criterion)?,
+            level: level(self.level)?,
+        })
+    }
 }
 
 /// # Safety
 /// As for `toron_linear_elastic_block_f64`.
-unsafe fn linear_block<T: Precision>(
-    values: *const T,
-    count: size_t,
-    block: *const LinearBlock<T>,
-    rotation: i32,
-    criterion: i32,
+unsafe fn block<T: Precision>(law: Given<'_, T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let block = read(block, &mut room)?;
+        let worst = law.law()?.raw_block(&block.pointers()?)?;
+        of_points(worst, block.status, block.n)
+    }
+}
+
+/// `N` numbers in double precision, all 0 if there is no array.
+///
+/// # Safety
+/// `from` is null or points to N values.
+unsafe fn load<T: Scalar, const N: usize>(from: *const T) -> [f64; N] {
+    let mut values = [0.0; N];
+    if !from.is_null() {
+        for (i, value) in values.iter_mut().enumerate() {
+            // SAFETY: the caller's promise.
+            *value = unsafe { *from.add(i) }.into();
+        }
+    }
+    values
+}
+
+/// # Safety
+/// As for `toron_linear_elastic_axes_f64`.
+unsafe fn axes<T: Scalar>(
+    law: &LinearElastic<T>,
+    fibre: *const T,
+    second_axis: *const T,
+    axes: *mut T,
 ) -> Result<i32, Error> {
-    if block.is_null() {
-        return Err(Error::Plain(status::NULL_ARGUMENT));
+    if axes.is_null() {
+        return Err(Error::Null { name: "axes" });
     }
     // SAFETY: the caller's promise.
     unsafe {
-        let law = linear_elastic(values, count)?;
-        let LinearBlock { n, leading_dimension, f_old, f_new, axes, state_old, state_new, stress, status, level } =
-            *block;
-        law.raw_block(&LinearPointers {
-            n,
-            leading_dimension,
-            f_old,
-            f_new,
-            axes,
-            state_old,
-            state_new,
-            stress,
-            status,
-            rotation: self::rotation(rotation)?,
-            criterion: self::criterion(criterion)?,
-            level: blocks::level(level)?,
-        })
+        let mut law = law.lanes::<f64>();
+        if !fibre.is_null() || !second_axis.is_null() {
+            let own = law.reference_axes();
+            let fibre = if fibre.is_null() { own.column(0).into() } else { load(fibre) };
+            let second = if second_axis.is_null() { None } else { Some(load(second_axis)) };
+            law = law.along(fibre, second)?;
+        }
+        for (i, &x) in law.reference_axes().as_slice().iter().enumerate() {
+            *axes.add(i) = T::splat(x);
+        }
+    }
+    Ok(status::OK)
+}
+
+/// # Safety
+/// As for `toron_linear_elastic_increment_f64`.
+unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearIncrement<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    unsafe {
+        let increment = read(increment, &mut room)?;
+        if increment.strain.is_null() {
+            return Err(Error::Null { name: "strain" });
+        }
+        let criterion = criterion(increment.criterion)?;
+        if increment.reserved != 0 {
+            let (code, value) = (status::UNKNOWN_FIELD, i64::from(increment.reserved));
+            return Err(Error::Range { code, name: "reserved", value, least: 0, greatest: 0 });
+        }
+        let jacobian = if increment.jacobian == 0.0 { 1.0 } else { increment.jacobian };
+        if !(jacobian > 0.0 && jacobian.is_finite()) {
+            let wanted = "a finite number > 0, or 0 if it is not known";
+            return Err(Error::Argument { name: "jacobian", value: jacobian, wanted });
+        }
+        let old: [f64; LINEAR_ELASTIC_STATE] = load(increment.state_old);
+        let law = law.lanes::<f64>();
+        let mut point = law.increment(&load(increment.strain), jacobian, &old, criterion);
+        // Rounded to T, a number that does not fit is not finite.
+        if !point.stress.iter().chain(&point.state).all(|&x| T::splat(x).into().is_finite()) {
+            point = law.kept(&old, status::OVERFLOW);
+        }
+        store(&point.state.map(T::splat), increment.state_new);
+        store(&point.stress.map(T::splat), increment.stress);
+        Ok(point.status)
     }
 }
 
-/// `toron_linear_elastic_block_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_block_f64(
-    values: *const f64,
-    count: size_t,
-    block: *const LinearBlock<f64>,
-    rotation: i32,
-    criterion: i32,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    entry(move || unsafe { linear_block(values, count, block, rotation, criterion) })
+macro_rules! entries {
+    ($t:ty: $axes:ident, $point:ident, $point_with_properties:ident, $increment:ident, $block:ident,
+     $block_with_properties:ident) => {
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $axes(
+            law: *const LinearElasticLaw<$t>,
+            fibre: *const $t,
+            second_axis: *const $t,
+            axes: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    self::axes(&numbers(law)?.law(), fibre, second_axis, axes)
+                })
+            }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $point(
+            law: *const LinearElasticLaw<$t>,
+            point: *const LinearPoint<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || self::point(Given::Prepared(numbers(law)?), point))
+            }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $point_with_properties(
+            values: *const $t,
+            count: size_t,
+            point: *const LinearPoint<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    self::point(Given::Properties(properties(values, count, &parameters::LINEAR_ELASTIC)?), point)
+                })
+            }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $increment(
+            law: *const LinearElasticLaw<$t>,
+            increment: *const LinearIncrement<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || self::increment(&numbers(law)?.law(), increment))
+            }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $block(
+            law: *const LinearElasticLaw<$t>,
+            block: *const LinearBlock<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || self::block(Given::Prepared(numbers(law)?), block))
+            }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $block_with_properties(
+            values: *const $t,
+            count: size_t,
+            block: *const LinearBlock<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    self::block(Given::Properties(properties(values, count, &parameters::LINEAR_ELASTIC)?), block)
+                })
+            }
+        }
+    };
 }
 
-/// `toron_linear_elastic_block_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_elastic_block_f32(
-    values: *const f32,
-    count: size_t,
-    block: *const LinearBlock<f32>,
-    rotation: i32,
-    criterion: i32,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    entry(move || unsafe { linear_block(values, count, block, rotation, criterion) })
-}
+entries!(
+    f64: linear_elastic_axes_f64, linear_elastic_point_f64, linear_elastic_point_with_properties_f64,
+    linear_elastic_increment_f64, linear_elastic_block_f64, linear_elastic_block_with_properties_f64
+);
+entries!(
+    f32: linear_elastic_axes_f32, linear_elastic_point_f32, linear_elastic_point_with_properties_f32,
+    linear_elastic_increment_f32, linear_elastic_block_f32, linear_elastic_block_with_properties_f32
+);

@@ -7,24 +7,29 @@
 //! | stress | Cauchy, 11 22 33 12 23 31 |
 //! | energies | per reference volume |
 //! | status | 0 is success, negative an error; outputs are untouched if the call itself is wrong (−1xx, −2xx) |
+//! | structures | begin with their size; 0 is what is left out |
+//! | message | the last two arguments: a buffer and its size, or null and 0; written only if there is an error |
 //! | arrays | the caller's; read and written during the call only, never kept |
 //!
 //! Every function may be called from any thread at any time.
 
 mod about;
+mod arguments;
 mod blocks;
 mod constants;
 mod linear_elastic;
 mod points;
+mod prepared;
 mod tables;
-mod tangents;
 
+pub(super) use arguments::level;
 pub(super) use points::PointAnswer;
 
 pub use about::*;
+pub use arguments::Layout;
 pub use blocks::*;
 pub use constants::*;
 pub use linear_elastic::*;
 pub use points::*;
+pub use prepared::*;
 pub use tables::*;
-pub use tangents::*;

@@ -1,109 +1,70 @@
-//! The hyperelastic law: its properties, and one point.
+//! The hyperelastic law at one point, with or without a tangent, and its least stable wave.
 
 use core::cell::Cell;
+use core::mem::MaybeUninit;
 
 use libc::{c_char, size_t};
 
-use crate::host::environment::in_default_environment;
-use crate::law::derivative::{NoTangent, StressAndState};
+use super::arguments::{check_density, level, measure};
+use super::constants::TORON_LEVEL_BEST;
+use super::prepared::{HyperelasticLaw, numbers};
+use crate::host::border::{Message, entry, properties, store};
+use crate::host::structures::{read, structures};
+use crate::law::derivative::{NineByNine, NoTangent, SixBySix, StressAndState};
 use crate::law::error::Error;
-use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::level::Level;
 use crate::law::number::real::Real;
 use crate::law::number::registers::Registers;
 use crate::law::parameters;
-use crate::law::point::{Call, Point, Sink, cells, evaluate_call};
+use crate::law::point::{self, Call, Sink, Source, cells, evaluate_call};
 use crate::law::response::Request;
-use crate::law::state;
+use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
+use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
-use crate::host::border::write_text;
-use crate::host::border::{entry, properties, store};
-
-/// # Safety
-/// As for `toron_hyperelastic_validate_f64`.
-unsafe fn validate<T: Real + Into<f64>>(
-    values: *const T,
-    count: size_t,
-    message: *mut c_char,
-    capacity: size_t,
-    status: *mut i32,
-) -> size_t {
-    // SAFETY: the caller's promise.
-    let values = unsafe { properties(values, count, &parameters::HYPERELASTIC) };
-    let error = values.and_then(Hyperelastic::new).err();
-    // SAFETY: the caller's promise.
-    unsafe {
-        store(&[error.map_or(status::OK, |error| error.code())], status);
-        write_text(message, capacity, |sink| {
-            if let Some(error) = error {
-                error.describe(sink);
-            }
-        })
-    }
-}
-
-/// `toron_hyperelastic_validate_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn hyperelastic_validate_f64(
-    values: *const f64,
-    count: size_t,
-    message: *mut c_char,
-    capacity: size_t,
-    status: *mut i32,
-) -> size_t {
-    // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
-}
-
-/// `toron_hyperelastic_validate_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn hyperelastic_validate_f32(
-    values: *const f32,
-    count: size_t,
-    message: *mut c_char,
-    capacity: size_t,
-    status: *mut i32,
-) -> size_t {
-    // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe { validate(values, count, message, capacity, status) })
-}
-
-/// The arguments of a call for one point besides its properties: F by columns, the fibre direction unless it is that of the
-/// properties, and the old state, which the new one may overwrite.
-pub(super) struct PointArguments<'a, T> {
-    pub f: &'a [[T; 3]; 3],
-    pub fibre: Option<[T; 3]>,
-    pub state: &'a [Cell<T>; state::HYPERELASTIC_STATE],
-}
-
-impl<'a, T: Real> PointArguments<'a, T> {
-    /// From the caller's pointers, with `fresh` in place of an old state that is null.
+/// A point of the hyperelastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
+/// output that is left out is not computed. The arrays of the old and the new state may be the same.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Point<T> {
+    /// The size of this structure.
+    pub size: size_t,
+    /// In: which tangent, one of `TORON_TANGENT_...`; read if `tangent` is not null.
+    pub measure: i32,
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; if the processor lacks it, the best one below it.
+    pub level: i32,
+    /// In: reference density; read if `wave_speed` is not null.
+    pub density: f64,
+    /// In, 9: F by columns. Must not be null.
+    pub deformation_gradient: *const T,
+    /// In, 3: the fibre direction, of any length; if null, that of the properties.
+    pub fibre: *const T,
+    /// In, 11: the old state; if null, all 0.
+    pub state_old: *const T,
+    /// Out, 11: the new state. If null, the point does not fail, but stays failed if its old state has the flag set.
+    pub state_new: *mut T,
+    /// Out, 6: Cauchy stress 11 22 33 12 23 31.
+    pub stress: *mut T,
+    /// Out, 24: S_el, S_tc, S_td, S_ld, second Piola-Kirchhoff, each 11 22 33 12 23 31.
+    pub modes: *mut T,
+    /// Out, 1: an upper bound of the wave speed, to be used with current element lengths; never below the speed along a fibre at
+    /// rest. It is meant for the stable time step; a bulk viscosity computed with it damps more than with the exact speed.
+    pub wave_speed: *mut T,
+    /// Out, 36 (81 for `TORON_TANGENT_NOMINAL`): the tangent, entry (row, column), counted from 0, at 6 row + column (9 row +
+    /// column); a symmetric matrix. Rows and columns are in the order 11 22 33 12 23 31, with derivatives with respect to
+    /// engineering shears; for `TORON_TANGENT_NOMINAL` 11 21 31 12 22 32 13 23 33.
     ///
-    /// # Safety
-    /// The pointers are null or point to 9, 3 and 11 values.
-    #[inline(always)]
-    pub unsafe fn new(
-        deformation_gradient: *const T,
-        fibre: *const T,
-        state_old: *const T,
-        fresh: &'a [Cell<T>; state::HYPERELASTIC_STATE],
-    ) -> Result<Self, Error> {
-        // SAFETY: the caller's promise.
-        unsafe {
-            let f = deformation_gradient.cast::<[[T; 3]; 3]>().as_ref().ok_or(Error::Plain(status::NULL_ARGUMENT))?;
-            let fibre = if fibre.is_null() { None } else { Some(*fibre.cast::<[T; 3]>()) };
-            Ok(PointArguments { f, fibre, state: state_old.cast::<[Cell<T>; _]>().as_ref().unwrap_or(fresh) })
-        }
-    }
+    /// The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
+    /// 0) it is that of loading.
+    pub tangent: *mut T,
 }
+
+structures! { Point, "toron_point_f64", "toron_point_f32", "point"; }
+
+#[cfg(target_pointer_width = "64")]
+const _: () = assert!(size_of::<Point<f64>>() == 3 * 8 + 8 * 8 && size_of::<Point<f32>>() == size_of::<Point<f64>>());
 
 /// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that `tangent`
 /// must not be null if there is a tangent.
@@ -119,7 +80,7 @@ pub(in crate::host) struct PointAnswer<'a, T> {
 
 impl<T: Real> PointAnswer<'_, T> {
     #[inline(always)]
-    fn put(self, point: &Point<T>) {
+    fn put(self, point: &point::Point<T>) {
         *self.status = point.status;
         // SAFETY: the function that makes this has arrays of these sizes, or null.
         unsafe {
@@ -137,14 +98,14 @@ impl<T: Real> PointAnswer<'_, T> {
 
 impl<T: Real> Sink<T, 0> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: Point<T>, _: [T; 0]) {
+    fn take(self, point: point::Point<T>, _: [T; 0]) {
         self.put(&point);
     }
 }
 
 impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: Point<T>, moduli: [T; 21]) {
+    fn take(self, point: point::Point<T>, moduli: [T; 21]) {
         // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = Moduli(moduli).matrix() };
         self.put(&point);
@@ -153,10 +114,49 @@ impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
 
 impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: Point<T>, nominal: [T; 81]) {
+    fn take(self, point: point::Point<T>, nominal: [T; 81]) {
         // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = nominal };
         self.put(&point);
+    }
+}
+
+/// The columns of F, and the fibre direction or `None` for that of the properties.
+type Motion<'a, T> = (&'a [[T; 3]; 3], Option<[T; 3]>);
+
+/// F and the fibre direction of a point.
+///
+/// # Errors
+/// F is null.
+///
+/// # Safety
+/// As for `toron_hyperelastic_point_f64`.
+#[inline(always)]
+unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let f = point.deformation_gradient.cast::<[[T; 3]; 3]>().as_ref();
+        let fibre = if point.fibre.is_null() { None } else { Some(*point.fibre.cast::<[T; 3]>()) };
+        Ok((f.ok_or(Error::Null { name: "deformation_gradient" })?, fibre))
+    }
+}
+
+/// The sink for the stress and the new state alone, what most callers want.
+struct StressAndStateAnswer<'a, T> {
+    stress: *mut T,
+    state: *mut T,
+    status: &'a mut i32,
+}
+
+impl<T: Real> Sink<T, 0> for StressAndStateAnswer<'_, T> {
+    #[inline(always)]
+    fn take(self, point: point::Point<T>, _: [T; 0]) {
+        *self.status = point.status;
+        // SAFETY: `evaluate` makes this from arrays of these sizes.
+        unsafe {
+            *self.stress.cast() = point.stress;
+            *self.state.cast() = point.state;
+        }
     }
 }
 
@@ -165,30 +165,33 @@ impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
 /// # Safety
 /// As for `toron_hyperelastic_point_f64`.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
-unsafe fn point<T: Registers>(
-    values: *const T,
-    count: size_t,
-    deformation_gradient: *const T,
-    fibre: *const T,
-    state_old: *const T,
-    state_new: *mut T,
-    stress: *mut T,
-    modes: *mut T,
-    density: T,
-    wave_speed: *mut T,
-) -> Result<i32, Error> {
-    let fresh = cells([T::splat(0.0); state::HYPERELASTIC_STATE]);
+unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
-    let (properties, PointArguments { f, fibre, state }) = unsafe {
-        (
-            properties(values, count, &parameters::HYPERELASTIC)?,
-            PointArguments::new(deformation_gradient, fibre, state_old, &fresh)?,
-        )
+    let (point, (f, fibre)) = unsafe {
+        let point = read(point, &mut room)?;
+        (point, motion(point)?)
     };
-    if !wave_speed.is_null() {
-        wave_speed::check_density(density)?;
+    let level = match point.level {
+        TORON_LEVEL_BEST => Level::Avx512,
+        other => level(other)?.unwrap_or(Level::Avx512),
+    };
+    let Point { state_old, state_new, stress, modes, wave_speed, tangent, .. } = *point;
+    let mut fresh = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    let state = match unsafe { state_old.cast::<[Cell<T>; HYPERELASTIC_STATE]>().as_ref() } {
+        Some(state) => state,
+        None => fresh.write(cells([T::splat(0.0); HYPERELASTIC_STATE])),
+    };
+    let mut status = status::OK;
+    let nothing_else = modes.is_null() && wave_speed.is_null() && tangent.is_null();
+    if nothing_else && !stress.is_null() && !state_new.is_null() {
+        let sink = StressAndStateAnswer { stress, state: state_new, status: &mut status };
+        evaluate_call(Call { source, f, fibre, state, tangent: StressAndState, sink }, level)?;
+        return Ok(status);
     }
+    check_density::<T>(point.density, !wave_speed.is_null())?;
+    let density = T::splat(point.density);
     let kept = !state_new.is_null();
     let request = Request {
         stress: !stress.is_null(),
@@ -198,68 +201,92 @@ unsafe fn point<T: Registers>(
         modes: !modes.is_null(),
         wave_modulus: !wave_speed.is_null(),
     };
-    let mut status = status::OK;
-    let sink = PointAnswer {
-        stress,
-        state: state_new,
-        modes,
-        density,
-        wave_speed,
-        tangent: core::ptr::null_mut(),
-        status: &mut status,
-    };
-    if request == Request::STRESS_AND_STATE {
-        evaluate_call(Call { properties, f, fibre, state, tangent: StressAndState, sink })?;
-    } else {
-        evaluate_call(Call { properties, f, fibre, state, tangent: NoTangent(request), sink })?;
+    let sink = PointAnswer { stress, state: state_new, modes, density, wave_speed, tangent, status: &mut status };
+    if tangent.is_null() {
+        evaluate_call(Call { source, f, fibre, state, tangent: NoTangent(request), sink }, level)?;
+        return Ok(status);
+    }
+    match measure(point.measure)? {
+        Measure::Nominal => {
+            evaluate_call(Call { source, f, fibre, state, tangent: NineByNine(request), sink }, level)?;
+        }
+        measure => {
+            evaluate_call(Call { source, f, fibre, state, tangent: SixBySix(request, measure), sink }, level)?;
+        }
     }
     Ok(status)
 }
 
-/// `toron_hyperelastic_point_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn hyperelastic_point_f64(
-    values: *const f64,
-    count: size_t,
-    deformation_gradient: *const f64,
-    fibre: *const f64,
-    state_old: *const f64,
-    state_new: *mut f64,
-    stress: *mut f64,
-    modes: *mut f64,
-    density: f64,
-    wave_speed: *mut f64,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        point(values, count, deformation_gradient, fibre, state_old, state_new, stress, modes, density, wave_speed)
-    })
+macro_rules! entries {
+    ($t:ty: $point:ident, $with_properties:ident) => {
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $point(
+            law: *const HyperelasticLaw<$t>,
+            point: *const Point<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || evaluate(numbers(law)?, point)) }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $with_properties(
+            values: *const $t,
+            count: size_t,
+            point: *const Point<$t>,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    evaluate(properties(values, count, &parameters::HYPERELASTIC)?, point)
+                })
+            }
+        }
+    };
 }
 
-/// `toron_hyperelastic_point_f32` of the C interface; package `toron-c` documents its arguments.
+entries!(f64: hyperelastic_point_f64, hyperelastic_point_with_properties_f64);
+entries!(f32: hyperelastic_point_f32, hyperelastic_point_with_properties_f32);
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
 /// As documented there.
-#[allow(clippy::too_many_arguments)]
 #[inline(never)]
-pub unsafe extern "C" fn hyperelastic_point_f32(
-    values: *const f32,
-    count: size_t,
-    deformation_gradient: *const f32,
-    fibre: *const f32,
-    state_old: *const f32,
-    state_new: *mut f32,
-    stress: *mut f32,
-    modes: *mut f32,
-    density: f32,
-    wave_speed: *mut f32,
+pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
+    law: *const HyperelasticLaw<f64>,
+    point: *const Point<f64>,
+    least: *mut f64,
+    direction: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
 ) -> i32 {
+    let body = move || {
+        let mut room = MaybeUninit::uninit();
+        // SAFETY: the caller's promise.
+        unsafe {
+            let law = numbers(law)?.law();
+            let (f, fibre) = motion(read(point, &mut room)?)?;
+            if least.is_null() {
+                return Err(Error::Null { name: "least" });
+            }
+            let wave = law.acoustic(f, fibre).map_err(Error::Plain)?.least();
+            store(&[wave.modulus], least);
+            store(&wave.direction, direction);
+        }
+        Ok(status::OK)
+    };
     // SAFETY: the caller's promise.
-    entry(move || unsafe {
-        point(values, count, deformation_gradient, fibre, state_old, state_new, stress, modes, density, wave_speed)
-    })
+    unsafe { entry(Message { text: message, capacity }, body) }
 }

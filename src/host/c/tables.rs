@@ -2,19 +2,23 @@
 
 use libc::{c_char, size_t};
 
+use super::constants::{TORON_HYPERELASTIC, TORON_LINEAR_ELASTIC};
+use crate::host::border::{Message, look_up, name};
 use crate::host::environment::in_default_environment;
+use crate::host::structures::{Structure, write};
 use crate::host::units::UnitSystem;
+use crate::law::error::Error;
+use crate::law::number::real::Scalar;
 use crate::law::parameters::{self, Dimension, Property};
 use crate::law::state::{self, StateVariable};
 use crate::law::status;
 
-use super::constants::{TORON_HYPERELASTIC, TORON_HYPERELASTIC_PROPERTIES, TORON_LINEAR_ELASTIC};
-use crate::host::border::name;
-use crate::host::border::store;
-
-/// A row of the tables of properties and state variables. Texts are null-terminated UTF-8.
+/// A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated UTF-8.
 #[repr(C)]
+#[derive(Clone, Copy)]
 pub struct TableRow {
+    /// The size of this structure.
+    pub size: size_t,
     /// The name used in decks and messages, and the symbol used in the documentation.
     pub name: [c_char; 24],
     pub symbol: [c_char; 24],
@@ -33,7 +37,16 @@ pub struct TableRow {
     pub minimum_excluded: i32,
     /// The allowed values in words, and the meaning of the quantity.
     pub allowed: [c_char; 80],
-    pub meaning: [c_char; 96],
+    pub meaning: [c_char; 100],
+}
+
+#[cfg(target_pointer_width = "64")]
+const _: () = assert!(size_of::<TableRow>() == size_of::<size_t>() + 3 * 24 + 4 * 4 + 3 * 8 + 4 + 80 + 100);
+
+// SAFETY: numbers and characters without padding, as has just been seen, and the size is the first.
+unsafe impl Structure for TableRow {
+    const NAME: &'static str = "toron_table_row";
+    const ARGUMENT: &'static str = "row";
 }
 
 /// A text as a null-terminated array, cut off if it is too long.
@@ -49,6 +62,7 @@ fn text<const N: usize>(text: &str) -> [c_char; N] {
 impl TableRow {
     fn new(name: &str, symbol: &str, dimension: Dimension, meaning: &str) -> Self {
         TableRow {
+            size: size_of::<TableRow>(),
             name: text(name),
             symbol: text(symbol),
             unit: text(dimension.name),
@@ -86,175 +100,214 @@ impl From<&StateVariable> for TableRow {
     }
 }
 
-fn property_table(law: i32) -> Option<&'static [Property]> {
+/// The tables of properties and of state variables of a law.
+///
+/// # Errors
+/// There is no such law.
+fn tables(law: i32) -> Result<(&'static [Property], &'static [StateVariable]), Error> {
+    const LAST: i64 = TORON_LINEAR_ELASTIC as i64;
     match law {
-        TORON_HYPERELASTIC => Some(&parameters::HYPERELASTIC),
-        TORON_LINEAR_ELASTIC => Some(&parameters::LINEAR_ELASTIC),
-        _ => None,
+        TORON_HYPERELASTIC => Ok((&parameters::HYPERELASTIC, &state::HYPERELASTIC)),
+        TORON_LINEAR_ELASTIC => Ok((&parameters::LINEAR_ELASTIC, &state::LINEAR_ELASTIC)),
+        _ => {
+            let (code, name, value) = (status::UNKNOWN_NAME, "law", i64::from(law));
+            Err(Error::Range { code, name, value, least: 0, greatest: LAST })
+        }
     }
 }
 
-fn state_table(law: i32) -> Option<&'static [StateVariable]> {
-    match law {
-        TORON_HYPERELASTIC => Some(&state::HYPERELASTIC),
-        TORON_LINEAR_ELASTIC => Some(&state::LINEAR_ELASTIC),
-        _ => None,
-    }
-}
-
-/// Writes the row of an index, for either table.
+/// Writes the row of an index.
+///
+/// # Errors
+/// There is no such index, or no row to write to.
 ///
 /// # Safety
-/// `row` is null or writable.
-unsafe fn write_row<R>(table: Option<&'static [R]>, index: i32, row: *mut TableRow) -> i32
+/// As for `toron_property`.
+unsafe fn write_row<R>(table: &'static [R], index: i32, row: *mut TableRow) -> Result<i32, Error>
 where
     TableRow: From<&'static R>,
 {
-    let Some(found) = table.and_then(|table| table.get(usize::try_from(index).ok()?)) else {
-        return status::UNKNOWN_NAME;
+    let Some(found) = usize::try_from(index).ok().and_then(|index| table.get(index)) else {
+        let (code, value) = (status::UNKNOWN_NAME, i64::from(index));
+        return Err(Error::Range { code, name: "index", value, least: 0, greatest: table.len() as i64 - 1 });
     };
-    if row.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    // SAFETY: not null, and the caller's promise.
-    unsafe { row.write(TableRow::from(found)) };
-    status::OK
-}
-
-/// A count or an index, or the status code of an unknown law or name.
-fn count_or(count: Option<usize>) -> i32 {
-    count.map_or(status::UNKNOWN_NAME, |count| count as i32)
-}
-
-/// `toron_property_count` of the C interface.
-#[inline(never)]
-pub extern "C" fn property_count(law: i32) -> i32 {
-    count_or(property_table(law).map(<[_]>::len))
-}
-
-/// `toron_property` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn property(law: i32, index: i32, row: *mut TableRow) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { write_row(property_table(law), index, row) }
+    unsafe { write(&TableRow::from(found), row) }?;
+    Ok(status::OK)
 }
 
-/// `toron_property_index` of the C interface; package `toron-c` documents its arguments.
+/// The index of a name among those of a table, or a status code.
 ///
 /// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn property_index(law: i32, property: *const c_char) -> i32 {
-    // SAFETY: the caller's promise.
-    let wanted = unsafe { name(property) };
-    count_or(property_table(law).and_then(|table| table.iter().position(|row| Some(row.name) == wanted)))
-}
-
-/// `toron_state_count` of the C interface.
-#[inline(never)]
-pub extern "C" fn state_count(law: i32) -> i32 {
-    count_or(state_table(law).map(<[_]>::len))
-}
-
-/// `toron_state_variable` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn state_variable(law: i32, index: i32, row: *mut TableRow) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { write_row(state_table(law), index, row) }
-}
-
-/// `toron_state_index` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char) -> i32 {
-    // SAFETY: the caller's promise.
-    let wanted = unsafe { name(variable) };
-    count_or(state_table(law).and_then(|table| table.iter().position(|row| Some(row.name) == wanted)))
-}
-
-/// `toron_preset_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn preset_f64(
-    preset: *const c_char,
-    units: *const c_char,
-    values: *mut f64,
-    count: size_t,
-    density: *mut f64,
+/// `wanted` is a C string or null; as for [`Message::write`].
+unsafe fn index_of(
+    wanted: *const c_char,
+    what: &'static str,
+    argument: &'static str,
+    names: impl Iterator<Item = &'static str> + Clone,
+    message: Message,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    in_default_environment(move || unsafe { self::preset(preset, units, values, count, density) })
+    let wanted = unsafe { name(wanted, argument) };
+    match names.clone().position(|name| Ok(name) == wanted) {
+        Some(index) => index as i32,
+        // SAFETY: the caller's promise.
+        None => unsafe { message.refuse_name(what, wanted, names) },
+    }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { look_up(Message { text: message, capacity }, || Ok(tables(law)?.0.len() as i32)) }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn property(
+    law: i32,
+    index: i32,
+    row: *mut TableRow,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { look_up(Message { text: message, capacity }, || write_row(tables(law)?.0, index, row)) }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn property_index(
+    law: i32,
+    property: *const c_char,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let message = Message { text: message, capacity };
+    let find = |table: &'static [Property]| {
+        // SAFETY: the caller's promise.
+        unsafe { index_of(property, "property", "property", table.iter().map(|row| row.name), message) }
+    };
+    // SAFETY: the caller's promise.
+    unsafe { look_up(message, || Ok(find(tables(law)?.0))) }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn state_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { look_up(Message { text: message, capacity }, || Ok(tables(law)?.1.len() as i32)) }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn state_variable(
+    law: i32,
+    index: i32,
+    row: *mut TableRow,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { look_up(Message { text: message, capacity }, || write_row(tables(law)?.1, index, row)) }
+}
+
+/// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char, message: *mut c_char, capacity: size_t) -> i32 {
+    let message = Message { text: message, capacity };
+    let find = |table: &'static [StateVariable]| {
+        // SAFETY: the caller's promise.
+        unsafe { index_of(variable, "state variable", "variable", table.iter().map(|row| row.name), message) }
+    };
+    // SAFETY: the caller's promise.
+    unsafe { look_up(message, || Ok(find(tables(law)?.1))) }
 }
 
 /// # Safety
 /// As for `toron_preset_f64`.
-unsafe fn preset(
+unsafe fn preset<T: Scalar>(
     preset: *const c_char,
     units: *const c_char,
-    values: *mut f64,
+    properties: *mut T,
     count: size_t,
-    density: *mut f64,
+    density: *mut T,
+    message: Message,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    let (found, units) =
-        unsafe { (name(preset).and_then(parameters::preset), name(units).and_then(UnitSystem::parse)) };
-    let (Some(preset), Some(units)) = (found, units) else {
-        return status::UNKNOWN_NAME;
+    let (preset, units) = unsafe { (name(preset, "preset"), name(units, "units")) };
+    let Some(found) = preset.ok().and_then(parameters::preset) else {
+        // SAFETY: the caller's promise.
+        return unsafe { message.refuse_name("preset", preset, parameters::PRESETS.iter().map(|preset| preset.name)) };
     };
-    if values.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    if count != preset.table.len() {
-        return status::PROPERTY_COUNT;
-    }
-    for (i, (&value, property)) in preset.values.iter().zip(preset.table).enumerate() {
-        // SAFETY: i < count.
-        unsafe { *values.add(i) = units.from_si(value, property.dimension) };
-    }
+    let Some(system) = units.ok().and_then(UnitSystem::parse) else {
+        // SAFETY: the caller's promise.
+        return unsafe { message.refuse_name("system of units", units, core::iter::once(UnitSystem::ALLOWED)) };
+    };
+    let write = || {
+        if properties.is_null() {
+            return Err(Error::Null { name: "properties" });
+        }
+        if count != found.table.len() {
+            let (given, wanted) = (i64::try_from(count).unwrap_or(i64::MAX), found.table.len() as i64);
+            let what = "number of properties";
+            return Err(Error::Count { code: status::PROPERTY_COUNT, what, found: given, wanted });
+        }
+        for (i, (&value, property)) in found.values.iter().zip(found.table).enumerate() {
+            // SAFETY: i < count.
+            unsafe { *properties.add(i) = T::splat(system.from_si(value, property.dimension)) };
+        }
+        if !density.is_null() {
+            // SAFETY: not null, and the caller's promise.
+            unsafe { *density = T::splat(system.from_si(found.density, parameters::DENSITY)) };
+        }
+        Ok(status::OK)
+    };
     // SAFETY: the caller's promise.
-    unsafe { store(&[units.from_si(preset.density, parameters::DENSITY)], density) };
-    status::OK
+    unsafe { look_up(message, write) }
 }
 
-/// `toron_preset_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn preset_f32(
-    preset: *const c_char,
-    units: *const c_char,
-    values: *mut f32,
-    count: size_t,
-    density: *mut f32,
-) -> i32 {
-    const MOST: usize = TORON_HYPERELASTIC_PROPERTIES;
-    if values.is_null() {
-        return status::NULL_ARGUMENT;
-    }
-    let (mut wide, mut wide_density) = ([0.0; MOST], 0.0);
-    if count > MOST {
-        return status::PROPERTY_COUNT;
-    }
-    // SAFETY: as the caller promises; `wide` has room for MOST values.
-    in_default_environment(move || unsafe {
-        let code = self::preset(preset, units, wide.as_mut_ptr(), count, &mut wide_density);
-        if code == status::OK {
-            for (i, &value) in wide.iter().take(count).enumerate() {
-                *values.add(i) = value as f32;
-            }
-            store(&[wide_density as f32], density);
+macro_rules! entries {
+    ($t:ty: $preset:ident) => {
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $preset(
+            preset: *const c_char,
+            units: *const c_char,
+            properties: *mut $t,
+            count: size_t,
+            density: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            let message = Message { text: message, capacity };
+            // SAFETY: the caller's promise.
+            in_default_environment(move || unsafe { self::preset(preset, units, properties, count, density, message) })
         }
-        code
-    })
+    };
 }
+
+entries!(f64: preset_f64);
+entries!(f32: preset_f32);

@@ -6,7 +6,7 @@ use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
 
-use super::linear::LinearPointers;
+use super::linear::{LinearPointers, LinearStrides};
 use super::pointers::{Pointers, Strides, components, components_mut};
 use crate::law::number::real::{Lanes, Scalar};
 use crate::law::state::LINEAR_ELASTIC_STATE;
@@ -14,8 +14,8 @@ use crate::law::status;
 
 /// F, fibre, energies, invariants, failure, stress, modes, wave speed, active and the largest tangent.
 const COMPONENTS: usize = 9 + 3 + 4 + 4 + 3 + 6 + 24 + 1 + 1 + 81;
-/// F at both ends, axes, state at both ends and stress of the linear elastic law.
-const LINEAR_COMPONENTS: usize = 9 + 9 + 9 + 2 * LINEAR_ELASTIC_STATE + 6;
+/// F at both ends, fibre, second axis, axes, state at both ends, stress, wave speed and active of the linear elastic law.
+const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
 /// Component-major arrays of `COUNT` points, taken one after the other from a buffer.
 struct Copies<T, const COUNT: usize> {
@@ -115,8 +115,8 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(
     }
 }
 
-/// Copies `points`, at least one and at most `COUNT`, of a block, runs a kernel on the copies and copies the results back. Returns the
-/// kernel's result.
+/// Copies `points`, at least one and at most `COUNT`, of a block, runs a kernel on the copies and copies the results back.
+/// Returns the kernel's result.
 ///
 /// # Safety
 /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of the block.
@@ -233,9 +233,11 @@ pub(super) unsafe fn padded_linear<T: Scalar, R: Lanes<T>>(
     }
 }
 
+/// As [`copied`], for the linear elastic law without a tangent.
+///
 /// # Safety
 /// As for [`padded_linear`].
-unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
+pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
     block: &LinearPointers<T>,
     points: Range<usize>,
     run: impl FnOnce(&LinearPointers<T>) -> i32,
@@ -243,30 +245,60 @@ unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
     let mut room = [[const { MaybeUninit::<T>::uninit() }; COUNT]; LINEAR_COMPONENTS];
     let mut codes = [status::OK; COUNT];
     let mut copies = Copies::<T, COUNT>::new(room.as_mut_ptr().cast(), points);
+    let (f_old, f_new) = (copies.array(true, 9), copies.array(true, 9));
+    let fibre = copies.array(!block.fibre[0].is_null(), 3);
+    let second_axis = copies.array(!block.second_axis[0].is_null(), 3);
+    let stress = copies.array(!block.stress[0].is_null(), 6);
     let of_copies = LinearPointers {
         n: COUNT,
         leading_dimension: COUNT,
-        f_old: copies.array(true, 9),
-        f_new: copies.array(true, 9),
+        axes_leading_dimension: COUNT,
+        tangent_leading_dimension: COUNT,
+        strides: LinearStrides::UNIT,
+        f_old: components(f_old, COUNT),
+        f_new: components(f_new, COUNT),
+        fibre: components(fibre, COUNT),
+        second_axis: components(second_axis, COUNT),
         axes: copies.array(!block.axes.is_null(), 9),
         state_old: copies.array(!block.state_old.is_null(), LINEAR_ELASTIC_STATE),
         state_new: copies.array(!block.state_new.is_null(), LINEAR_ELASTIC_STATE),
-        stress: copies.array(!block.stress.is_null(), 6),
+        density: block.density,
+        stress: components_mut(stress, COUNT),
+        wave_speed: copies.array(!block.wave_speed.is_null(), 1),
+        tangent: null_mut(),
+        measure: block.measure,
         status: codes.as_mut_ptr(),
-        ..*block
+        active: copies.array(!block.active.is_null(), 1),
+        rotation: block.rotation,
+        criterion: block.criterion,
+        level: block.level,
     };
-    let group = copies.group(1, block.leading_dimension);
+    let LinearStrides { deformation_gradient, fibre: of_fibre, axes, state, stress: of_stress, .. } = block.strides;
+    let (of_f, of_fibre) = (copies.group(deformation_gradient, 0), copies.group(of_fibre, 0));
+    let (of_stress, single) = (copies.group(of_stress, 0), copies.group(1, 0));
+    let of_axes = copies.group(axes, block.axes_leading_dimension);
+    let of_state = copies.group(state, block.leading_dimension);
     // SAFETY: the arrays here have room for COUNT points, those of the block are the caller's promise.
     unsafe {
-        group.copy_in(block.f_old, of_copies.f_old.cast_mut(), 9);
-        group.copy_in(block.f_new, of_copies.f_new.cast_mut(), 9);
-        group.copy_in(block.axes, of_copies.axes, 9);
-        group.copy_in(block.state_old, of_copies.state_old.cast_mut(), LINEAR_ELASTIC_STATE);
+        for c in 0..9 {
+            of_f.copy_in(block.f_old[c], of_copies.f_old[c].cast_mut(), 1);
+            of_f.copy_in(block.f_new[c], of_copies.f_new[c].cast_mut(), 1);
+        }
+        for c in 0..3 {
+            of_fibre.copy_in(block.fibre[c], of_copies.fibre[c].cast_mut(), 1);
+            of_fibre.copy_in(block.second_axis[c], of_copies.second_axis[c].cast_mut(), 1);
+        }
+        of_axes.copy_in(block.axes, of_copies.axes, 9);
+        of_state.copy_in(block.state_old, of_copies.state_old.cast_mut(), LINEAR_ELASTIC_STATE);
         let worst = run(&of_copies);
-        group.copy_out(of_copies.axes, block.axes, 9);
-        group.copy_out(of_copies.state_new, block.state_new, LINEAR_ELASTIC_STATE);
-        group.copy_out(of_copies.stress, block.stress, 6);
-        group.copy_out(codes.as_ptr(), block.status, 1);
+        of_axes.copy_out(of_copies.axes, block.axes, 9);
+        of_state.copy_out(of_copies.state_new, block.state_new, LINEAR_ELASTIC_STATE);
+        for (from, to) in of_copies.stress.into_iter().zip(block.stress) {
+            of_stress.copy_out(from, to, 1);
+        }
+        single.copy_out(of_copies.wave_speed, block.wave_speed, 1);
+        single.copy_out(of_copies.active, block.active, 1);
+        single.copy_out(codes.as_ptr(), block.status, 1);
         worst
     }
 }

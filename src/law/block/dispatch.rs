@@ -11,6 +11,8 @@ use super::copies::{padded, padded_linear};
 #[cfg(target_arch = "x86_64")]
 use super::few;
 use super::instructions::Instructions;
+#[cfg(target_arch = "x86_64")]
+use super::interface::Law;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
 use super::kernel::{FIBRES, SHEAR, STATE, STRESS, WAVE};
@@ -35,7 +37,7 @@ pub trait Precision: Scalar {
     #[doc(hidden)]
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
 
-    /// Evaluates the hyperelastic law with these properties at the points of a block, one by one, without a tangent.
+    /// Evaluates the hyperelastic law, prepared or from its properties, at the points of a block, one by one, without a tangent.
     ///
     /// # Errors
     /// The first property that is wrong; nothing is written.
@@ -44,7 +46,7 @@ pub trait Precision: Scalar {
     /// As for `dispatch`, on a processor with AVX2 and FMA.
     #[cfg(target_arch = "x86_64")]
     #[doc(hidden)]
-    unsafe fn one_by_one(properties: &[Self], block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
+    unsafe fn one_by_one(law: Law<'_, Self>, block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
 
     /// Runs the kernels of the linear elastic law at a level.
     ///
@@ -63,9 +65,9 @@ impl Precision for f64 {
     }
 
     #[cfg(target_arch = "x86_64")]
-    unsafe fn one_by_one(properties: &[f64], block: &Pointers<f64>, request: Request) -> Result<i32, Error> {
+    unsafe fn one_by_one(law: Law<'_, f64>, block: &Pointers<f64>, request: Request) -> Result<i32, Error> {
         // SAFETY: the caller's promise.
-        unsafe { few::one_by_one(properties, block, request) }
+        unsafe { few::one_by_one(law, block, request) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &LinearPointers<f64>) -> i32 {
@@ -81,9 +83,9 @@ impl Precision for f32 {
     }
 
     #[cfg(target_arch = "x86_64")]
-    unsafe fn one_by_one(properties: &[f32], block: &Pointers<f32>, request: Request) -> Result<i32, Error> {
+    unsafe fn one_by_one(law: Law<'_, f32>, block: &Pointers<f32>, request: Request) -> Result<i32, Error> {
         // SAFETY: the caller's promise.
-        unsafe { few::one_by_one(properties, block, request) }
+        unsafe { few::one_by_one(law, block, request) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &LinearPointers<f32>) -> i32 {

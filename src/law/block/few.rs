@@ -1,21 +1,22 @@
-//! Blocks of a few points whose properties come with the call: the points are evaluated one by one, which takes less time than
-//! preparing the law and filling a register.
+//! Blocks of a few points whose law comes with the call, as its properties or prepared: the points are evaluated one by one, which
+//! takes less time than preparing the law for lanes and filling a register.
 
+use super::interface::Law;
 use super::pointers::Pointers;
 use crate::law::derivative::{Derivative, NoTangent, StressAndState};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
-use crate::law::point::{self, Point, Sink, cells};
+use crate::law::point::{self, Point, Sink, Source, cells};
 use crate::law::response::Request;
 use crate::law::state::{self, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::wave_speed;
 
 /// Blocks of up to this number of points are evaluated one by one.
-pub(super) const FEW: usize = 3;
+pub(super) const FEW: usize = 2;
 
-/// Evaluates the law with these properties at every point of a block, one by one, by the same operations as in lanes: the
+/// Evaluates the law at every point of a block, one by one, by the same operations as in lanes: the
 /// results at a point do not depend on how many points there are. Returns the worst status.
 ///
 /// # Errors
@@ -26,15 +27,19 @@ pub(super) const FEW: usize = 3;
 /// tangent.
 #[target_feature(enable = "avx2,fma")]
 pub(super) unsafe fn one_by_one<T: Registers>(
-    properties: &[T],
+    law: Law<'_, T>,
     block: &Pointers<T>,
     request: Request,
 ) -> Result<i32, Error> {
     // SAFETY: the caller's promise.
     unsafe {
-        match request {
-            Request::STRESS_AND_STATE => evaluate_each(properties, block, StressAndState),
-            _ => evaluate_each(properties, block, NoTangent(request)),
+        match (law, request) {
+            (Law::Properties(properties), Request::STRESS_AND_STATE) => {
+                evaluate_each(properties, block, StressAndState)
+            }
+            (Law::Properties(properties), _) => evaluate_each(properties, block, NoTangent(request)),
+            (Law::Prepared(law), Request::STRESS_AND_STATE) => evaluate_each(law, block, StressAndState),
+            (Law::Prepared(law), _) => evaluate_each(law, block, NoTangent(request)),
         }
     }
 }
@@ -45,8 +50,8 @@ pub(super) unsafe fn one_by_one<T: Registers>(
 /// # Safety
 /// As for [`one_by_one`].
 #[inline(always)]
-unsafe fn evaluate_each<T: Registers, D: Derivative<0>>(
-    properties: &[T],
+unsafe fn evaluate_each<T: Registers, L: Source<T>, D: Derivative<0>>(
+    law: L,
     block: &Pointers<T>,
     request: D,
 ) -> Result<i32, Error> {
@@ -56,7 +61,7 @@ unsafe fn evaluate_each<T: Registers, D: Derivative<0>>(
         let (f, fibre, state) = unsafe { (block.columns(i), block.direction(i), cells(block.old_state(i))) };
         let mut code = status::OK;
         let sink = OnePoint { block, i, code: &mut code };
-        point::evaluate::<T, T::One, _, _, _, 0>(properties, &f, fibre, &state, request, sink)?;
+        point::evaluate::<T, T::One, _, _, _, 0>(law, &f, fibre, &state, request, sink)?;
         worst = worst.min(code);
     }
     Ok(worst)

@@ -2,17 +2,20 @@
 
 use core::marker::PhantomData;
 
-use super::copies::copied;
+use core::ptr::{null, null_mut};
+
+use super::copies::{copied, copied_linear};
 use super::dispatch::Precision;
 #[cfg(target_arch = "x86_64")]
 use super::few::FEW;
 use super::kernel::{STAGED, WIDEST};
-use super::linear::LinearPointers;
-use super::pointers::{Pointers, Strides, components, components_mut, leading_dimension_below};
+use super::linear::{LinearPointers, LinearStrides, with_tangents};
+use super::pointers::{Pointers, Strides, check_layout, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
 use crate::law::number::level::Level;
+use crate::law::prepared::PreparedHyperelastic;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
@@ -115,9 +118,7 @@ impl<'a, T: Precision> Block<'a, T> {
             level: arrays.level,
         };
         // If columns overlapped, the parts of a block would overlap too.
-        if leading_dimension < n {
-            return Err(leading_dimension_below(n, leading_dimension));
-        }
+        check_layout(n, 9, leading_dimension, 1, "leading dimension")?;
         Ok(Block { pointers, arrays: PhantomData })
     }
 
@@ -133,6 +134,13 @@ impl<'a, T: Precision> Block<'a, T> {
         let rest = self.pointers.from(count);
         [first, rest].map(|pointers| Block { pointers, arrays: PhantomData }).into()
     }
+}
+
+/// What a host passes with every block.
+#[derive(Clone, Copy)]
+pub enum Law<'a, T> {
+    Properties(&'a [T]),
+    Prepared(&'a PreparedHyperelastic<T>),
 }
 
 impl<T: Precision> Hyperelastic<T> {
@@ -157,13 +165,14 @@ impl<T: Precision> Hyperelastic<T> {
     /// Evaluates the law at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, a leading dimension below n where points are next to each other, a density that is not positive
-    /// if the wave speed is requested.
+    /// A null deformation gradient, a leading dimension with which entries of an array overlap, a density that is not positive if
+    /// the wave speed is requested.
     ///
     /// # Safety
     /// Every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and the table of
-    /// [`block`](super) say, valid for reading or writing; with these, different entries are at different places; `stress` and `fibre` are null in all their components or in none; outputs overlap nothing
-    /// but, exactly, the old state that they replace.
+    /// [`block`](super) say, valid for reading or writing; with these, different entries are at different places; `stress` and
+    /// `fibre` are null in all their components or in none; outputs overlap nothing but, exactly, the old state that they
+    /// replace.
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         let request = block.check()?;
         if block.n == 0 {
@@ -202,14 +211,14 @@ impl<T: Precision> Hyperelastic<T> {
     }
 }
 
-/// As [`Hyperelastic::raw_block`], for a host that passes the properties with every block.
+/// As [`Hyperelastic::raw_block`], for a host that passes the properties, or a law prepared from them, with every block.
 ///
 /// # Errors
 /// The first property that is wrong, or an error of `raw_block`; nothing is written.
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
-pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) -> Result<i32, Error> {
+pub unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
     #[cfg(target_arch = "x86_64")]
     if (1..=FEW).contains(&block.n)
         && block.strides == Strides::UNIT
@@ -218,11 +227,15 @@ pub unsafe fn raw_block_of<T: Precision>(properties: &[T], block: &Pointers<T>) 
         && let Ok(request) = block.check()
     {
         // SAFETY: the caller answers for the arrays, and the processor has the instructions.
-        return unsafe { T::one_by_one(properties, block, request) };
+        return unsafe { T::one_by_one(law, block, request) };
     }
     // Errors of the properties are reported before errors of the block.
+    let law = match law {
+        Law::Properties(properties) => Hyperelastic::new(properties)?,
+        Law::Prepared(prepared) => prepared.law(),
+    };
     // SAFETY: the caller answers for the arrays.
-    unsafe { Hyperelastic::new(properties)?.raw_block(block) }
+    unsafe { law.raw_block(block) }
 }
 
 /// How many points that are not next to each other are copied at a time.
@@ -235,26 +248,42 @@ impl<T: Precision> LinearElastic<T> {
     /// Evaluates a step at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
-    /// A null deformation gradient, null axes for [`Rotation::Spin`], a leading dimension below n.
+    /// A null deformation gradient, null axes for [`Rotation::Spin`], a leading dimension with which entries of an array overlap, a
+    /// density that is not positive if the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as the size of the block and the table of
-    /// [`linear`](super::linear) say, valid for reading or writing; outputs overlap nothing but, exactly, the old state that
-    /// they replace.
+    /// Every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and the table of
+    /// [`linear`](super::linear) say, valid for reading or writing; with these, different entries are at different places; arrays
+    /// of components are null in all of them or in none; outputs overlap nothing but, exactly, the old state that they replace.
     pub unsafe fn raw_block(&self, block: &LinearPointers<T>) -> Result<i32, Error> {
+        block.check()?;
         if block.n == 0 {
             return Ok(status::OK);
         }
-        let spin = block.rotation == Rotation::Spin;
-        if block.f_old.is_null() || block.f_new.is_null() || (spin && block.axes.is_null()) {
-            return Err(Error::Plain(status::NULL_ARGUMENT));
+        // Arrays that the frame does not need are not read.
+        let mut block = *block;
+        match block.rotation {
+            Rotation::Spin => (block.fibre, block.second_axis) = ([null(); 3], [null(); 3]),
+            Rotation::Fibre | Rotation::Polar => block.axes = null_mut(),
         }
-        if block.leading_dimension < block.n {
-            return Err(leading_dimension_below(block.n, block.leading_dimension));
+        if !block.tangent.is_null() {
+            // SAFETY: the caller answers for the arrays.
+            return Ok(unsafe { with_tangents(self, &block) });
         }
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
-        let axes = if spin { block.axes } else { core::ptr::null_mut() };
-        // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
-        Ok(unsafe { T::dispatch_linear(level, self, &LinearPointers { axes, ..*block }) })
+        if block.strides == LinearStrides::UNIT {
+            // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+            return Ok(unsafe { T::dispatch_linear(level, self, &block) });
+        }
+        let mut worst = status::OK;
+        for first in (0..block.n).step_by(COPIED_APART) {
+            let points = first..block.n.min(first + COPIED_APART);
+            // SAFETY: as above.
+            let code = unsafe {
+                copied_linear::<T, COPIED_APART>(&block, points, |points| T::dispatch_linear(level, self, points))
+            };
+            worst = worst.min(code);
+        }
+        Ok(worst)
     }
 }

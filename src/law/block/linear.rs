@@ -3,38 +3,153 @@
 //! | array | components |
 //! |---|---|
 //! | `f_old`, `f_new` | F11 F21 F31 F12 F22 F32 F13 F23 F33 (columns of F) at both ends of the step |
+//! | `fibre`, `second_axis` | a fibre direction and a second axis for each point, any length, or those of the properties; not read for [`Rotation::Spin`] |
 //! | `axes` | the three material axes in space, one after the other, in and out; for [`Rotation::Spin`] only |
 //! | `state_old`, `state_new` | the rows of [`state::LINEAR_ELASTIC`](crate::law::state::LINEAR_ELASTIC) |
 //! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
+//! | `wave_speed` | a bound of the wave speed at the end of the step, at the reference density `density` |
+//! | `tangent` | of the `measure`: 6×6 or 9×9, entry (row, column) at 6 row + column or 9 row + column; not symmetric |
+//! | `active` | 1, or 0 if the point has failed or cannot be evaluated |
 
 use core::ops::Range;
+use core::ptr::{null, null_mut};
 
 use super::kernel::least_code;
-use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation, Wanted};
+use super::pointers::check_layout;
+use crate::law::error::Error;
+use crate::law::linear_elastic::{Answer, Criterion, LinearElastic, Rotation, Step, Wanted};
+use crate::law::linear_tangent::by_rows;
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Scalar};
 use crate::law::number::vector::Matrix;
-use crate::law::state::LINEAR_ELASTIC_STATE;
+use crate::law::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
+use crate::law::status;
+use crate::law::tangent::Measure;
+use crate::law::wave_speed;
 
 /// A block as a host passes it. A null array is absent: a null old state stands for a fresh one (all 0), and an output that is
 /// null is not computed.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearPointers<T> {
-    /// The number of points; and the leading dimension of all arrays, at least `n`.
+    /// The number of points.
     pub n: usize,
+    /// The distance from one component to the next in the state, the axes and the tangent.
     pub leading_dimension: usize,
-    pub f_old: *const T,
-    pub f_new: *const T,
+    pub axes_leading_dimension: usize,
+    pub tangent_leading_dimension: usize,
+    /// The distance from one point to the next.
+    pub strides: LinearStrides,
+    pub f_old: [*const T; 9],
+    pub f_new: [*const T; 9],
+    pub fibre: [*const T; 3],
+    pub second_axis: [*const T; 3],
     pub axes: *mut T,
     pub state_old: *const T,
     pub state_new: *mut T,
-    pub stress: *mut T,
+    pub density: T,
+    pub stress: [*mut T; 6],
+    pub wave_speed: *mut T,
+    pub tangent: *mut T,
+    pub measure: Measure,
     /// A status code for each point.
     pub status: *mut i32,
+    /// For each point 1, or 0 if it has failed or cannot be evaluated.
+    pub active: *mut T,
     pub rotation: Rotation,
     pub criterion: Criterion,
-    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
+    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best. A block with a tangent
+    /// is evaluated point by point in double precision.
     pub level: Option<Level>,
+}
+
+/// The distance from one point to the next in each group of arrays; wave speed, status and active are contiguous.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LinearStrides {
+    /// Of F at both ends.
+    pub deformation_gradient: usize,
+    /// Of fibre and second axis.
+    pub fibre: usize,
+    pub axes: usize,
+    /// Of the state, old and new.
+    pub state: usize,
+    pub stress: usize,
+    pub tangent: usize,
+}
+
+impl LinearStrides {
+    /// Points next to each other: component-major arrays.
+    pub const UNIT: LinearStrides =
+        LinearStrides { deformation_gradient: 1, fibre: 1, axes: 1, state: 1, stress: 1, tangent: 1 };
+}
+
+impl<T: Scalar> LinearPointers<T> {
+    /// A block of `n` points next to each other, with one leading dimension for all groups and no arrays yet: for the fields that a
+    /// host does not name.
+    pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
+        LinearPointers {
+            n,
+            leading_dimension,
+            axes_leading_dimension: leading_dimension,
+            tangent_leading_dimension: leading_dimension,
+            strides: LinearStrides::UNIT,
+            f_old: [null(); 9],
+            f_new: [null(); 9],
+            fibre: [null(); 3],
+            second_axis: [null(); 3],
+            axes: null_mut(),
+            state_old: null(),
+            state_new: null_mut(),
+            density: T::splat(0.0),
+            stress: [null_mut(); 6],
+            wave_speed: null_mut(),
+            tangent: null_mut(),
+            measure: Measure::Jaumann,
+            status: null_mut(),
+            active: null_mut(),
+            rotation: Rotation::Fibre,
+            criterion: Criterion::LargestPrincipal,
+            level: None,
+        }
+    }
+
+    /// Checks the block.
+    ///
+    /// # Errors
+    /// As for [`raw_block`](LinearElastic::raw_block).
+    pub(super) fn check(&self) -> Result<(), Error> {
+        let missing = |array: &[*const T]| self.n > 0 && array.iter().any(|pointer| pointer.is_null());
+        if missing(&self.f_old) {
+            return Err(Error::Null { name: "f_old" });
+        }
+        if missing(&self.f_new) {
+            return Err(Error::Null { name: "f_new" });
+        }
+        let spin = self.rotation == Rotation::Spin;
+        if spin && missing(&[self.axes.cast_const()]) {
+            return Err(Error::Null { name: "axes" });
+        }
+        let LinearStrides { axes, state, tangent, .. } = self.strides;
+        if !self.state_old.is_null() || !self.state_new.is_null() {
+            let name = "leading dimension of the state";
+            check_layout(self.n, LINEAR_ELASTIC_STATE, self.leading_dimension, state, name)?;
+        }
+        if spin {
+            check_layout(self.n, 9, self.axes_leading_dimension, axes, "leading dimension of axes")?;
+        }
+        if !self.tangent.is_null() {
+            let components = self.measure.components();
+            check_layout(self.n, components, self.tangent_leading_dimension, tangent, "leading dimension of tangent")?;
+        }
+        if self.n > 0 && !self.wave_speed.is_null() {
+            wave_speed::check_density(self.density)?;
+        }
+        Ok(())
+    }
+
+    /// Entry `component` of point `i` in an array of the state.
+    fn state_entry(&self, component: usize, i: usize) -> usize {
+        component * self.leading_dimension + i * self.strides.state
+    }
 }
 
 /// The kernel, for points that fill whole registers. Returns the worst status code.
@@ -65,27 +180,71 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
 /// As for [`sweep_linear`], with i + COUNT ≤ n.
 #[inline(always)]
 unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &LinearPointers<T>, i: usize) -> R {
-    let stride = block.leading_dimension;
-    let wanted = Wanted { stress: !block.stress.is_null(), state: !block.state_new.is_null() };
+    let (zero, one) = (R::splat(0.0), R::splat(1.0));
+    let state = block.leading_dimension;
+    let wanted = Wanted {
+        stress: !block.stress[0].is_null(),
+        state: !block.state_new.is_null(),
+        wave_modulus: !block.wave_speed.is_null(),
+    };
     // SAFETY: the arrays that the block has are valid for the lanes from i on.
     unsafe {
-        let (f0, f1) = (columns(block.f_old, stride, i), columns(block.f_new, stride, i));
-        let axes = if block.axes.is_null() { f0 } else { columns(block.axes, stride, i) };
-        let mut old = [R::splat(0.0); LINEAR_ELASTIC_STATE];
+        let (f0, f1) = (gradient(&block.f_old, i), gradient(&block.f_new, i));
+        let axes = if block.axes.is_null() { f0 } else { columns(block.axes, block.axes_leading_dimension, i) };
+        let (reference, usable) = if block.fibre[0].is_null() && block.second_axis[0].is_null() {
+            (law.axes, zero.le(zero))
+        } else {
+            let fibre = if block.fibre[0].is_null() { law.axes[0] } else { vector(&block.fibre, i) };
+            let second = if block.second_axis[0].is_null() { None } else { Some(vector(&block.second_axis, i)) };
+            law.axes_along(fibre, second)
+        };
+        let mut old = [zero; LINEAR_ELASTIC_STATE];
         if !block.state_old.is_null() {
             for (c, value) in old.iter_mut().enumerate() {
-                *value = R::load(block.state_old.add(c * stride + i));
+                *value = R::load(block.state_old.add(c * state + i));
             }
         }
-        let answer = law.respond(&f0, &f1, &axes, &old, block.rotation, block.criterion, wanted);
-        store(&answer.stress, block.stress, stride, i);
-        store(&answer.state, block.state_new, stride, i);
-        store(answer.q1.as_flattened(), block.axes, stride, i);
+        let step = Step { f0: &f0, f1: &f1, axes: &axes, rotation: block.rotation, criterion: block.criterion };
+        let answer = law.respond(step, &reference, usable, &old, wanted);
+        if wanted.stress {
+            let mut c = 0;
+            while c < 6 {
+                answer.stress[c].store(block.stress[c].add(i));
+                c += 1;
+            }
+        }
+        store(&answer.state, block.state_new, state, i);
+        store(answer.q1.as_flattened(), block.axes, block.axes_leading_dimension, i);
+        if wanted.wave_modulus {
+            let density = R::splat(block.density.into());
+            wave_speed::wave_speed(answer.wave_modulus, density).store(block.wave_speed.add(i));
+        }
+        if !block.active.is_null() {
+            R::select(answer.taken, one - answer.state[LINEAR_FAILED], zero).store(block.active.add(i));
+        }
         if !block.status.is_null() {
             answer.status.store_integers(block.status.add(i));
         }
         answer.status
     }
+}
+
+/// Loads a vector, or the columns of F, from the pointers to their components.
+///
+/// # Safety
+/// The pointers are valid for the lanes from i on.
+#[inline(always)]
+unsafe fn vector<T, R: Lanes<T>>(v: &[*const T; 3], i: usize) -> [R; 3] {
+    // SAFETY: the caller's promise.
+    unsafe { [R::load(v[0].add(i)), R::load(v[1].add(i)), R::load(v[2].add(i))] }
+}
+
+/// # Safety
+/// As for [`vector`].
+#[inline(always)]
+unsafe fn gradient<T, R: Lanes<T>>(&[a, b, c, d, e, f, g, h, k]: &[*const T; 9], i: usize) -> Matrix<R> {
+    // SAFETY: the caller's promise.
+    unsafe { [vector(&[a, b, c], i), vector(&[d, e, f], i), vector(&[g, h, k], i)] }
 }
 
 /// Loads a matrix by columns.
@@ -111,4 +270,101 @@ unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: u
             unsafe { value.store(array.add(c * stride + i)) };
         }
     }
+}
+
+/// The block of a law with tangents, point by point: their iterations and inverses are not written in lanes. Returns the worst
+/// status code.
+///
+/// Everything is computed in double precision. Results that do not fit T are an overflow.
+///
+/// # Safety
+/// As for [`LinearElastic::raw_block`].
+pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
+    let law = law.lanes::<f64>();
+    let mut worst = status::OK;
+    for i in 0..block.n {
+        // SAFETY: the caller's promise, for point i.
+        worst = worst.min(unsafe { point_with_tangent(&law, block, i) });
+    }
+    worst
+}
+
+/// # Safety
+/// As for [`with_tangents`], with i < n.
+unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPointers<T>, i: usize) -> i32 {
+    let strides = &block.strides;
+    // SAFETY: the caller's promise, here and below.
+    let load = |array: *const T, at: usize| -> f64 { unsafe { *array.add(at) }.into() };
+    let at = i * strides.deformation_gradient;
+    let all = |[a, b, c, d, e, f, g, h, k]: [*const T; 9]| -> Matrix<f64> {
+        [[a, b, c], [d, e, f], [g, h, k]].map(|column| column.map(|component| load(component, at)))
+    };
+    let three = |[x, y, z]: [*const T; 3]| [x, y, z].map(|component| load(component, i * strides.fibre));
+    let (f0, f1) = (all(block.f_old), all(block.f_new));
+    let mut state = [0.0; LINEAR_ELASTIC_STATE];
+    if !block.state_old.is_null() {
+        for (c, value) in state.iter_mut().enumerate() {
+            *value = load(block.state_old, block.state_entry(c, i));
+        }
+    }
+    let spin = block.rotation == Rotation::Spin;
+    let axis = |c: usize| c * block.axes_leading_dimension + i * strides.axes;
+    let mut axes = f0;
+    if spin {
+        for (c, value) in axes.as_flattened_mut().iter_mut().enumerate() {
+            *value = load(block.axes, axis(c));
+        }
+    }
+    let (reference, usable) = if block.fibre[0].is_null() && block.second_axis[0].is_null() {
+        (law.axes, true)
+    } else {
+        let fibre = if block.fibre[0].is_null() { law.axes[0] } else { three(block.fibre) };
+        let second = if block.second_axis[0].is_null() { None } else { Some(three(block.second_axis)) };
+        law.axes_along(fibre, second)
+    };
+    let state_wanted = !block.state_new.is_null();
+    let wanted = Wanted { stress: true, state: state_wanted, wave_modulus: !block.wave_speed.is_null() };
+    let step = Step { f0: &f0, f1: &f1, axes: &axes, rotation: block.rotation, criterion: block.criterion };
+    let (mut answer, tangent) = law.respond_with_tangent(step, &reference, usable, &state, wanted);
+    let (mut entries, size) = by_rows(&tangent, block.measure, &f1.into(), &answer.stress);
+    let speed = |answer: &Answer<f64>| wave_speed::wave_speed(answer.wave_modulus, block.density.into());
+    // Rounded to T, a number that does not fit is not finite.
+    let fits = |x: f64| (T::splat(x).into() * 0.0) == 0.0;
+    let results = answer.stress.iter().chain(&answer.state).chain(&entries);
+    if answer.taken && !(results.into_iter().all(|&x| fits(x)) && (!wanted.wave_modulus || fits(speed(&answer)))) {
+        law.overflow(&mut answer, &state);
+        entries = [0.0; 81];
+    }
+    // SAFETY: the caller's promise.
+    let store = |x: f64, array: *mut T, at: usize| unsafe { *array.add(at) = T::splat(x) };
+    if !block.stress[0].is_null() {
+        for (x, component) in answer.stress.into_iter().zip(block.stress) {
+            store(x, component, i * strides.stress);
+        }
+    }
+    if !block.state_new.is_null() {
+        for (c, x) in answer.state.into_iter().enumerate() {
+            store(x, block.state_new, block.state_entry(c, i));
+        }
+    }
+    if spin {
+        for (c, &x) in answer.q1.as_flattened().iter().enumerate() {
+            store(x, block.axes, axis(c));
+        }
+    }
+    for (c, &x) in entries.iter().take(size * size).enumerate() {
+        store(x, block.tangent, c * block.tangent_leading_dimension + i * strides.tangent);
+    }
+    if wanted.wave_modulus {
+        store(speed(&answer), block.wave_speed, i);
+    }
+    if !block.active.is_null() {
+        store(if answer.taken { answer.state[LINEAR_ALIVE] } else { 0.0 }, block.active, i);
+    }
+    let code = answer.status as i32;
+    if !block.status.is_null() {
+        // SAFETY: the caller's promise.
+        unsafe { *block.status.add(i) = code };
+    }
+    code
 }

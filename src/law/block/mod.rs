@@ -36,6 +36,7 @@ pub mod linear;
 mod pointers;
 
 pub use dispatch::Precision;
-pub(crate) use interface::raw_block_of;
 pub use interface::{Arrays, Block};
+pub(crate) use interface::{Law, raw_block_of};
+pub(crate) use pointers::check_layout;
 pub use pointers::{Pointers, Strides, components, components_mut};

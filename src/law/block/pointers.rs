@@ -20,8 +20,7 @@ use crate::law::wave_speed;
 pub struct Pointers<T> {
     /// The number of points.
     pub n: usize,
-    /// The distance from one component to the next in the energies, invariants and failure, in the modes and in the tangent; at
-    /// least `n` where points are next to each other.
+    /// The distance from one component to the next in the energies, invariants and failure, in the modes and in the tangent.
     pub leading_dimension: usize,
     pub modes_leading_dimension: usize,
     pub tangent_leading_dimension: usize,
@@ -116,14 +115,44 @@ impl<T> Pointers<T> {
     }
 }
 
-/// The error of a leading dimension that is below n.
-pub(super) fn leading_dimension_below(n: usize, leading_dimension: usize) -> Error {
-    Error::Count {
-        code: status::BAD_LEADING_DIMENSION,
-        what: "leading dimension",
-        found: leading_dimension as i64,
-        wanted: n as i64,
+/// Checks that the entries of an array with so many components and points are all at different places: component by component, or
+/// point by point.
+///
+/// # Errors
+/// Entries may overlap; `name` says of what the leading dimension is.
+#[inline(always)]
+pub(crate) fn check_layout(
+    n: usize,
+    components: usize,
+    leading_dimension: usize,
+    stride: usize,
+    name: &'static str,
+) -> Result<(), Error> {
+    if stride == 1 && leading_dimension >= n {
+        return Ok(()); // the usual layout
     }
+    check_other_layout(n, components, leading_dimension, stride, name)
+}
+
+/// # Errors
+/// As for [`check_layout`].
+#[cold]
+#[inline(never)]
+fn check_other_layout(
+    n: usize,
+    components: usize,
+    leading_dimension: usize,
+    stride: usize,
+    name: &'static str,
+) -> Result<(), Error> {
+    let needed = n.saturating_sub(1).saturating_mul(stride).saturating_add(1);
+    let in_rows = leading_dimension > 0 && stride > (components - 1).saturating_mul(leading_dimension);
+    if n == 0 || (stride > 0 || n == 1) && (leading_dimension >= needed || in_rows) {
+        return Ok(());
+    }
+    let found = i64::try_from(leading_dimension).unwrap_or(i64::MAX);
+    let wanted = i64::try_from(needed).unwrap_or(i64::MAX);
+    Err(Error::Count { code: status::BAD_LEADING_DIMENSION, what: name, found, wanted })
 }
 
 impl<T: Scalar> Pointers<T> {
@@ -164,18 +193,21 @@ impl<T: Scalar> Pointers<T> {
     #[inline(always)]
     pub(super) fn check(&self) -> Result<Request, Error> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
-            return Err(Error::Plain(status::NULL_ARGUMENT));
+            return Err(Error::Null { name: "deformation_gradient" });
         }
-        // Where points are next to each other, components would overlap. Hosts use the first leading dimension for F and the stress too.
-        let groups = [
-            (true, self.strides.state, self.leading_dimension),
-            (!self.modes.is_null(), self.strides.modes, self.modes_leading_dimension),
-            (!self.tangent.is_null(), self.strides.tangent, self.tangent_leading_dimension),
-        ];
-        for (present, stride, leading_dimension) in groups {
-            if present && stride == 1 && leading_dimension < self.n {
-                return Err(leading_dimension_below(self.n, leading_dimension));
-            }
+        let state = [self.energies_old, self.invariants_old, self.failure_old];
+        let has_state = state.iter().any(|array| !array.is_null())
+            || [self.energies, self.invariants, self.failure].iter().any(|array| !array.is_null());
+        let Strides { state, modes, tangent, .. } = self.strides;
+        if has_state {
+            check_layout(self.n, 4, self.leading_dimension, state, "leading dimension of the state")?;
+        }
+        if !self.modes.is_null() {
+            check_layout(self.n, 24, self.modes_leading_dimension, modes, "leading dimension of modes")?;
+        }
+        if !self.tangent.is_null() {
+            let components = self.measure.components();
+            check_layout(self.n, components, self.tangent_leading_dimension, tangent, "leading dimension of tangent")?;
         }
         if self.n > 0 && !self.wave_speed.is_null() {
             wave_speed::check_density(self.density)?;

@@ -199,6 +199,16 @@ impl<R: Real> Exponent<R> {
         Exponent { value: q, high, low_ln_2: (q - high) * R::splat(LN_2), over_ln_2: q * R::splat(LOG2_E) }
     }
 
+    /// Its numbers, from which [`from_numbers`](Self::from_numbers) makes it again.
+    pub fn numbers(&self) -> [R; 4] {
+        [self.value, self.high, self.low_ln_2, self.over_ln_2]
+    }
+
+    #[inline(always)]
+    pub fn from_numbers([value, high, low_ln_2, over_ln_2]: [R; 4]) -> Self {
+        Exponent { value, high, low_ln_2, over_ln_2 }
+    }
+
     /// The same exponent with its numbers converted by `lane`.
     #[inline(always)]
     pub fn map<L>(self, lane: impl Fn(R) -> L) -> Exponent<L> {

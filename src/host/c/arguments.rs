@@ -1,0 +1,160 @@
+//! What a caller passes by a number or leaves out: constants of the interface, and where the entries of an array are.
+
+use libc::size_t;
+
+use super::constants::*;
+use crate::law::block::{check_layout, components, components_mut};
+use crate::law::error::Error;
+use crate::law::linear_elastic::{Criterion, Rotation};
+use crate::law::number::level::Level;
+use crate::law::number::real::Real;
+use crate::law::status;
+use crate::law::tangent::Measure;
+use crate::law::wave_speed;
+
+/// Where the entries of an array are: component c of point i at `c * leading_dimension + i * stride`, in numbers. All 0: as the
+/// block says.
+#[repr(C)]
+#[derive(Clone, Copy, Default)]
+pub struct Layout {
+    /// From one component to the next; 0: that of the block, or 1 if a stride is set (points in rows). Not read where every
+    /// component has a pointer.
+    pub leading_dimension: size_t,
+    /// From one point to the next; 0: 1. Points next to each other take the least time: others are copied part by part.
+    pub stride: size_t,
+}
+
+/// Room for more points than any memory holds: a larger number is a negative one, converted.
+const MOST_POINTS: size_t = size_t::MAX >> 8;
+
+/// Checks the number of points.
+#[inline(always)]
+pub fn check_points(n: size_t) -> Result<(), Error> {
+    if n <= MOST_POINTS {
+        return Ok(());
+    }
+    let (value, greatest) = (i64::try_from(n).unwrap_or(i64::MAX), MOST_POINTS as i64);
+    Err(Error::Range { code: status::BAD_COUNT, name: "n", value, least: 0, greatest })
+}
+
+/// Checks a density that is needed, as it is given and rounded to the precision of the call.
+#[inline(always)]
+pub fn check_density<T: Real + Into<f64>>(density: f64, needed: bool) -> Result<(), Error> {
+    if !needed || wave_speed::check_density(T::splat(density)).is_ok() {
+        return Ok(());
+    }
+    let wanted = "a finite number > 0, not subnormal";
+    Err(Error::Argument { name: "density", value: density, wanted })
+}
+
+impl Layout {
+    /// The layout with nothing left out, in a block with this leading dimension.
+    #[inline(always)]
+    pub fn or(self, leading_dimension: size_t) -> Layout {
+        let leading_dimension = match (self.leading_dimension, self.stride) {
+            (0, 0 | 1) => leading_dimension,
+            (0, _) => 1,
+            (given, _) => given,
+        };
+        Layout { leading_dimension, stride: self.stride.max(1) }
+    }
+
+    /// Checks the pointers to the components of an array of `n` points: all are given, or only the first one, or none. The layout
+    /// has nothing left out; `names` are those of one of its components and of its leading dimension.
+    ///
+    /// # Errors
+    /// Some are given, but not all; or entries may overlap.
+    #[inline(always)]
+    pub fn check<P: Copy + PartialEq, const N: usize>(
+        self,
+        array: &[P; N],
+        null: P,
+        n: size_t,
+        names: [&'static str; 2],
+    ) -> Result<(), Error> {
+        let (mut count, mut c) = (0, 1);
+        while c < N {
+            count += usize::from(array[c] != null);
+            c += 1;
+        }
+        if count > 0 && (count < N - 1 || array[0] == null) {
+            return Err(Error::Null { name: names[0] });
+        }
+        if count > 0 || array[0] == null {
+            return Ok(());
+        }
+        check_layout(n, N, self.leading_dimension, self.stride, names[1])
+    }
+
+    /// The pointers to the components of an array that [`check`](Self::check) has found right.
+    #[inline(always)]
+    pub fn components<T, const N: usize>(self, array: &[*const T; N]) -> [*const T; N] {
+        if array[1].is_null() { components(array[0], self.leading_dimension) } else { *array }
+    }
+
+    /// The same for an array to be written.
+    #[inline(always)]
+    pub fn components_mut<T, const N: usize>(self, array: &[*mut T; N]) -> [*mut T; N] {
+        if array[1].is_null() { components_mut(array[0], self.leading_dimension) } else { *array }
+    }
+}
+
+/// The leading dimension of a block that leaves it out, or not.
+#[inline(always)]
+pub fn leading_dimension(given: size_t, n: size_t) -> size_t {
+    if given == 0 { n } else { given }
+}
+
+#[inline(always)]
+pub fn level(level: i32) -> Result<Option<Level>, Error> {
+    match level {
+        TORON_LEVEL_BEST => Ok(None),
+        TORON_LEVEL_BASELINE => Ok(Some(Level::Baseline)),
+        TORON_LEVEL_AVX2 => Ok(Some(Level::Avx2)),
+        TORON_LEVEL_AVX512 => Ok(Some(Level::Avx512)),
+        _ => Err(Error::Choice {
+            name: "level",
+            value: i64::from(level),
+            wanted: "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)",
+        }),
+    }
+}
+
+pub fn measure(measure: i32) -> Result<Measure, Error> {
+    match measure {
+        TORON_TANGENT_MATERIAL => Ok(Measure::Material),
+        TORON_TANGENT_TRUESDELL => Ok(Measure::Truesdell),
+        TORON_TANGENT_JAUMANN => Ok(Measure::Jaumann),
+        TORON_TANGENT_NOMINAL => Ok(Measure::Nominal),
+        _ => Err(Error::Choice {
+            name: "measure",
+            value: i64::from(measure),
+            wanted: "0 (material), 1 (Truesdell), 2 (Jaumann) or 3 (nominal)",
+        }),
+    }
+}
+
+pub fn rotation(rotation: i32) -> Result<Rotation, Error> {
+    match rotation {
+        TORON_ROTATION_FIBRE => Ok(Rotation::Fibre),
+        TORON_ROTATION_POLAR => Ok(Rotation::Polar),
+        TORON_ROTATION_SPIN => Ok(Rotation::Spin),
+        _ => Err(Error::Choice {
+            name: "rotation",
+            value: i64::from(rotation),
+            wanted: "0 (fibre), 1 (polar) or 2 (spin)",
+        }),
+    }
+}
+
+pub fn criterion(criterion: i32) -> Result<Criterion, Error> {
+    match criterion {
+        TORON_CRITERION_PRINCIPAL => Ok(Criterion::LargestPrincipal),
+        TORON_CRITERION_FIBRE => Ok(Criterion::FibreStress),
+        _ => Err(Error::Choice {
+            name: "criterion",
+            value: i64::from(criterion),
+            wanted: "0 (largest principal stress) or 1 (fibre stress)",
+        }),
+    }
+}

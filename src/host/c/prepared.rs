@@ -1,0 +1,179 @@
+//! Laws prepared once, in the caller's memory.
+
+use libc::{c_char, size_t};
+
+use crate::host::border::{Message, entry, properties};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::real::Scalar;
+use crate::law::parameters::{HYPERELASTIC, LINEAR_ELASTIC, Property};
+use crate::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
+use crate::law::status;
+
+/// The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
+/// copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
+/// library's own; its size is the same in all versions of this interface.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct HyperelasticLaw<T> {
+    /// Tells law, precision and layout; the size of the structure; the library's own numbers.
+    pub tag: u64,
+    pub size: u64,
+    pub values: [T; 62],
+}
+
+/// The linear elastic law, prepared by `toron_linear_elastic_prepare_f64` or `_f32`; as `toron_hyperelastic_f64` else.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct LinearElasticLaw<T> {
+    /// Tells law, precision and layout; the size of the structure; the library's own numbers.
+    pub tag: u64,
+    pub size: u64,
+    pub values: [T; 30],
+}
+
+/// A prepared law of the C interface.
+///
+/// # Safety
+/// The type is `repr(C)`: tag, size, and numbers, of which the first are those of `Numbers`.
+pub(super) unsafe trait PreparedLaw<T>: Copy {
+    type Numbers: Copy;
+    /// Eight letters: the law, the precision, the version of the numbers' order and meaning.
+    const TAG: u64;
+    /// Its name in C, and the function that prepares it.
+    const NAME: &'static str;
+    const PREPARED_BY: &'static str;
+    const TABLE: &'static [Property];
+
+    /// # Errors
+    /// The first property that is wrong.
+    fn prepare(properties: &[T]) -> Result<Self::Numbers, Error>;
+}
+
+macro_rules! prepared_laws {
+    ($($structure:ident, $t:ty, $numbers:ident, $law:path, $table:path, $tag:literal, $name:literal, $by:literal;)*) => {$(
+        const _: () = assert!(size_of::<$structure<$t>>() >= 16 + size_of::<$numbers<$t>>() + 8);
+        const _: () = assert!(size_of::<$structure<$t>>().is_multiple_of(8));
+        // SAFETY: its values are more than the numbers, which are as many values.
+        unsafe impl PreparedLaw<$t> for $structure<$t> {
+            type Numbers = $numbers<$t>;
+            const TAG: u64 = u64::from_le_bytes(*$tag);
+            const NAME: &'static str = $name;
+            const PREPARED_BY: &'static str = $by;
+            const TABLE: &'static [Property] = &$table;
+            fn prepare(properties: &[$t]) -> Result<$numbers<$t>, Error> {
+                Ok($numbers::from(&<$law>::new(properties)?))
+            }
+        }
+    )*};
+}
+
+prepared_laws! {
+    HyperelasticLaw, f64, PreparedHyperelastic, Hyperelastic<f64>, HYPERELASTIC, b"HE-f64-1", "toron_hyperelastic_f64",
+        "toron_hyperelastic_prepare_f64";
+    HyperelasticLaw, f32, PreparedHyperelastic, Hyperelastic<f32>, HYPERELASTIC, b"HE-f32-1", "toron_hyperelastic_f32",
+        "toron_hyperelastic_prepare_f32";
+    LinearElasticLaw, f64, PreparedLinearElastic, LinearElastic<f64>, LINEAR_ELASTIC, b"LE-f64-1", "toron_linear_elastic_f64",
+        "toron_linear_elastic_prepare_f64";
+    LinearElasticLaw, f32, PreparedLinearElastic, LinearElastic<f32>, LINEAR_ELASTIC, b"LE-f32-1", "toron_linear_elastic_f32",
+        "toron_linear_elastic_prepare_f32";
+}
+
+/// The numbers of a caller's prepared law.
+///
+/// # Errors
+/// It is null, or has not been prepared as this law.
+///
+/// # Safety
+/// `law` is null or points to a structure of this type.
+#[inline(always)]
+pub(super) unsafe fn numbers<'a, T, L: PreparedLaw<T>>(law: *const L) -> Result<&'a L::Numbers, Error> {
+    if law.is_null() {
+        return Err(Error::Null { name: "law" });
+    }
+    // SAFETY: not null, the caller's promise and the trait's.
+    unsafe {
+        let words = law.cast::<u64>();
+        let (size, last) = (size_of::<L>() as u64, size_of::<L>() / 8 - 1);
+        if *words != L::TAG || *words.add(1) != size || *words.add(last) != L::TAG {
+            return Err(Error::NotPrepared { by: L::PREPARED_BY });
+        }
+        Ok(&*words.add(2).cast())
+    }
+}
+
+/// # Safety
+/// As for `toron_hyperelastic_prepare_f64`.
+unsafe fn prepare<T: Scalar, L: PreparedLaw<T>>(
+    law: *mut L,
+    size: size_t,
+    values: *const T,
+    count: size_t,
+    message: Message,
+) -> i32 {
+    let body = move || {
+        if law.is_null() {
+            return Err(Error::Null { name: "law" });
+        }
+        if size != size_of::<L>() {
+            return Err(Error::Size { structure: L::NAME, size, known: size_of::<L>() });
+        }
+        // SAFETY: the caller's promise.
+        let numbers = L::prepare(unsafe { properties(values, count, L::TABLE) }?)?;
+        // SAFETY: not null, of this size, and the caller's promise; a number whose bytes are all 0 is 0.
+        unsafe {
+            law.write_bytes(0, 1);
+            let words = law.cast::<u64>();
+            *words = L::TAG;
+            *words.add(1) = size_of::<L>() as u64;
+            *words.add(2).cast() = numbers;
+            // Again at the end, which shows a copy that is cut off.
+            *words.add(size_of::<L>() / 8 - 1) = L::TAG;
+        }
+        Ok(status::OK)
+    };
+    // SAFETY: the caller's promise.
+    unsafe { entry(message, body) }
+}
+
+macro_rules! entries {
+    ($t:ty: $hyperelastic:ident, $linear_elastic:ident) => {
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $hyperelastic(
+            law: *mut HyperelasticLaw<$t>,
+            size: size_t,
+            properties: *const $t,
+            count: size_t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
+        }
+
+        /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $linear_elastic(
+            law: *mut LinearElasticLaw<$t>,
+            size: size_t,
+            properties: *const $t,
+            count: size_t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
+        }
+    };
+}
+
+entries!(f64: hyperelastic_prepare_f64, linear_elastic_prepare_f64);
+entries!(f32: hyperelastic_prepare_f32, linear_elastic_prepare_f32);
