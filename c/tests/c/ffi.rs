@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::{CASES, PRECISIONS, compile};
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use crate::library::{INSTALLED, LIBRARY, ROOT, SYSTEM, folder, run};
 
 /// Compiles and runs a program of `ffi-tests/c`.
 fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], reads_cases: bool) {
@@ -51,6 +51,26 @@ fn a_program_compiled_against_abi_2_0() {
     gcc.args([format!("-L{library}"), "-ltoron".into(), format!("-Wl,-rpath,{library}")]);
     run(gcc.args(SYSTEM).arg("-o").arg(&program), "gcc");
     run(&mut Command::new(program), "");
+}
+
+/// A program compiled when a structure still ended earlier, before some of its outputs, runs with today's library.
+#[test]
+fn a_program_compiled_against_a_shorter_structure() {
+    let header = std::fs::read_to_string(INSTALLED.join("include/toron.h")).expect("toron.h");
+    let (before, after) = header.split_once("typedef struct toron_point_f64 {").expect("the structure");
+    let end = after.find("} toron_point_f64;").expect("its end");
+    let cut =
+        after.find("double *modes;").and_then(|modes| after[..modes].rfind("/*")).expect("a member with its comment");
+    assert!(cut < end && after[cut..end].contains("double *tangent;"), "what is cut off is of this structure");
+    let shorter = format!("{before}typedef struct toron_point_f64 {{{}{}", &after[..cut], &after[end..]);
+    let folder = folder("shorter-structure");
+    std::fs::write(folder.join("toron.h"), shorter).expect("a header");
+    let program = folder.join("program");
+    let mut gcc = Command::new("gcc");
+    gcc.args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-I"]).arg(&folder);
+    gcc.arg(Path::new(ROOT).join("ffi-tests/installed/c/point.c")).arg(LIBRARY.join("libtoron.a"));
+    run(gcc.args(SYSTEM).arg("-o").arg(&program), "gcc");
+    assert_eq!(String::from_utf8_lossy(&run(&mut Command::new(program), "").stdout), "1598.596 MPa\n");
 }
 
 /// The shims' own flags: they name all arguments that the solver passes, and use few.

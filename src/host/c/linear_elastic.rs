@@ -150,22 +150,6 @@ const _: () = {
     assert!(size_of::<LinearIncrement<f64>>() == 7 * 8 && size_of::<LinearIncrement<f32>>() == 7 * 8);
 };
 
-/// A law from its properties, or one that has been prepared from them.
-#[derive(Clone, Copy)]
-enum Given<'a, T> {
-    Properties(&'a [T]),
-    Prepared(&'a crate::law::prepared::PreparedLinearElastic<T>),
-}
-
-impl<T: Scalar> Given<'_, T> {
-    fn law(self) -> Result<LinearElastic<T>, Error> {
-        match self {
-            Given::Properties(properties) => LinearElastic::new(properties),
-            Given::Prepared(prepared) => Ok(prepared.law()),
-        }
-    }
-}
-
 /// The measure of a tangent that is requested.
 fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
     if tangent.is_null() { Ok(Measure::Jaumann) } else { self::measure(measure) }
@@ -175,13 +159,13 @@ fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
 ///
 /// # Safety
 /// As for `toron_linear_elastic_point_f64`.
-unsafe fn point<T: Precision>(law: Given<'_, T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
+unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
     let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
     unsafe {
         let point = read(point, &mut room)?;
         check_density::<T>(point.density, !point.wave_speed.is_null())?;
-        law.law()?.raw_block(&LinearPointers {
+        law.raw_block(&LinearPointers {
             f_old: components(point.f_old, 1),
             f_new: components(point.f_new, 1),
             fibre: components(point.fibre, 1),
@@ -258,12 +242,12 @@ impl<T: Scalar> LinearBlock<T> {
 
 /// # Safety
 /// As for `toron_linear_elastic_block_f64`.
-unsafe fn block<T: Precision>(law: Given<'_, T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
+unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
     let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
     unsafe {
         let block = read(block, &mut room)?;
-        let worst = law.law()?.raw_block(&block.pointers()?)?;
+        let worst = law.raw_block(&block.pointers()?)?;
         of_points(worst, block.status, block.n)
     }
 }
@@ -379,9 +363,7 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe {
-                entry(Message { text: message, capacity }, move || self::point(Given::Prepared(numbers(law)?), point))
-            }
+            unsafe { entry(Message { text: message, capacity }, move || self::point(&numbers(law)?.law(), point)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -399,7 +381,7 @@ macro_rules! entries {
             // SAFETY: the caller's promise.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
-                    self::point(Given::Properties(properties(values, count, &parameters::LINEAR_ELASTIC)?), point)
+                    self::point(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, point)
                 })
             }
         }
@@ -433,9 +415,7 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe {
-                entry(Message { text: message, capacity }, move || self::block(Given::Prepared(numbers(law)?), block))
-            }
+            unsafe { entry(Message { text: message, capacity }, move || self::block(&numbers(law)?.law(), block)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -453,7 +433,7 @@ macro_rules! entries {
             // SAFETY: the caller's promise.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
-                    self::block(Given::Properties(properties(values, count, &parameters::LINEAR_ELASTIC)?), block)
+                    self::block(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, block)
                 })
             }
         }
