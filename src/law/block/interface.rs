@@ -184,8 +184,13 @@ impl<T: Precision> Hyperelastic<T> {
             for first in (0..block.n).step_by(COPIED_APART) {
                 let points = first..block.n.min(first + COPIED_APART);
                 // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+                let run = |points: &Pointers<T>| unsafe { T::dispatch(level, self, points, request) };
+                // SAFETY: the caller answers for the arrays.
                 let code = unsafe {
-                    copied::<T, COPIED_APART>(block, points, |points| T::dispatch(level, self, points, request))
+                    match points.len() {
+                        0..=FEW_APART => copied::<T, FEW_APART>(block, points, run),
+                        _ => copied::<T, COPIED_APART>(block, points, run),
+                    }
                 };
                 worst = worst.min(code);
             }
@@ -238,8 +243,10 @@ pub unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -
     unsafe { law.raw_block(block) }
 }
 
-/// How many points that are not next to each other are copied at a time.
+/// How many points that are not next to each other are copied at a time, and to how many copies if there are no more than these:
+/// all copies are evaluated.
 const COPIED_APART: usize = 32;
+const FEW_APART: usize = 8;
 
 /// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
 const COPIED: usize = 2 * STAGED * WIDEST;
@@ -279,8 +286,13 @@ impl<T: Precision> LinearElastic<T> {
         for first in (0..block.n).step_by(COPIED_APART) {
             let points = first..block.n.min(first + COPIED_APART);
             // SAFETY: as above.
+            let run = |points: &LinearPointers<T>| unsafe { T::dispatch_linear(level, self, points) };
+            // SAFETY: the caller answers for the arrays.
             let code = unsafe {
-                copied_linear::<T, COPIED_APART>(&block, points, |points| T::dispatch_linear(level, self, points))
+                match points.len() {
+                    0..=FEW_APART => copied_linear::<T, FEW_APART>(&block, points, run),
+                    _ => copied_linear::<T, COPIED_APART>(&block, points, run),
+                }
             };
             worst = worst.min(code);
         }
