@@ -427,8 +427,8 @@ typedef struct toron_point_f32 {
  */
 typedef struct toron_layout {
   /*
-   From one component to the next; 0: that of the block, or 1 if a stride is set (points in rows). Not read where every
-   component has a pointer.
+   From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not read where
+   every component has a pointer.
    */
   size_t leading_dimension;
   /*

@@ -22,6 +22,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::bounds::wrong_number;
 use crate::law::derivative::{Derivative, JaumannModulus, StressAndState};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
@@ -64,9 +65,7 @@ fn check_counts(direct: i32, shear: i32, allowed: &[i32], state: i32, texts: [&'
 
 /// The number of properties, which Abaqus passes with a sign.
 fn property_count(nprops: i32) -> Result<usize, Error> {
-    let (found, wanted) = (i64::from(nprops), parameters::HYPERELASTIC_PROPERTIES as i64);
-    let what = "number of properties";
-    usize::try_from(nprops).map_err(|_| Error::Count { code: status::PROPERTY_COUNT, what, found, wanted })
+    usize::try_from(nprops).map_err(|_| wrong_number(i64::from(nprops), &parameters::HYPERELASTIC))
 }
 
 /// Checks the arguments of a UMAT, evaluates its point with or without DDSDDE and stores the results. Returns the status code.

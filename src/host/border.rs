@@ -6,6 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::environment::in_default_environment;
+use crate::law::bounds::wrong_number;
 use crate::law::error::Error;
 use crate::law::parameters::Property;
 use crate::law::status;
@@ -23,8 +24,7 @@ pub(super) unsafe fn properties<'a, T>(
         return Err(Error::Null { name: "properties" });
     }
     if count != table.len() {
-        let (found, wanted) = (i64::try_from(count).unwrap_or(i64::MAX), table.len() as i64);
-        return Err(Error::Count { code: status::PROPERTY_COUNT, what: "number of properties", found, wanted });
+        return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), table));
     }
     // SAFETY: the caller's promise.
     Ok(unsafe { slice::from_raw_parts(properties, count) })

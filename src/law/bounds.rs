@@ -36,18 +36,18 @@ pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]
     enough & !too_much
 }
 
+/// The error of another number of properties than the table's.
+pub fn wrong_number(found: i64, table: &[Property]) -> Error {
+    Error::Count { code: PROPERTY_COUNT, what: "number of properties", found, wanted: table.len() as i64 }
+}
+
 /// Checks number, finiteness and bounds of `values` against a table; the laws check their directions themselves.
 ///
 /// # Errors
 /// The first property that is wrong, its value and the allowed values.
 pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> Result<(), Error> {
     if values.len() != table.len() {
-        return Err(Error::Count {
-            code: PROPERTY_COUNT,
-            what: "number of properties",
-            found: values.len() as i64,
-            wanted: table.len() as i64,
-        });
+        return Err(wrong_number(values.len() as i64, table));
     }
     for (index, (property, &value)) in table.iter().zip(values).enumerate() {
         let value: f64 = value.into();

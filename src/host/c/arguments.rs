@@ -17,8 +17,8 @@ use crate::law::wave_speed;
 #[repr(C)]
 #[derive(Clone, Copy, Default)]
 pub struct Layout {
-    /// From one component to the next; 0: that of the block, or 1 if a stride is set (points in rows). Not read where every
-    /// component has a pointer.
+    /// From one component to the next; 0: that of the block, or 1 if the stride is more than 1 (points in rows). Not read where
+    /// every component has a pointer.
     pub leading_dimension: size_t,
     /// From one point to the next; 0: 1. Points next to each other take the least time: others are copied part by part.
     pub stride: size_t,

@@ -7,6 +7,7 @@ use crate::host::border::{Message, look_up, name};
 use crate::host::environment::in_default_environment;
 use crate::host::structures::{Structure, write};
 use crate::host::units::UnitSystem;
+use crate::law::bounds::wrong_number;
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::parameters::{self, Dimension, Property};
@@ -268,9 +269,7 @@ unsafe fn preset<T: Scalar>(
             return Err(Error::Null { name: "properties" });
         }
         if count != found.table.len() {
-            let (given, wanted) = (i64::try_from(count).unwrap_or(i64::MAX), found.table.len() as i64);
-            let what = "number of properties";
-            return Err(Error::Count { code: status::PROPERTY_COUNT, what, found: given, wanted });
+            return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), found.table));
         }
         for (i, (&value, property)) in found.values.iter().zip(found.table).enumerate() {
             // SAFETY: i < count.

@@ -1,7 +1,6 @@
 //! The calls for blocks: with slices from Rust, or with a host's pointers.
 
 use core::marker::PhantomData;
-
 use core::ptr::{null, null_mut};
 
 use super::copies::{copied, copied_linear};
