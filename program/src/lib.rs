@@ -16,6 +16,7 @@ pub mod common;
 pub mod entries;
 pub mod eval;
 pub mod explicit;
+pub mod identify;
 pub mod impact;
 pub mod load_path;
 pub mod material;

@@ -12,7 +12,7 @@ use toml::Spanned;
 use super::columns;
 use super::element::Hexahedron;
 use super::newton::COMPONENT_NAMES;
-use super::path::{LoadPath, Point, Step, Target};
+use super::path::{LoadPath, Point, Step, Target, equal_parts};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use crate::material::file::MaterialFile;
@@ -257,7 +257,7 @@ impl Source<'_> {
             return Err(self.error(span, "the step does nothing; allowed: targets in F or P, or a rotation"));
         }
         let name = file.name.clone().unwrap_or_default();
-        Ok(Step { name, number, cycle, duration, increments, targets, rotation })
+        Ok(Step { name, number, cycle, duration, fractions: equal_parts(increments), targets, rotation })
     }
 
     fn component(&self, of: &str, name: &Spanned<String>) -> Result<usize, Error> {

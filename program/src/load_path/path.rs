@@ -38,7 +38,8 @@ pub struct Step {
     pub number: usize,
     pub cycle: usize,
     pub duration: f64,
-    pub increments: usize,
+    /// Where the increments end, as fractions of the step: rising, at most 1.
+    pub fractions: Vec<f64>,
     /// In the order of [`COMPONENT_NAMES`](super::newton::COMPONENT_NAMES); `None` is controlled as before.
     pub targets: [Option<Target>; 9],
     /// Axis and angle (radians) of the rotation that the step adds on top.
@@ -59,8 +60,30 @@ pub enum Target {
 impl LoadPath {
     /// Number of increments of all points.
     pub fn increments(&self) -> usize {
-        self.points.len() * self.steps.iter().map(|step| step.increments).sum::<usize>()
+        self.points.len() * self.steps.iter().map(|step| step.fractions.len()).sum::<usize>()
     }
+}
+
+impl LoadPath {
+    /// By component, whether its stress is prescribed in this step: what a step does not name is controlled as before.
+    pub fn stress_controlled(&self, step: usize) -> [bool; 9] {
+        let mut controlled = [false; 9];
+        for target in self.steps[..=step].iter().map(|step| step.targets) {
+            for (controlled, target) in controlled.iter_mut().zip(target) {
+                match target {
+                    Some(Target::Stress(_)) => *controlled = true,
+                    Some(Target::Gradient(_) | Target::Hold) => *controlled = false,
+                    None => {}
+                }
+            }
+        }
+        controlled
+    }
+}
+
+/// The ends of so many equal increments.
+pub fn equal_parts(increments: usize) -> Vec<f64> {
+    (1..=increments).map(|number| number as f64 / increments as f64).collect()
 }
 
 impl fmt::Display for Step {

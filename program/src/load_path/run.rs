@@ -91,8 +91,8 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
     let mut start_of_step = 0.0;
     for (index, step) in path.steps.iter().enumerate() {
         let ramp = Ramp::new(step, &state, &mut control);
-        for number in 1..=step.increments {
-            let [from, to] = [number - 1, number].map(|i| i as f64 / step.increments as f64);
+        let mut from = 0.0;
+        for (number, &to) in (1..).zip(&step.fractions) {
             let place = || format!("{step}, increment {number}");
             if state.cannot_carry(&ramp, to) {
                 history.end = End::Stopped(place());
@@ -107,6 +107,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
             }
             history.increments.push(state.increment(index, number, start_of_step + to * step.duration));
             state.iterations = 0;
+            from = to;
             progress();
         }
         start_of_step += step.duration;

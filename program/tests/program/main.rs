@@ -14,6 +14,7 @@ mod eval;
 mod examples;
 #[allow(dead_code)]
 mod hexahedra;
+mod identify;
 mod impact;
 mod load_paths;
 mod newton;

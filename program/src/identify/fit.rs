@@ -1,0 +1,347 @@
+//! The fit of all data sets: what is fitted with what, in which order, and the weights of sets whose noise is not known.
+//!
+//! Sets that tell a common parameter are fitted together; then those whose deformation has more modes, with what the first
+//! have told: k_td from transverse compression after W_tc is subtracted (Eq. 4.29). What comes first carries its uncertainty
+//! into what comes after.
+
+use nalgebra::DMatrix;
+
+use super::data::{DataSet, Loading};
+use super::least_squares::{self, Solution, Weighted};
+use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::uncertainty::{Estimate, Source, Uncertainty};
+use crate::common::error::Error;
+
+/// Data sets and what is known besides.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    pub sets: Vec<DataSet>,
+    /// Values that are given, and not fitted.
+    pub known: [Option<f64>; PARAMETERS],
+    /// What makes a known value uncertain: the derivative of each parameter by it, times its standard deviation.
+    pub known_deviations: Vec<Values>,
+    /// Where the search starts.
+    pub start: Values,
+}
+
+/// The parameters that the data tell.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Fitted or known; `None` where neither.
+    pub values: [Option<f64>; PARAMETERS],
+    /// Of all parameters that have an interval, in the order of the property table.
+    pub estimates: Vec<Estimate>,
+    /// Of the estimates, in their order.
+    pub correlations: DMatrix<f64>,
+    /// One for each set.
+    pub sets: Vec<SetFit>,
+    pub groups: Vec<Group>,
+    pub uncertainty: Uncertainty,
+    /// Parameters that a set should tell but does not.
+    pub untold: Vec<(String, Parameter)>,
+}
+
+/// How the law meets a set.
+#[derive(Clone, Debug)]
+pub struct SetFit {
+    /// Measured less predicted.
+    pub residuals: Vec<f64>,
+    /// The standard deviation of each datum, as given or estimated.
+    pub deviations: Vec<f64>,
+    /// Data less the parameters that they have told.
+    pub freedom: f64,
+}
+
+/// Sets that are fitted together.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// Indices of the sets.
+    pub sets: Vec<usize>,
+    pub parameters: Vec<Parameter>,
+    pub bounded: Vec<Parameter>,
+    /// The weights of the data and the values at the end.
+    pub weights: Vec<f64>,
+    pub values: Values,
+}
+
+/// How often the noise of sets is estimated anew, and how well it has to agree with the last time.
+const REWEIGHTINGS: usize = 50;
+const AGREED: f64 = 1e-8;
+/// No set is surer than this, over its largest ordinate: exact data would have no noise.
+const LEAST_NOISE: f64 = 1e-10;
+/// Columns of derivatives, each of length 1, are dependent where a combination is shorter than this.
+const DEPENDENT: f64 = 1e-6;
+/// A parameter takes part in such a combination above this share.
+const INVOLVED: f64 = 0.1;
+/// A derivative below this fraction of the largest is none.
+const INSENSITIVE: f64 = 1e-12;
+/// Parameters at which a set's derivatives show what it can tell: each has an influence.
+const TRIAL: Values = [1.0, 1.0, 2.2, 1.0, 1.0, 0.04, 1.0, 1.0];
+
+impl Problem {
+    /// The parameters, their intervals, and how the law meets the data.
+    ///
+    /// # Errors
+    /// The data do not suffice, or the law has no answer to them.
+    pub fn fit(&self) -> Result<Fit, Error> {
+        let mut state = State::new(self);
+        for (sets, parameters) in self.groups() {
+            state.fit_group(sets, parameters)?;
+        }
+        Ok(state.finish())
+    }
+
+    /// Sets that share a parameter, in the order in which they are fitted.
+    fn groups(&self) -> Vec<(Vec<usize>, Vec<Parameter>)> {
+        let mut groups: Vec<(Vec<usize>, Vec<Parameter>)> = Vec::new();
+        for (index, set) in self.sets.iter().enumerate() {
+            let (mut sets, mut parameters) = (vec![index], set.fits.clone());
+            let joined: Vec<_> =
+                groups.extract_if(.., |(_, known)| known.iter().any(|other| parameters.contains(other))).collect();
+            for (other_sets, other_parameters) in joined {
+                sets.extend(other_sets);
+                parameters.extend(other_parameters);
+            }
+            sets.sort_unstable();
+            parameters.sort_unstable();
+            parameters.dedup();
+            groups.push((sets, parameters));
+        }
+        let modes = |sets: &[usize]| sets.iter().map(|&set| self.sets[set].loading.modes()).max();
+        groups.sort_by_key(|(sets, _)| modes(sets));
+        groups
+    }
+}
+
+impl Loading {
+    /// A number that grows with the modes that a loading has at once: what is fitted first has few.
+    fn modes(&self) -> usize {
+        match self {
+            Loading::Prescribed { states, .. } => {
+                let isotropic = states.iter().all(|f| f.m22 == f.m33);
+                if isotropic { 1 } else { 2 }
+            }
+            Loading::Path(_) => 3,
+            Loading::Failure { .. } => 4,
+        }
+    }
+}
+
+/// What has been fitted so far.
+struct State<'a> {
+    problem: &'a Problem,
+    values: [Option<f64>; PARAMETERS],
+    uncertainty: Uncertainty,
+    sets: Vec<Option<SetFit>>,
+    groups: Vec<Group>,
+    untold: Vec<(String, Parameter)>,
+}
+
+impl<'a> State<'a> {
+    fn new(problem: &'a Problem) -> State<'a> {
+        let lengths = problem.sets.iter().map(DataSet::len);
+        State {
+            problem,
+            values: problem.known,
+            uncertainty: Uncertainty::new(lengths, &problem.known_deviations),
+            sets: vec![None; problem.sets.len()],
+            groups: Vec::new(),
+            untold: Vec::new(),
+        }
+    }
+
+    fn fit_group(&mut self, indices: Vec<usize>, mut parameters: Vec<Parameter>) -> Result<(), Error> {
+        let problem = self.problem;
+        let sets: Vec<&DataSet> = indices.iter().map(|&set| &problem.sets[set]).collect();
+        self.drop_untold(&sets, &mut parameters)?;
+        self.require_the_rest(&sets, &parameters)?;
+        require_enough(&sets, &parameters)?;
+        let mut start = problem.start;
+        for (start, known) in start.iter_mut().zip(self.values) {
+            *start = known.unwrap_or(*start);
+        }
+        let (solution, weights, fits) = reweighted(&sets, &parameters, &start)?;
+        let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
+        require_independent(&sets, &solution, &free)?;
+        for (&index, fit) in indices.iter().zip(fits) {
+            self.uncertainty.describe(index, Source { freedom: fit.freedom }, &fit.deviations);
+            self.sets[index] = Some(fit);
+        }
+        self.uncertainty.add(&indices, &solution, &weights, &parameters);
+        for &parameter in &parameters {
+            self.values[parameter.index()] = Some(solution.values[parameter.index()]);
+        }
+        let Solution { values, bounded, .. } = solution;
+        self.groups.push(Group { sets: indices, parameters, bounded, weights, values });
+        Ok(())
+    }
+
+    /// Parameters on which none of the group's data depends.
+    fn drop_untold(&mut self, sets: &[&DataSet], parameters: &mut Vec<Parameter>) -> Result<(), Error> {
+        let sensitive = sensitive(sets)?;
+        for &parameter in parameters.iter().filter(|parameter| !sensitive.contains(parameter)) {
+            let names: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+            self.untold.push((names.join(", "), parameter));
+        }
+        parameters.retain(|parameter| sensitive.contains(parameter));
+        Ok(())
+    }
+
+    /// Every parameter that the data depend on has to be fitted or known.
+    fn require_the_rest(&mut self, sets: &[&DataSet], parameters: &[Parameter]) -> Result<(), Error> {
+        for parameter in sensitive(sets)?.into_iter().filter(|parameter| !parameters.contains(parameter)) {
+            let index = parameter.index();
+            self.values[index] = self.values[index].or(parameter.property().default);
+            if self.values[index].is_none() {
+                return Err(Error::Input(format!(
+                    "data set {} depends on {}, which no set tells before it; allowed: its value in [yarn] properties, \
+                     {}, or {0} among its own fits",
+                    sets[0].name,
+                    parameter.name(),
+                    parameter.told_by()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Fit {
+        let fitted: Vec<Parameter> = self.groups.iter().flat_map(|group| group.parameters.clone()).collect();
+        let bounded: Vec<Parameter> = self.groups.iter().flat_map(|group| group.bounded.clone()).collect();
+        let (estimates, correlations) = self.uncertainty.estimates(&self.values, &fitted, &bounded);
+        Fit {
+            values: self.values,
+            estimates,
+            correlations,
+            // Every set is in a group.
+            sets: self.sets.into_iter().flatten().collect(),
+            groups: self.groups,
+            uncertainty: self.uncertainty,
+            untold: self.untold,
+        }
+    }
+}
+
+/// The parameters on which the data of a set depend.
+fn sensitive(sets: &[&DataSet]) -> Result<Vec<Parameter>, Error> {
+    let mut sizes = [0.0_f64; PARAMETERS];
+    for set in sets {
+        let responses = set.loading.responses(&TRIAL);
+        let responses = responses.map_err(|reason| Error::Evaluation(format!("data set {}: {reason}", set.name)))?;
+        for response in responses {
+            for (size, derivative) in sizes.iter_mut().zip(response.gradient) {
+                *size = size.max(derivative.abs());
+            }
+        }
+    }
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    Ok(ALL.into_iter().filter(|parameter| sizes[parameter.index()] > INSENSITIVE * largest).collect())
+}
+
+/// As many data as parameters, and one more where the noise is to be estimated.
+fn require_enough(sets: &[&DataSet], parameters: &[Parameter]) -> Result<(), Error> {
+    let data: usize = sets.iter().map(|set| set.len()).sum();
+    let estimated = sets.iter().any(|set| set.deviations.is_none());
+    let least = parameters.len() + usize::from(estimated);
+    if data >= least {
+        return Ok(());
+    }
+    let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name()).collect();
+    let sets: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+    Err(Error::Input(format!(
+        "data set {}: {data} points for {}; allowed: {least} or more",
+        sets.join(", "),
+        names.join(", ")
+    )))
+}
+
+/// No parameter may be made up for by others.
+fn require_independent(sets: &[&DataSet], solution: &Solution, free: &[Parameter]) -> Result<(), Error> {
+    if free.is_empty() {
+        return Ok(());
+    }
+    let columns: Vec<_> = free.iter().map(|p| solution.gradients.column(p.index()).normalize()).collect();
+    let decomposition = DMatrix::from_columns(&columns).svd(false, true);
+    let (least, Some(directions)) = (decomposition.singular_values.imin(), &decomposition.v_t) else { return Ok(()) };
+    if decomposition.singular_values[least] > DEPENDENT {
+        return Ok(());
+    }
+    let direction = directions.row(least);
+    let involved = free.iter().zip(direction.iter()).filter(|(_, part)| part.abs() > INVOLVED);
+    let names: Vec<&str> = involved.map(|(parameter, _)| parameter.name()).collect();
+    let sets: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
+    Err(Error::Input(format!(
+        "data set {}: the data tell only a combination of {}: a change of one is made up for by the others; allowed: give one of \
+         them in [yarn] properties, or add data in which they act apart",
+        sets.join(", "),
+        names.join(" and ")
+    )))
+}
+
+/// Least squares whose weights are the inverse variances: the known ones, and for other sets what the residuals show, estimated
+/// anew until they agree.
+fn reweighted(
+    sets: &[&DataSet],
+    parameters: &[Parameter],
+    start: &Values,
+) -> Result<(Solution, Vec<f64>, Vec<SetFit>), Error> {
+    let mut noise: Vec<f64> = sets.iter().map(|set| set.largest().max(f64::MIN_POSITIVE)).collect();
+    let mut start = *start;
+    for round in 0..REWEIGHTINGS {
+        let weights: Vec<f64> = sets.iter().zip(&noise).flat_map(|(set, &noise)| set.weights(noise)).collect();
+        let data = Weighted { sets, weights: &weights };
+        // After the first time the answer is near.
+        let minimise = if round == 0 { least_squares::minimise } else { least_squares::search };
+        let solution = minimise(data, parameters, &start).map_err(Error::Evaluation)?;
+        start = solution.values;
+        let leverages = leverages(&solution, &weights, parameters);
+        let (mut fits, mut first, mut change) = (Vec::new(), 0, 0.0_f64);
+        for (set, noise) in sets.iter().zip(&mut noise) {
+            let rows = first..first + set.len();
+            let residuals: Vec<f64> = rows.clone().map(|i| -solution.residuals[i]).collect();
+            let freedom = set.len() as f64 - rows.map(|i| leverages[i]).sum::<f64>();
+            if set.deviations.is_none() {
+                let squares: f64 = residuals.iter().map(|r| r * r).sum();
+                let estimate = (squares / freedom.max(f64::MIN_POSITIVE)).sqrt().max(LEAST_NOISE * set.largest());
+                change = change.max((estimate / *noise).ln().abs());
+                *noise = estimate;
+            }
+            let deviations = set.deviations.clone().unwrap_or_else(|| vec![*noise; set.len()]);
+            let freedom = if set.deviations.is_some() { f64::INFINITY } else { freedom };
+            fits.push(SetFit { residuals, deviations, freedom });
+            first += set.len();
+        }
+        // A set alone has the same answer whatever its noise.
+        if change < AGREED || sets.len() == 1 || round + 1 == REWEIGHTINGS {
+            let weights = sets.iter().zip(&noise).flat_map(|(set, &noise)| set.weights(noise)).collect();
+            return Ok((solution, weights, fits));
+        }
+    }
+    Err(Error::Evaluation("the noise of the data sets was never estimated".to_string()))
+}
+
+/// How much of each prediction its own datum decides.
+fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> Vec<f64> {
+    let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
+    if free.is_empty() {
+        return vec![0.0; weights.len()];
+    }
+    let columns = DMatrix::from_fn(weights.len(), free.len(), |row, column| {
+        weights[row].sqrt() * solution.gradients[(row, free[column].index())]
+    });
+    // Scaled, so that the sizes of the parameters do not matter.
+    let scaled: Vec<_> = columns.column_iter().map(|column| column.normalize()).collect();
+    let q = DMatrix::from_columns(&scaled).qr().q();
+    q.row_iter().map(|row| row.norm_squared()).collect()
+}
+
+impl DataSet {
+    /// The weights of the squares, with this noise where none is known.
+    fn weights(&self, noise: f64) -> Vec<f64> {
+        let of = |deviation: f64| self.weight / (deviation * deviation);
+        match &self.deviations {
+            Some(deviations) => deviations.iter().map(|&deviation| of(deviation)).collect(),
+            None => vec![of(noise); self.len()],
+        }
+    }
+}
