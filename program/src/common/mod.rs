@@ -2,6 +2,7 @@
 //! measured data.
 
 pub mod console;
+pub mod data_table;
 pub mod error;
 pub mod progress;
 pub mod toml_error;
