@@ -81,20 +81,44 @@ impl UnitSystem {
 
     /// Converts a value in SI units to the units of this system.
     pub fn from_si(&self, value: f64, dimension: Dimension) -> f64 {
+        Scale::SI.convert(value, &self.scale(dimension))
+    }
+
+    /// The unit of this dimension.
+    pub fn scale(&self, dimension: Dimension) -> Scale {
         let (mut exponent, mut factor) = (0, 1.0);
         for (base, power) in [(self.mass, dimension.mass), (self.length, dimension.length), (self.time, dimension.time)]
         {
             exponent += base.exponent * power;
             factor *= integer_power(base.factor, power);
         }
-        let scaled = value / factor;
-        let shift = integer_power(10.0, exponent.abs());
-        if exponent >= 0 { scaled / shift } else { scaled * shift }
+        Scale { exponent, factor }
     }
 
     /// The names of the units of length, mass and time.
     pub fn names(&self) -> [&'static str; 3] {
         [self.length.name, self.mass.name, self.time.name]
+    }
+}
+
+/// A unit of some dimension in SI units: `factor` · 10^`exponent`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    pub exponent: i32,
+    pub factor: f64,
+}
+
+impl Scale {
+    /// The unit of the SI.
+    pub const SI: Scale = Scale { exponent: 0, factor: 1.0 };
+
+    /// Converts a value in this unit to another one of the same dimension. Between equal units no bit changes, between units
+    /// that differ by a power of ten there is one rounding.
+    pub fn convert(&self, value: f64, to: &Scale) -> f64 {
+        let scaled = if self.factor == to.factor { value } else { value * self.factor / to.factor };
+        let exponent = to.exponent - self.exponent;
+        let shift = integer_power(10.0, exponent.abs());
+        if exponent >= 0 { scaled / shift } else { scaled * shift }
     }
 }
 

@@ -1,8 +1,11 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, names of units, files in TOML.
+//! What all commands share: errors and their exit codes, the console, progress bars, units, files in TOML, tables of
+//! measured data.
 
 pub mod console;
+pub mod data_table;
 pub mod error;
 pub mod progress;
 pub mod toml_error;
 pub mod toml_file;
+pub mod unit_expression;
 pub mod units;
