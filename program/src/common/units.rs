@@ -8,6 +8,7 @@ pub const ENERGY: Dimension = Dimension { mass: 1, length: 2, time: -2, name: "e
 /// Newton.
 pub const FORCE: Dimension = Dimension { mass: 1, length: 1, time: -2, name: "force" };
 
+pub const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0, name: "length" };
 pub const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1, name: "time" };
 /// A pressure by the depth of a contact.
 pub const CONTACT_STIFFNESS: Dimension = Dimension { mass: 1, length: -2, time: -2, name: "contact stiffness" };
@@ -36,6 +37,7 @@ pub fn unit(units: &UnitSystem, dimension: Dimension) -> String {
             .or_else(|| imperial(units, ["lbf", "lbf"]))
             .unwrap_or_else(|| format!("{mass} {length}/{time}²")),
         DENSITY => format!("{mass}/{length}³"),
+        LENGTH => length.to_string(),
         TIME => time.to_string(),
         SPEED => format!("{length}/{time}"),
         _ => dimension.name.to_string(),

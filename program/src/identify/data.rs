@@ -2,12 +2,17 @@
 
 use nalgebra::Matrix3;
 
-use super::parameter::{Parameter, Values};
+use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::path_response::PathResponse;
 use super::response::{Measured, Modes, Response};
+use crate::common::error::Error;
 
 /// The fibre direction of the prescribed states: the first axis.
 const FIBRE: [f64; 3] = [1.0, 0.0, 0.0];
+/// Parameters at which a set's derivatives show what it can tell: each has an influence.
+const TRIAL: Values = [1.0, 1.0, 2.2, 1.0, 1.0, 0.04, 1.0, 1.0];
+/// A derivative below this fraction of the largest is none.
+const INSENSITIVE: f64 = 1e-12;
 
 /// A curve: the state of each point, the value measured there, and how sure it is.
 #[derive(Clone, Debug)]
@@ -107,6 +112,26 @@ impl DataSet {
     /// How far a point is from rest, on the abscissa.
     pub fn distance(&self, point: usize) -> f64 {
         (self.abscissa.values[point] - self.rest).abs()
+    }
+
+    /// The parameters on which the data depend.
+    ///
+    /// # Errors
+    /// The law has no answer.
+    pub fn depends_on(&self) -> Result<Vec<Parameter>, Error> {
+        let trial = match &self.loading {
+            Loading::Path(path) => path.start(),
+            _ => TRIAL,
+        };
+        let refused = |reason| Error::Evaluation(format!("data set {}: {reason}", self.name));
+        let mut sizes = [0.0_f64; PARAMETERS];
+        for response in self.loading.responses(&trial).map_err(refused)? {
+            for ((size, derivative), value) in sizes.iter_mut().zip(response.gradient).zip(trial) {
+                *size = size.max((derivative * if value == 0.0 { 1.0 } else { value }).abs());
+            }
+        }
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        Ok(ALL.into_iter().filter(|parameter| sizes[parameter.index()] > INSENSITIVE * largest).collect())
     }
 
     /// The set of those points that are at most this far from rest.

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use super::data::{DataSet, Loading};
 use super::least_squares::{self, Solution, Weighted};
-use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::parameter::{PARAMETERS, Parameter, Values};
 use super::uncertainty::{Estimate, Source, Uncertainty};
 use crate::common::error::Error;
 
@@ -18,6 +18,8 @@ pub struct Problem {
     pub sets: Vec<DataSet>,
     /// Values that are given, and not fitted.
     pub known: [Option<f64>; PARAMETERS],
+    /// Values for what is neither given nor fitted.
+    pub fallback: [Option<f64>; PARAMETERS],
     /// What makes a known value uncertain: the derivative of each parameter by it, times its standard deviation.
     pub known_deviations: Vec<Values>,
     /// Where the search starts.
@@ -36,6 +38,7 @@ pub struct Fit {
     /// One for each set.
     pub sets: Vec<SetFit>,
     pub groups: Vec<Group>,
+    /// The errors of the estimates.
     pub uncertainty: Uncertainty,
     /// Parameters that a set should tell but does not.
     pub untold: Vec<(String, Parameter)>,
@@ -73,10 +76,6 @@ const LEAST_NOISE: f64 = 1e-10;
 const DEPENDENT: f64 = 1e-6;
 /// A parameter takes part in such a combination above this share.
 const INVOLVED: f64 = 0.1;
-/// A derivative below this fraction of the largest is none.
-const INSENSITIVE: f64 = 1e-12;
-/// Parameters at which a set's derivatives show what it can tell: each has an influence.
-const TRIAL: Values = [1.0, 1.0, 2.2, 1.0, 1.0, 0.04, 1.0, 1.0];
 
 impl Problem {
     /// The parameters, their intervals, and how the law meets the data.
@@ -191,7 +190,8 @@ impl<'a> State<'a> {
     fn require_the_rest(&mut self, sets: &[&DataSet], parameters: &[Parameter]) -> Result<(), Error> {
         for parameter in sensitive(sets)?.into_iter().filter(|parameter| !parameters.contains(parameter)) {
             let index = parameter.index();
-            self.values[index] = self.values[index].or(parameter.property().default);
+            let default = parameter.property().default;
+            self.values[index] = self.values[index].or(self.problem.fallback[index]).or(default);
             if self.values[index].is_none() {
                 return Err(Error::Input(format!(
                     "data set {} depends on {}, which no set tells before it; allowed: its value in [yarn] properties, \
@@ -222,20 +222,15 @@ impl<'a> State<'a> {
     }
 }
 
-/// The parameters on which the data of a set depend.
+/// The parameters on which data of these sets depend.
 fn sensitive(sets: &[&DataSet]) -> Result<Vec<Parameter>, Error> {
-    let mut sizes = [0.0_f64; PARAMETERS];
+    let mut parameters = Vec::new();
     for set in sets {
-        let responses = set.loading.responses(&TRIAL);
-        let responses = responses.map_err(|reason| Error::Evaluation(format!("data set {}: {reason}", set.name)))?;
-        for response in responses {
-            for (size, derivative) in sizes.iter_mut().zip(response.gradient) {
-                *size = size.max(derivative.abs());
-            }
-        }
+        parameters.extend(set.depends_on()?);
     }
-    let largest = sizes.iter().copied().fold(0.0, f64::max);
-    Ok(ALL.into_iter().filter(|parameter| sizes[parameter.index()] > INSENSITIVE * largest).collect())
+    parameters.sort_unstable();
+    parameters.dedup();
+    Ok(parameters)
 }
 
 /// As many data as parameters, and one more where the noise is to be estimated.

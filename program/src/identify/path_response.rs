@@ -41,6 +41,11 @@ impl PathResponse {
         &self.path.points[0].material
     }
 
+    /// The parameters of the path's own material, near which the answer is sought.
+    pub fn start(&self) -> Values {
+        std::array::from_fn(|i| self.material().values[i])
+    }
+
     pub fn subset(&self, keep: &[usize]) -> PathResponse {
         let fractions = keep.iter().map(|&i| self.fractions[i]).collect();
         let mut subset = PathResponse { fractions, ..self.clone() };

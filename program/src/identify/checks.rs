@@ -1,0 +1,90 @@
+//! Whether a measured curve can be what it is said to be: it rises from rest, and what is pressed or pulled resists.
+
+/// A curve falls, or is negative, where it does by more than this many times its noise: by chance that does not happen.
+const SURE: f64 = 8.0;
+/// From this number of points on the noise can be read off a curve.
+const ENOUGH: usize = 6;
+/// With fewer points, or without noise: what counts as none, over the largest value.
+const FEW: f64 = 0.1;
+const EXACT: f64 = 1e-6;
+/// The standard deviation of normally distributed numbers over the median of their sizes.
+const NORMAL: f64 = 1.4826;
+
+/// What is wrong with a curve, at the index of a point.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Flaw {
+    Negative(usize),
+    /// The point and the earlier one that it is far below.
+    Falls(usize, usize),
+}
+
+/// The first flaw of a curve over the distance from rest; `noise` is its standard deviation where that is known.
+pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Flaw> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| distances[a].total_cmp(&distances[b]));
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let rough = if values.len() < ENOUGH { FEW * largest } else { SURE * roughness(distances, values, &order) };
+    let tolerance = noise.map_or(rough, |noise| SURE * noise).max(EXACT * largest);
+    let mut highest = *order.first()?;
+    for point in order {
+        if values[point] < -tolerance {
+            return Some(Flaw::Negative(point));
+        }
+        if values[point] < values[highest] - tolerance {
+            return Some(Flaw::Falls(point, highest));
+        }
+        if values[point] > values[highest] {
+            highest = point;
+        }
+    }
+    None
+}
+
+/// The noise of a curve: how far its points are off the line between their neighbours.
+fn roughness(distances: &[f64], values: &[f64], order: &[usize]) -> f64 {
+    let deviation = |three: &[usize]| {
+        let [x, y, z] = [0, 1, 2].map(|i| distances[three[i]]);
+        let part = if z > x { (y - x) / (z - x) } else { 0.5 };
+        let between = (1.0 - part) * values[three[0]] + part * values[three[2]];
+        (values[three[1]] - between).abs() / (1.0 + part * part + (1.0 - part) * (1.0 - part)).sqrt()
+    };
+    let mut deviations: Vec<f64> = order.windows(3).map(deviation).collect();
+    deviations.sort_by(f64::total_cmp);
+    NORMAL * deviations[deviations.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(n: usize, of: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
+        let distances: Vec<f64> = (1..=n).map(|i| i as f64 / n as f64).collect();
+        let values = distances.iter().map(|&x| of(x)).collect();
+        (distances, values)
+    }
+
+    #[test]
+    fn a_rising_curve_has_no_flaw_with_or_without_noise() {
+        let (x, y) = curve(40, |x| x.powf(2.2));
+        assert_eq!(flaw(&x, &y, None), None);
+        let mut random = fastrand::Rng::with_seed(1);
+        for _ in 0..2000 {
+            let noisy: Vec<f64> =
+                y.iter().map(|y| y + 0.02 * (0..12).map(|_| random.f64() - 0.5).sum::<f64>()).collect();
+            assert_eq!(flaw(&x, &noisy, None), None);
+            assert_eq!(flaw(&x, &noisy, Some(0.02)), None);
+        }
+    }
+
+    #[test]
+    fn a_curve_that_falls_or_is_negative_is_named() {
+        let (x, y) = curve(40, |x| if x < 0.6 { x } else { 1.2 - x });
+        assert!(matches!(flaw(&x, &y, None), Some(Flaw::Falls(later, 23)) if later > 23));
+        let (x, y) = curve(40, |x| -x);
+        assert_eq!(flaw(&x, &y, None), Some(Flaw::Negative(0)));
+        let (x, y) = curve(3, |x| 1.0 - x);
+        assert!(matches!(flaw(&x, &y, None), Some(Flaw::Falls(1, 0))));
+        // Unloading in the file's order is sorted by distance first, and is then rough, not falling.
+        assert_eq!(flaw(&[], &[], None), None);
+    }
+}

@@ -1,0 +1,77 @@
+//! What a user has to know of a fit besides its numbers.
+
+use super::fit::{Fit, Problem};
+use super::parameter::{ALL, Parameter};
+
+/// An interval that reaches this far to one side, over the value, tells little.
+const WIDE: f64 = 0.5;
+/// Durbin and Watson's statistic of residuals without a pattern is near 2; below this it hardly ever is by chance.
+const PATTERN: f64 = 1.0;
+/// With fewer points it says nothing.
+const ENOUGH: usize = 10;
+/// Residuals below this fraction of the largest ordinate are rounding.
+const EXACT: f64 = 1e-6;
+
+/// The sentences, the gravest first.
+pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (set, parameter) in &fit.untold {
+        notes.push(format!("data set {set} says nothing of {}: {} would", parameter.name(), parameter.told_by()));
+    }
+    for parameter in ALL.into_iter().filter(|p| fit.values[p.index()].is_none() && p.property().default.is_none()) {
+        let name = parameter.name();
+        notes.push(match problem.fallback[parameter.index()] {
+            Some(_) => format!("nothing here tells {name}, which is that of the preset: {} would", parameter.told_by()),
+            None => format!("nothing here tells {name}: {} would; the preset lacks it", parameter.told_by()),
+        });
+    }
+    for estimate in &fit.estimates {
+        let name = estimate.parameter.name();
+        let reach = (estimate.high - estimate.value).max(estimate.value - estimate.low);
+        if estimate.bounded {
+            notes.push(format!("{name} is at the least value that the law allows: the data want less"));
+        } else if reach > WIDE * estimate.value.abs() {
+            notes.push(format!("the data hardly tell {name}: its interval is as wide as its value"));
+        }
+    }
+    for (set, fitted) in problem.sets.iter().zip(&fit.sets) {
+        let seen = fitted.residuals.iter().any(|r| r.abs() > EXACT * set.largest());
+        if seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i))) {
+            notes.push(format!(
+                "the residuals of {} are not noise: the law does not follow these data, or they were smoothed; the \
+                 intervals do not cover that",
+                set.name
+            ));
+        }
+    }
+    notes
+}
+
+/// Residuals by the distance from rest.
+fn order(residuals: &[f64], distance: impl Fn(usize) -> f64) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..residuals.len()).collect();
+    order.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+    order.into_iter().map(|i| residuals[i]).collect()
+}
+
+/// Whether neighbouring residuals are alike (Durbin and Watson).
+fn has_pattern(residuals: &[f64]) -> bool {
+    let squares: f64 = residuals.iter().map(|r| r * r).sum();
+    let changes: f64 = residuals.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+    residuals.len() >= ENOUGH && changes < PATTERN * squares
+}
+
+/// Pairs of parameters whose estimates move together, and how much.
+pub fn strong_correlations(fit: &Fit) -> Vec<(Parameter, Parameter, f64)> {
+    const STRONG: f64 = 0.9;
+    let mut pairs = Vec::new();
+    for (i, a) in fit.estimates.iter().enumerate() {
+        for (j, b) in fit.estimates.iter().enumerate().skip(i + 1) {
+            let correlation = fit.correlations[(i, j)];
+            if correlation.abs() > STRONG {
+                pairs.push((a.parameter, b.parameter, correlation));
+            }
+        }
+    }
+    pairs
+}

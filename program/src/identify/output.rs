@@ -1,0 +1,96 @@
+//! The files of a fit: the preset, the parameters with their intervals and correlations, and each set with its fit.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::data::DataSet;
+use super::file::Job;
+use super::fit::{Fit, SetFit};
+use super::parameter::ALL;
+use crate::common::error::Error;
+use crate::common::units::unit;
+use crate::material::preset::Preset;
+use toron::law::parameters::HYPERELASTIC;
+
+/// The preset with what has been fitted and what the base has; a comment for each property says where it comes from.
+pub fn preset(job: &Job, fit: &Fit) -> String {
+    let mut preset: Preset = job.preset.clone();
+    let mut comments: BTreeMap<&str, String> = BTreeMap::new();
+    for (index, property) in HYPERELASTIC.iter().enumerate() {
+        let of_base = job.base.as_ref().and_then(|base| base.value(index, &job.units));
+        if preset.values[index].is_some() {
+            continue;
+        }
+        let parameter = ALL.get(index).filter(|_| fit.values.get(index).is_some_and(Option::is_some));
+        if let Some(parameter) = parameter {
+            preset.values[index] = fit.values[index];
+            let estimate = fit.estimates.iter().find(|estimate| estimate.parameter == *parameter);
+            let interval = estimate.map(|e| format!("95 %: {} to {}", short(e.low), short(e.high)));
+            let note = interval.unwrap_or_else(|| match job.fibre {
+                Some(_) if job.problem.known[index].is_some() => "from the fibre".to_string(),
+                _ => "not fitted".to_string(),
+            });
+            comments.insert(property.name, note);
+        } else if let (Some(value), Some(base)) = (of_base, &job.base) {
+            preset.values[index] = Some(value);
+            comments.insert(property.name, format!("of {}: the data do not tell it", base.name));
+        }
+    }
+    preset.density = preset.density.or_else(|| job.base.as_ref().and_then(|base| base.density_in(&job.units)));
+    preset.to_toml(&comments)
+}
+
+fn short(value: f64) -> String {
+    format!("{:.5}", value).trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// A line for each parameter that has an interval: value, unit, standard error, ends, correlations.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> {
+    let names: Vec<&str> = fit.estimates.iter().map(|estimate| estimate.parameter.name()).collect();
+    let head = ["parameter", "value", "unit", "standard_error", "low_95", "high_95"].map(String::from);
+    let mut lines: Vec<Vec<String>> =
+        vec![head.into_iter().chain(names.iter().map(|name| format!("correlation_{name}"))).collect()];
+    for (row, estimate) in fit.estimates.iter().enumerate() {
+        let property = estimate.parameter.property();
+        let numbers = [estimate.error, estimate.low, estimate.high].map(|value| value.to_string());
+        let mut line = vec![property.name.to_string(), estimate.value.to_string(), unit(&job.units, property.dimension)];
+        line.extend(numbers);
+        line.extend(fit.correlations.row(row).iter().map(|value| format!("{value:.6}")));
+        lines.push(line);
+    }
+    write(file, &lines)
+}
+
+/// A line for each datum of a set.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_set(file: &Path, set: &DataSet, fitted: &SetFit) -> Result<(), Error> {
+    let (x, y) = (&set.abscissa, &set.ordinate);
+    let head = |name: &str, unit: &str| format!("{name} ({unit})");
+    let mut lines = vec![vec![
+        head(&x.name, &x.unit),
+        head(&y.name, &y.unit),
+        head("fit", &y.unit),
+        head("residual", &y.unit),
+        head("deviation", &y.unit),
+    ]];
+    for i in 0..set.len() {
+        let (measured, residual) = (y.values[i], fitted.residuals[i]);
+        let values = [x.values[i], measured, measured - residual, residual, fitted.deviations[i]];
+        lines.push(values.iter().map(f64::to_string).collect());
+    }
+    write(file, &lines)
+}
+
+fn write(file: &Path, lines: &[Vec<String>]) -> Result<(), Error> {
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
+    for line in lines {
+        writer.write_record(line).map_err(file_error)?;
+    }
+    writer.flush().map_err(|error| file_error(error.into()))
+}

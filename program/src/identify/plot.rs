@@ -1,0 +1,157 @@
+//! The plot of a fit: each set with its fit and its residuals, and the joint region of k_tc and p.
+
+use std::path::Path;
+
+use plotters::prelude::*;
+
+use super::data::{Axis, DataSet};
+use super::file::Job;
+use super::fit::{Fit, SetFit};
+use super::parameter::Parameter;
+use crate::common::error::Error;
+use crate::common::units::unit;
+use crate::picture::page::{self, Area, Drawn};
+use crate::picture::panel::{bounds, chart, tick};
+use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+
+const WIDTH: u32 = 1280;
+/// A row of panels.
+const ROW: u32 = 330;
+const HEAD: u32 = 84;
+/// The height of a panel's title and legend.
+const PANEL_HEAD: i32 = 62;
+const MARGIN: i32 = 70;
+/// Air around the data, over their range.
+const AIR: f64 = 0.06;
+const POINT: i32 = 3;
+
+/// Writes the plot; `border` is that of the joint region.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(svg: &Path, png: &Path, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Result<(), Error> {
+    let rows = job.problem.sets.len() as u32 + u32::from(border.is_some());
+    page::write(svg, png, [WIDTH, HEAD + ROW * rows], |root| draw(root, job, fit, border))
+}
+
+fn draw(root: &Area, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Drawn<()> {
+    root.draw_text(&job.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
+    root.draw_text("Data, fit and residuals, measured less fitted", &text(TEXT, &GREY), (fine(24), fine(50)))?;
+    let (_, body) = root.split_vertically(fine(HEAD as i32));
+    let rows = body.split_evenly((job.problem.sets.len() + usize::from(border.is_some()), 1));
+    for ((set, fitted), row) in job.problem.sets.iter().zip(&fit.sets).zip(&rows) {
+        let (left, right) = row.split_horizontally(fine(WIDTH as i32 / 2));
+        draw_set(&left, set, fitted)?;
+        draw_residuals(&right, set, fitted)?;
+    }
+    if let (Some(border), Some(row)) = (border, rows.last()) {
+        let (left, _) = row.split_horizontally(fine(WIDTH as i32 / 2));
+        draw_region(&left, job, fit, border)?;
+    }
+    Ok(())
+}
+
+/// A panel's title, and axes for these values below it.
+struct Frame<'a> {
+    title: String,
+    /// Marks and names of the legend.
+    legend: &'a [(RGBColor, &'a str)],
+    x: (f64, f64),
+    y: (f64, f64),
+    x_name: String,
+}
+
+type Plane<'a> = ChartContext<
+    'a,
+    &'a mut crate::picture::sheet::Sheet,
+    Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
+>;
+
+impl Frame<'_> {
+    fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Plane<'a>> {
+        let (head, body) = area.split_vertically(fine(PANEL_HEAD));
+        head.draw_text(&self.title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
+        let style = text(TEXT, &INK);
+        let mut x = fine(MARGIN);
+        for (colour, name) in self.legend {
+            head.draw(&Circle::new((x + fine(6), fine(45)), fine(4), colour.filled()))?;
+            head.draw_text(name, &style, (x + fine(16), fine(38)))?;
+            x += head.estimate_text_size(name, &style)?.0 as i32 + fine(16 + 24);
+        }
+        let [(left, right), (low, high)] = [self.x, self.y].map(|(low, high)| {
+            let air = AIR * (high - low);
+            (low - air, high + air)
+        });
+        let x_label = |x: &f64| tick(*x, right - left);
+        let y_label = |y: &f64| tick(*y, high - low);
+        chart(&body, left..right, low..high, &self.x_name, [&x_label, &y_label])
+    }
+}
+
+fn named(axis: &Axis) -> String {
+    if axis.unit == "-" { axis.name.clone() } else { format!("{} ({})", axis.name, axis.unit) }
+}
+
+/// Indices by the abscissa, for a line from left to right.
+fn sorted(set: &DataSet) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..set.len()).collect();
+    order.sort_by(|&a, &b| set.abscissa.values[a].total_cmp(&set.abscissa.values[b]));
+    order
+}
+
+fn draw_set(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
+    let (x, y) = (&set.abscissa.values, &set.ordinate.values);
+    let fit = |i: usize| y[i] - fitted.residuals[i];
+    let all: Vec<f64> = y.iter().copied().chain((0..set.len()).map(fit)).chain([0.0]).collect();
+    let frame = Frame {
+        title: format!("{}: {}", set.name, named(&set.ordinate)),
+        legend: &[(COLOURS[0], "measured"), (COLOURS[1], "fit")],
+        x: bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>()),
+        y: bounds(&all),
+        x_name: named(&set.abscissa),
+    };
+    let mut chart = frame.draw(area)?;
+    chart.draw_series((0..set.len()).map(|i| Circle::new((x[i], y[i]), fine(POINT), COLOURS[0].filled())))?;
+    chart.draw_series(LineSeries::new(sorted(set).into_iter().map(|i| (x[i], fit(i))), stroke(COLOURS[1], 2)))?;
+    Ok(())
+}
+
+fn draw_residuals(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
+    let x = &set.abscissa.values;
+    let largest = set.largest();
+    let shares: Vec<f64> = fitted.residuals.iter().map(|r| 100.0 * r / largest).collect();
+    let size = shares.iter().fold(f64::MIN_POSITIVE, |size: f64, share| size.max(share.abs()));
+    let size = if size > 1e-9 { size } else { 1e-9 };
+    let frame = Frame {
+        title: format!("{}: residuals (% of the largest)", set.name),
+        legend: &[],
+        x: bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>()),
+        y: (-size, size),
+        x_name: named(&set.abscissa),
+    };
+    let mut chart = frame.draw(area)?;
+    let ends = bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>());
+    chart.draw_series(LineSeries::new([(ends.0, 0.0), (ends.1, 0.0)], stroke(GREY, 1)))?;
+    chart.draw_series((0..set.len()).map(|i| Circle::new((x[i], shares[i]), fine(POINT), COLOURS[0].filled())))?;
+    Ok(())
+}
+
+/// The joint region, and the rectangle of the single intervals.
+fn draw_region(area: &Area, job: &Job, fit: &Fit, border: &[[f64; 2]]) -> Drawn<()> {
+    let of = |parameter| fit.estimates.iter().find(|estimate| estimate.parameter == parameter);
+    let (Some(k_tc), Some(p)) = (of(Parameter::KTc), of(Parameter::P)) else { return Ok(()) };
+    let axis = |i: usize, more: [f64; 2]| bounds(&border.iter().map(|pair| pair[i]).chain(more).collect::<Vec<_>>());
+    let frame = Frame {
+        title: "k_tc and p: joint 95 % region".to_string(),
+        legend: &[(COLOURS[1], "joint region"), (GREY, "single intervals")],
+        x: axis(1, [p.low, p.high]),
+        y: axis(0, [k_tc.low, k_tc.high]),
+        x_name: format!("p; ordinate k_tc ({})", unit(&job.units, Parameter::KTc.property().dimension)),
+    };
+    let mut chart = frame.draw(area)?;
+    let corners = [(p.low, k_tc.low), (p.high, k_tc.low), (p.high, k_tc.high), (p.low, k_tc.high), (p.low, k_tc.low)];
+    chart.draw_series(LineSeries::new(corners, stroke(GREY, 1)))?;
+    chart.draw_series(LineSeries::new(border.iter().map(|pair| (pair[1], pair[0])), stroke(COLOURS[1], 3)))?;
+    chart.draw_series([Circle::new((p.value, k_tc.value), fine(POINT), COLOURS[1].filled())])?;
+    Ok(())
+}

@@ -1,0 +1,391 @@
+//! Data sets from their files: columns with units, the range that is fitted, and what is wrong with the data, by file, line and
+//! column.
+
+use std::path::Path;
+
+use nalgebra::Matrix3;
+use toml::Spanned;
+
+use super::checks::{self, Flaw};
+use super::data::{Axis, DataSet, Loading};
+use super::file::{DataFile, DeviationFile, LoadingName};
+use super::parameter::{PARAMETERS, Parameter};
+use super::path_file;
+use super::quantities::{COMPACTED, DISTORTED, FAILED_AT, Invariant, Simple};
+use crate::common::data_table::DataTable;
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use crate::common::units::unit;
+use toron::host::units::UnitSystem;
+use toron::law::parameters::{Dimension, NUMBER};
+
+/// What the data sets of a file have in common.
+pub struct Reader<'a> {
+    pub source: &'a Source<'a>,
+    /// In which their files are.
+    pub folder: &'a Path,
+    pub units: &'a UnitSystem,
+    pub known: &'a [Option<f64>; PARAMETERS],
+}
+
+/// A column in use: its name in the file, its values in the units of the fit.
+pub(super) struct Values {
+    pub column: String,
+    pub values: Vec<f64>,
+}
+
+impl Reader<'_> {
+    /// All data sets. `fibre` says whether the fibre's constants are given as well.
+    ///
+    /// # Errors
+    /// An input error that names file, line and, in the data, column.
+    pub(super) fn sets(&self, files: &[Spanned<DataFile>], fibre: bool) -> Result<Vec<DataSet>, Error> {
+        let mut sets = Vec::new();
+        for (number, file) in (1..).zip(files) {
+            let set = self.set(number, file)?;
+            if sets.iter().any(|other: &DataSet| other.name == set.name) {
+                let message = format!("data set \"{}\" is there twice; allowed: a name of its own for each", set.name);
+                return Err(self.source.error(file.span(), &message));
+            }
+            sets.push(set);
+        }
+        self.choose_fits(files, &mut sets)?;
+        if fibre
+            && let Some(index) = sets.iter().position(|set| set.fits.contains(&Parameter::KEl))
+            && files[index].get_ref().fits.is_none()
+        {
+            let message = format!(
+                "data set \"{}\" and [fibre] both tell k_el; allowed: one of them, or k_el among the data set's fits, which \
+                 then counts",
+                sets[index].name
+            );
+            return Err(self.source.error(files[index].span(), &message));
+        }
+        Ok(sets)
+    }
+
+    fn set(&self, number: usize, file: &Spanned<DataFile>) -> Result<DataSet, Error> {
+        let (span, file) = (file.span(), file.get_ref());
+        let table = DataTable::read(&self.folder.join(file.file.get_ref()))?;
+        let name = file.name.as_ref().map_or_else(|| format!("data-{number}"), |name| name.get_ref().clone());
+        let mut set = match (&file.loading, &file.path) {
+            (Some(loading), None) => match loading.get_ref() {
+                LoadingName::Elongation => self.simple(Simple::Elongation, file, &table)?,
+                LoadingName::Compaction => self.simple(Simple::Compaction, file, &table)?,
+                LoadingName::Compression => self.simple(Simple::Compression, file, &table)?,
+                LoadingName::Failure => self.failure(file, &table)?,
+            },
+            (None, Some(path)) => path_file::set(self, path, file, &table)?,
+            _ => {
+                let message = format!("data set \"{name}\": allowed: loading or path, one of the two");
+                return Err(self.source.error(span, &message));
+            }
+        };
+        set.name = name;
+        if let Some(weight) = &file.weight {
+            set.weight = self.source.positive("weight", *weight.get_ref(), weight.span())?;
+        }
+        Ok(set)
+    }
+
+    /// A specimen that deforms as a whole in a known way.
+    fn simple(&self, loading: Simple, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
+        let abscissae: Vec<_> = loading.abscissae().iter().map(|known| known.name).collect();
+        let ordinates: Vec<_> = loading.ordinates().iter().map(|known| known.name).collect();
+        let abscissa = &loading.abscissae()[self.choice("abscissa", file, &file.abscissa, &abscissae, table)?];
+        let ordinate = &loading.ordinates()[self.choice("ordinate", file, &file.ordinate, &ordinates, table)?];
+        let x = self.column(file, table, abscissa.name, abscissa.dimension)?;
+        let y = self.column(file, table, ordinate.name, ordinate.dimension)?;
+        let length = self.given("length", &file.length, abscissa.dimension == crate::common::units::LENGTH, file)?;
+        let area = self.given("area", &file.area, ordinate.dimension == crate::common::units::FORCE, file)?;
+        let rows = self.rows(file, table, &x.values)?;
+        let mut states: Vec<Matrix3<f64>> = Vec::new();
+        for &row in &rows {
+            let stretch = (abscissa.stretch)(x.values[row], length);
+            if !loading.allows(stretch) {
+                return Err(wrong(table, &x.column, row, abscissa.allowed));
+            }
+            states.push(loading.gradient(stretch));
+        }
+        let deviations = self.deviations(file, table, &rows, ordinate.dimension)?;
+        let set = self.assemble(
+            Loading::Prescribed { states, measured: (ordinate.measured)(area) },
+            [(abscissa.name, abscissa.dimension), (ordinate.name, ordinate.dimension)],
+            abscissa.rest,
+            [&x, &y],
+            &rows,
+            deviations,
+        );
+        self.check(&set, table, &y.column, &rows)?;
+        Ok(set)
+    }
+
+    /// Strains at failure at some compactions and distortions.
+    fn failure(&self, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
+        let (y, at) = self.invariants(file, table, &FAILED_AT)?.ok_or_else(|| {
+            let names: Vec<&str> = FAILED_AT.iter().map(|known| known.name).collect();
+            self.source.error(file.file.span(), &format!("{}: no column of the strain at failure; allowed: {}", table.name, names.join(", ")))
+        })?;
+        let none = |table: &DataTable| vec![0.0; table.columns[0].values.len()];
+        let compacted = self.invariants(file, table, &COMPACTED)?;
+        let distorted = self.invariants(file, table, &DISTORTED)?;
+        let compaction = compacted.as_ref().map_or_else(|| none(table), |(_, values)| values.clone());
+        let distortion = distorted.as_ref().map_or_else(|| none(table), |(_, values)| values.clone());
+        let rows = self.rows(file, table, &compaction)?;
+        let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+        // The standard deviation of a strain is that of its logarithm times 1 + strain.
+        let slope = |row: usize| match y.name {
+            "strain" => 1.0 / (1.0 + y.values.values[row]),
+            "stretch" => 1.0 / y.values.values[row],
+            _ => 1.0,
+        };
+        let deviations = self.deviations(file, table, &rows, NUMBER)?;
+        let deviations = deviations.map(|d| d.iter().zip(&rows).map(|(d, &row)| d * slope(row)).collect());
+        let (name, over) = if compaction.iter().any(|&c| c != 0.0) || distorted.is_none() {
+            ("−I_tc", &compaction)
+        } else {
+            ("I_td", &distortion)
+        };
+        let axis = |name: &str, values| Axis { name: name.to_string(), unit: "-".to_string(), values };
+        Ok(DataSet {
+            name: String::new(),
+            abscissa: axis(name, pick(over)),
+            ordinate: axis("I_el at failure", pick(&at)),
+            rest: 0.0,
+            loading: Loading::Failure { compaction: pick(&compaction), distortion: pick(&distortion) },
+            deviations,
+            weight: 1.0,
+            fits: Vec::new(),
+        })
+    }
+
+    /// The first of these invariants that the file has, checked.
+    fn invariants(
+        &self,
+        file: &DataFile,
+        table: &DataTable,
+        known: &'static [Invariant],
+    ) -> Result<Option<(FailureColumn, Vec<f64>)>, Error> {
+        let Some(invariant) = known.iter().find(|known| self.has(file, table, known.name)) else { return Ok(None) };
+        let values = self.column(file, table, invariant.name, NUMBER)?;
+        let mut invariants = Vec::new();
+        for (row, &value) in values.values.iter().enumerate() {
+            let of = (invariant.of)(value);
+            let strict = std::ptr::eq(known, &FAILED_AT[..]);
+            if !of.is_finite() || of < 0.0 || (strict && of == 0.0) {
+                return Err(wrong(table, &values.column, row, invariant.allowed));
+            }
+            invariants.push(of);
+        }
+        Ok(Some((FailureColumn { name: invariant.name, values }, invariants)))
+    }
+
+    /// The quantity that the file names, or else the first one of the known that is among the columns.
+    fn choice(
+        &self,
+        key: &str,
+        file: &DataFile,
+        named: &Option<Spanned<String>>,
+        known: &[&'static str],
+        table: &DataTable,
+    ) -> Result<usize, Error> {
+        if let Some(name) = named {
+            return known.iter().position(|known| known == name.get_ref()).ok_or_else(|| {
+                let message = format!("{key} is \"{}\"; allowed with this loading: {}", name.get_ref(), known.join(", "));
+                self.source.error(name.span(), &message)
+            });
+        }
+        known.iter().position(|known| self.has(file, table, known)).ok_or_else(|| {
+            let columns: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
+            let message = format!(
+                "{} has the columns {}, none of which is an {key} of this loading; allowed: {}, or columns = {{ {} = \"name in \
+                 the file\" }}",
+                table.name,
+                columns.join(", "),
+                known.join(", "),
+                known[0]
+            );
+            self.source.error(file.file.span(), &message)
+        })
+    }
+
+    fn has(&self, file: &DataFile, table: &DataTable, quantity: &str) -> bool {
+        file.columns.iter().any(|(key, _)| key.get_ref() == quantity)
+            || table.columns.iter().any(|column| column.name == quantity)
+    }
+
+    /// The column that holds a quantity: the one that `columns` names, or the one of the same name.
+    pub(super) fn column(
+        &self,
+        file: &DataFile,
+        table: &DataTable,
+        quantity: &str,
+        dimension: Dimension,
+    ) -> Result<Values, Error> {
+        let mapped = file.columns.iter().find(|(key, _)| key.get_ref() == quantity);
+        let column = mapped.map_or(quantity, |(_, name)| name.get_ref().as_str());
+        let values = table.values(column, dimension, self.units)?;
+        Ok(Values { column: column.to_string(), values })
+    }
+
+    /// A length or an area that a quantity needs.
+    fn given(&self, key: &str, value: &Option<Spanned<f64>>, needed: bool, file: &DataFile) -> Result<f64, Error> {
+        match value {
+            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            None if !needed => Ok(1.0),
+            None => {
+                let message = format!("{key} is missing: that of the specimen at rest; allowed: a finite number > 0");
+                Err(self.source.error(file.file.span(), &message))
+            }
+        }
+    }
+
+    /// The rows in the range that is fitted.
+    pub(super) fn rows(&self, file: &DataFile, table: &DataTable, abscissae: &[f64]) -> Result<Vec<usize>, Error> {
+        let all = 0..abscissae.len();
+        let Some(range) = &file.range else { return Ok(all.collect()) };
+        let [from, to] = range.get_ref().0;
+        let rows: Vec<usize> = all.filter(|&row| from <= abscissae[row] && abscissae[row] <= to).collect();
+        if rows.is_empty() {
+            let message = format!("range is [{from}, {to}]; no line of {} is in it", table.name);
+            return Err(self.source.error(range.span(), &message));
+        }
+        Ok(rows)
+    }
+
+    /// The standard deviations of the ordinates in these rows.
+    pub(super) fn deviations(
+        &self,
+        file: &DataFile,
+        table: &DataTable,
+        rows: &[usize],
+        dimension: Dimension,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let Some(deviation) = &file.deviation else { return Ok(None) };
+        match deviation.get_ref() {
+            DeviationFile::Number(value) => {
+                let value = self.source.positive("deviation", *value, deviation.span())?;
+                Ok(Some(vec![value; rows.len()]))
+            }
+            DeviationFile::Column(name) => {
+                let values = table.values(name, dimension, self.units)?;
+                let bad = rows.iter().find(|&&row| values[row] <= 0.0);
+                match bad {
+                    Some(&row) => Err(wrong(table, name, row, "a number > 0: a standard deviation")),
+                    None => Ok(Some(rows.iter().map(|&row| values[row]).collect())),
+                }
+            }
+        }
+    }
+
+    /// A set out of its columns.
+    pub(super) fn assemble(
+        &self,
+        loading: Loading,
+        names: [(&str, Dimension); 2],
+        rest: f64,
+        columns: [&Values; 2],
+        rows: &[usize],
+        deviations: Option<Vec<f64>>,
+    ) -> DataSet {
+        let axis = |i: usize| Axis {
+            name: names[i].0.to_string(),
+            unit: unit(self.units, names[i].1),
+            values: rows.iter().map(|&row| columns[i].values[row]).collect(),
+        };
+        DataSet {
+            name: String::new(),
+            loading,
+            abscissa: axis(0),
+            ordinate: axis(1),
+            rest,
+            deviations,
+            weight: 1.0,
+            fits: Vec::new(),
+        }
+    }
+
+    /// Whether the ordinates rise from rest.
+    fn check(&self, set: &DataSet, table: &DataTable, column: &str, rows: &[usize]) -> Result<(), Error> {
+        let distances: Vec<f64> = (0..set.len()).map(|i| set.distance(i)).collect();
+        let noise = set.deviations.as_ref().map(|deviations| deviations.iter().copied().fold(0.0, f64::max));
+        if set.largest() == 0.0 {
+            return Err(wrong(table, column, rows[0], "values that are not all 0"));
+        }
+        match checks::flaw(&distances, &set.ordinate.values, noise) {
+            None => Ok(()),
+            Some(Flaw::Negative(point)) => {
+                Err(wrong(table, column, rows[point], "a value >= 0: tension, or pressure where it is pressed"))
+            }
+            Some(Flaw::Falls(point, before)) => {
+                let line = cell(table, column, rows[before]).0;
+                let allowed = format!(
+                    "no less than before within the noise, which line {line} has: an elastic {} rises from rest on; leave \
+                     out unloading and failure by range",
+                    set.ordinate.name
+                );
+                Err(wrong(table, column, rows[point], &allowed))
+            }
+        }
+    }
+
+    /// What each set tells: as the file says, or what its loading tells and nothing else does.
+    fn choose_fits(&self, files: &[Spanned<DataFile>], sets: &mut [DataSet]) -> Result<(), Error> {
+        let compaction = |file: &Spanned<DataFile>| {
+            file.get_ref().loading.as_ref().is_some_and(|loading| *loading.get_ref() == LoadingName::Compaction)
+        };
+        let compacted = files.iter().any(compaction);
+        for (file, set) in files.iter().zip(sets) {
+            let file = file.get_ref();
+            if let Some(names) = &file.fits {
+                set.fits = names.iter().map(|name| self.parameter(name)).collect::<Result<_, _>>()?;
+                continue;
+            }
+            let told: &[Parameter] = match file.loading.as_ref().map(|loading| *loading.get_ref()) {
+                Some(LoadingName::Elongation) => &[Parameter::KEl],
+                Some(LoadingName::Compaction) => &[Parameter::KTc, Parameter::P],
+                Some(LoadingName::Compression) if compacted => &[Parameter::KTd],
+                Some(LoadingName::Compression) => &[Parameter::KTc, Parameter::P, Parameter::KTd],
+                Some(LoadingName::Failure) => &[Parameter::EpsLim, Parameter::Alpha, Parameter::Beta],
+                None => &[Parameter::KEl, Parameter::KTc, Parameter::P, Parameter::KTd, Parameter::KLd],
+            };
+            // What is given is not fitted; what the data do not depend on is no claim of theirs.
+            let open = |parameter: &Parameter| told.contains(parameter) && self.known[parameter.index()].is_none();
+            set.fits = set.depends_on()?.into_iter().filter(open).collect();
+        }
+        Ok(())
+    }
+
+    fn parameter(&self, name: &Spanned<String>) -> Result<Parameter, Error> {
+        let parameter = Parameter::named(name.get_ref()).ok_or_else(|| {
+            let known: Vec<&str> = super::parameter::ALL.iter().map(|parameter| parameter.name()).collect();
+            self.source.error(name.span(), &format!("fits \"{}\"; allowed: {}", name.get_ref(), known.join(" ")))
+        })?;
+        if self.known[parameter.index()].is_some() {
+            let message = format!("{} is given in [yarn] properties; allowed there or among the fits, not both", parameter.name());
+            return Err(self.source.error(name.span(), &message));
+        }
+        Ok(parameter)
+    }
+}
+
+/// A column of failure points.
+struct FailureColumn {
+    name: &'static str,
+    values: Values,
+}
+
+/// The error of a value, in the words of its file: value and unit as they stand there.
+pub(super) fn wrong(table: &DataTable, column: &str, row: usize, allowed: &str) -> Error {
+    let (line, number, value) = cell(table, column, row);
+    table.error(line, number, &format!("the value is {value}; allowed: {allowed}"))
+}
+
+/// Line, column and text of a value.
+fn cell(table: &DataTable, column: &str, row: usize) -> (usize, usize, String) {
+    let found = table.columns.iter().find(|known| known.name == column);
+    found.map_or((0, 0, String::new()), |column| {
+        let cell = column.values[row];
+        (cell.line, cell.column, format!("{} {}", cell.value, column.unit.text))
+    })
+}

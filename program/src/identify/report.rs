@@ -1,0 +1,140 @@
+//! The summary of a fit on the terminal.
+
+use super::file::Job;
+use super::fit::{Fit, Problem, SetFit};
+use super::notes;
+use super::parameter::{ALL, Parameter};
+use super::ranges::{self, PARTS};
+use super::uncertainty::Estimate;
+use crate::common::units::{number, unit};
+use toron::law::parameters::NUMBER;
+
+/// The width of the names.
+const NAMES: usize = 14;
+/// The text of a line is broken before this column.
+const WIDTH: usize = 110;
+
+/// The parameters, their intervals, the sets and what else there is to say.
+pub fn report(job: &Job, fit: &Fit) -> String {
+    let mut text = format!("{}\n", job.title);
+    for parameter in ALL {
+        text += &line(parameter.name(), &value(job, fit, parameter));
+    }
+    for (a, b, correlation) in notes::strong_correlations(fit) {
+        let meaning = "they are sure together, less so one by one";
+        text += &line("correlation", &format!("{} and {}: {correlation:.3}; {meaning}", a.name(), b.name()));
+    }
+    for (set, fitted) in job.problem.sets.iter().zip(&fit.sets) {
+        text += &line(&set.name, &quality(set.ordinate.unit.as_str(), set.largest(), fitted));
+    }
+    text += &by_range(&job.problem, fit);
+    for note in notes::notes(&job.problem, fit) {
+        text += &line("note", &note);
+    }
+    text
+}
+
+/// A name and a text in lines that a terminal holds.
+pub fn line(name: &str, text: &str) -> String {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let last = lines.len() - 1;
+        if NAMES + lines[last].chars().count() + word.chars().count() > WIDTH {
+            lines.push(String::new());
+        }
+        let last = lines.len() - 1;
+        lines[last] += &format!("{word} ");
+    }
+    let name = |i: usize| if i == 0 { name } else { "" };
+    lines.iter().enumerate().map(|(i, text)| format!("  {:<NAMES$} {}\n", name(i), text.trim_end())).collect()
+}
+
+/// A parameter's value, its interval or where it comes from.
+fn value(job: &Job, fit: &Fit, parameter: Parameter) -> String {
+    let index = parameter.index();
+    let unit = match unit(&job.units, parameter.property().dimension) {
+        unit if parameter.property().dimension == NUMBER => unit.replace('-', ""),
+        unit => format!(" {unit}"),
+    };
+    if let Some(estimate) = fit.estimates.iter().find(|estimate| estimate.parameter == parameter) {
+        return format!("{}{unit}, {}{}", digits(estimate.value), interval(estimate), origin(job, fit, parameter));
+    }
+    let (value, origin) = match (fit.values[index], job.preset.values[index], job.problem.fallback[index]) {
+        (Some(value), Some(_), _) => (value, ", given".to_string()),
+        (Some(value), None, _) if job.problem.known[index].is_some() => (value, origin(job, fit, parameter)),
+        (_, _, Some(value)) => (value, format!(", of the preset {}", base_name(job))),
+        (_, _, None) => match parameter.property().default {
+            Some(default) => (default, ", the default".to_string()),
+            None => return "not told by these data, and not given".to_string(),
+        },
+    };
+    format!("{}{unit}{origin}", digits(value))
+}
+
+fn base_name(job: &Job) -> &str {
+    job.base.as_ref().map_or("", |base| base.name.as_str())
+}
+
+fn interval(estimate: &Estimate) -> String {
+    format!("95 %: {} to {}", digits(estimate.low), digits(estimate.high))
+}
+
+/// The sets that tell a parameter, or the fibre.
+fn origin(job: &Job, fit: &Fit, parameter: Parameter) -> String {
+    if let Some(group) = fit.groups.iter().find(|group| group.parameters.contains(&parameter)) {
+        let names: Vec<&str> = group.sets.iter().map(|&set| job.problem.sets[set].name.as_str()).collect();
+        return format!(", from {}", names.join(", "));
+    }
+    match (&job.fibre, parameter) {
+        (Some(fibre), Parameter::KEl) => format!(
+            ", from the fibre: the energies of both laws agree within {:.1} % of that at failure",
+            100.0 * fibre.misfit()
+        ),
+        (Some(_), Parameter::EpsLim) => ", from the fibre".to_string(),
+        _ => String::new(),
+    }
+}
+
+/// How the law meets a set.
+fn quality(unit: &str, largest: f64, fitted: &SetFit) -> String {
+    let count = fitted.residuals.len();
+    let mean_square = fitted.residuals.iter().map(|r| r * r).sum::<f64>() / count as f64;
+    let share = 100.0 * mean_square.sqrt() / largest;
+    let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
+    let size = format!("{count} points, residuals {}{unit} (root mean square), {share:.2} % of the largest", number(mean_square.sqrt()));
+    if fitted.freedom.is_finite() {
+        return size;
+    }
+    let squares = fitted.residuals.iter().zip(&fitted.deviations).map(|(r, d)| (r / d).powi(2)).sum::<f64>();
+    format!("{size}; {:.2} of the deviations that are given", (squares / count as f64).sqrt())
+}
+
+/// The fitted parameters when only a part of the range is used.
+fn by_range(problem: &Problem, fit: &Fit) -> String {
+    let fitted: Vec<Parameter> = fit.groups.iter().flat_map(|group| group.parameters.clone()).collect();
+    if fitted.is_empty() {
+        return String::new();
+    }
+    let mut text = String::new();
+    for (part, of_part) in PARTS.into_iter().zip(ranges::by_range(problem)) {
+        let name = format!("to {:.0} %", 100.0 * part);
+        let values = |fit: Fit| {
+            let one = |p: &Parameter| format!("{} {}", p.name(), fit.values[p.index()].map_or("-".to_string(), digits));
+            fitted.iter().map(one).collect::<Vec<_>>().join(", ")
+        };
+        let missing = || "the data that are left do not suffice".to_string();
+        text += &line(&name, &format!("of the range: {}", of_part.map_or_else(missing, values)));
+    }
+    text
+}
+
+/// Five significant digits.
+fn digits(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || (1e-4..1e7).contains(&size) {
+        let decimals = if value == 0.0 { 0 } else { (4 - size.log10().floor() as i32).max(0) as usize };
+        let text = format!("{value:.decimals$}");
+        return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text };
+    }
+    format!("{value:.4e}")
+}
