@@ -18,4 +18,5 @@ mod impact;
 mod load_paths;
 mod newton;
 mod parallel;
+mod presets;
 mod yarn_between_plates;
