@@ -8,8 +8,8 @@
 //! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties, presets and decks (`toron params`): [`params`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
-//! - what they share: materials and how files describe them in [`material`], the calls of the C interface in [`entries`],
-//!   drawing in [`picture`], errors, units and TOML files in [`common`].
+//! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
+//!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].
 
 pub mod bench;
 pub mod common;

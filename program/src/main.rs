@@ -29,10 +29,11 @@ enum Command {
     },
     /// Print the tables of properties and state variables, the presets, or a preset as a deck.
     Params {
-        /// Unit system, for instance mm-tonne-s; without it, si.
+        /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
         #[arg(long)]
         units: Option<String>,
-        /// Print this preset, ready for LS-DYNA and Abaqus decks.
+        /// Print this preset, ready for LS-DYNA and Abaqus decks: a name, or a file of your own, as my-yarn.toml (see
+        /// docs/load-paths.md).
         #[arg(long)]
         preset: Option<String>,
     },

@@ -1,38 +1,35 @@
 //! `toron params`: the tables of properties and state variables, the presets, and a preset as a deck.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::material::model::deletion_variable;
-use toron::Hyperelastic;
+use crate::material::preset::{LawName, Preset};
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{
-    self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Preset, Property,
-};
+use toron::law::parameters::{DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Property};
 use toron::law::state::{self, StateVariable};
+use toron::{Hyperelastic, LinearElastic};
 
 /// The text of `toron --version`.
 pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }
 
-/// Prints the tables; or, given a preset's name, its values for the decks of both hosts.
+/// Prints the tables; or, given a preset by name or file, its values for the decks of both hosts.
 ///
 /// # Errors
-/// An unknown preset or unit system.
+/// An unknown preset or unit system; a file of a preset that is wrong, or not enough for a deck.
 pub fn print_tables(units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
-    let units = units.map_or(Ok(UnitSystem::SI), unit_system)?;
+    let units = units.map(unit_system).transpose()?;
     let text = match preset {
-        None => tables(&units),
+        None => tables(&units.unwrap_or(UnitSystem::SI))?,
         Some(name) => {
-            let preset = parameters::preset(name).ok_or_else(|| {
-                let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-                Error::Input(format!("--preset {name}; allowed: {}", known.join(", ")))
-            })?;
-            deck(preset, &units)
+            let preset = Preset::find(name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?;
+            deck(&preset, &units.unwrap_or(preset.units))?
         }
     };
     print(&text);
@@ -44,7 +41,7 @@ fn unit_system(name: &str) -> Result<UnitSystem, Error> {
 }
 
 /// Both laws' properties and state variables, and the presets.
-fn tables(units: &UnitSystem) -> String {
+fn tables(units: &UnitSystem) -> Result<String, Error> {
     let mut text = String::new();
     let laws: [(&str, &[Property], &[StateVariable]); 2] = [
         ("Hyperelastic yarn law", &HYPERELASTIC, &state::HYPERELASTIC),
@@ -54,10 +51,12 @@ fn tables(units: &UnitSystem) -> String {
         text += &format!("{name}: properties\n{}\n", property_table(properties, units));
         text += &format!("{name}: state variables, all 0 at the start\n{}\n", state_table(variables, units));
     }
-    for preset in &PRESETS {
-        text += &format!("Preset {}\n{}\n{}\n", preset.name, preset.source, preset_table(preset, units));
+    for preset in PRESETS.iter().map(Preset::from) {
+        let (values, density) = (preset.complete(units)?, preset.density_in(units));
+        let table = preset_table(preset.law.table(), &values, density, units);
+        text += &format!("Preset {}\n{}\n{table}\n", preset.name, preset.source);
     }
-    text
+    Ok(text)
 }
 
 fn property_table(properties: &[Property], units: &UnitSystem) -> String {
@@ -82,18 +81,15 @@ fn state_table(variables: &[StateVariable], units: &UnitSystem) -> String {
     align(["no", "name", "unit", "meaning"], rows)
 }
 
-fn preset_table(preset: &Preset, units: &UnitSystem) -> String {
-    let density = ["density".to_string(), quantity(units, preset.density, DENSITY)];
-    let rows = preset
-        .table
-        .iter()
-        .zip(preset.values)
-        .map(|(property, &value)| [property.name.to_string(), quantity(units, value, property.dimension)]);
-    align(["name", "value"], rows.chain([density]))
+/// The values and the density, which are in these units.
+fn preset_table(table: &[Property], values: &[f64], density: Option<f64>, units: &UnitSystem) -> String {
+    let row = |name: &str, value, dimension| [name.to_string(), quantity(units, value, dimension)];
+    let rows = table.iter().zip(values).map(|(property, &value)| row(property.name, value, property.dimension));
+    align(["name", "value"], rows.chain(density.map(|density| row("density", density, DENSITY))))
 }
 
-fn quantity(units: &UnitSystem, si: f64, dimension: Dimension) -> String {
-    let value = short(units.from_si(si, dimension), 12);
+fn quantity(units: &UnitSystem, value: f64, dimension: Dimension) -> String {
+    let value = short(value, 12);
     if dimension == NUMBER { value } else { format!("{value} {}", unit(units, dimension)) }
 }
 
@@ -111,27 +107,28 @@ fn align<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]
 }
 
 /// A preset as cards of LS-DYNA and lines of Abaqus.
-fn deck(preset: &Preset, units: &UnitSystem) -> String {
-    let pairs = preset.table.iter().zip(preset.values);
-    let values: Vec<f64> = pairs.map(|(property, &si)| units.from_si(si, property.dimension)).collect();
-    let density = units.from_si(preset.density, DENSITY);
+fn deck(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
+    let values = preset.complete(units)?;
+    let density = preset.density_in(units);
     let [length, mass, time] = units.names();
     let heading = format!("{}, in {length}, {mass}, {time}", preset.source);
-    match Hyperelastic::new(&values) {
-        Ok(law) if std::ptr::eq(preset.table, HYPERELASTIC.as_slice()) => {
-            let cards = ls_dyna(preset, &heading, density, &values, law.bulk_and_shear());
-            format!("{cards}\n{}", abaqus(preset, &heading, density, &values))
-        }
+    if preset.law == LawName::LinearElastic {
         // The linear law goes into a host by the C interface, not by a deck: the same card would run the other law.
-        _ => format!("{heading}\n{}", preset_table(preset, units)),
+        LinearElastic::new(&values).map_err(|error| preset.law_error(&error))?;
+        return Ok(format!("{heading}\n{}", preset_table(preset.law.table(), &values, density, units)));
     }
+    let law = Hyperelastic::new(&values).map_err(|error| preset.law_error(&error))?;
+    let density =
+        density.ok_or_else(|| preset.error("density is missing, which a deck needs; allowed: a finite number > 0"))?;
+    let cards = ls_dyna(&preset.name, &heading, density, &values, law.bulk_and_shear());
+    Ok(format!("{cards}\n{}", abaqus(&preset.name, &heading, density, &values)))
 }
 
 /// `*MAT_USER_DEFINED_MATERIAL_MODELS`: the properties as P1…, then the bulk and the shear modulus.
-fn ls_dyna(preset: &Preset, heading: &str, density: f64, values: &[f64], moduli: [f64; 2]) -> String {
+fn ls_dyna(name: &str, heading: &str, density: f64, values: &[f64], moduli: [f64; 2]) -> String {
     let constants: Vec<f64> = values.iter().copied().chain(moduli).collect();
     let (count, bulk, shear) = (constants.len(), values.len() + 1, values.len() + 2);
-    let history = deletion_variable(preset.table) + 1;
+    let history = deletion_variable(&HYPERELASTIC) + 1;
     let field = |text: &dyn std::fmt::Display| format!("{text:>10}");
     let card = |fields: &[String]| fields.iter().map(|text| field(text)).collect::<String>();
     let head = |names: &str| {
@@ -139,13 +136,13 @@ fn ls_dyna(preset: &Preset, heading: &str, density: f64, values: &[f64], moduli:
         format!("$#{}", &names[2..])
     };
     let text = |value: usize| value.to_string();
-    let mut deck = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n$ {heading}\n", preset.name);
+    let mut deck = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{name}\n$ {heading}\n");
     let first = ["1".to_string(), field_of_ten(density), "41".to_string(), text(count), text(history)];
     let last = ["0".to_string(), text(bulk), text(shear)];
     deck += &format!("{}\n{}\n", head("mid ro mt lmc nhv iortho ibulk ig"), card(&[&first[..], &last[..]].concat()));
     let options = ["0", "1", "0", "1", "0", "0"].map(str::to_string);
     deck += &format!("{}\n{}\n", head("ivect ifail itherm ihyper ieos lmca"), card(&options));
-    let names: Vec<&str> = preset.table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
+    let names: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
     for (names, constants) in names.chunks(8).zip(constants.chunks(8)) {
         let fields: Vec<String> = constants.iter().map(|&value| field_of_ten(value)).collect();
         deck += &format!("{}\n{}\n", head(&names.join(" ")), card(&fields));
@@ -154,17 +151,16 @@ fn ls_dyna(preset: &Preset, heading: &str, density: f64, values: &[f64], moduli:
 }
 
 /// `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named.
-fn abaqus(preset: &Preset, heading: &str, density: f64, values: &[f64]) -> String {
+fn abaqus(name: &str, heading: &str, density: f64, values: &[f64]) -> String {
     let mut deck =
-        format!("*MATERIAL, NAME={}\n** {heading}\n*DENSITY\n{},\n", preset.name.to_uppercase(), short(density, 20));
+        format!("*MATERIAL, NAME={}\n** {heading}\n*DENSITY\n{},\n", name.to_uppercase(), short(density, 20));
     let _ = writeln!(deck, "*USER MATERIAL, CONSTANTS={}", values.len());
     for line in values.chunks(8) {
         let fields: Vec<String> = line.iter().map(|&value| short(value, 20)).collect();
         let _ = writeln!(deck, "{}", fields.join(", "));
     }
-    let variables: &[StateVariable] =
-        if std::ptr::eq(preset.table, &HYPERELASTIC[..]) { &state::HYPERELASTIC } else { &state::LINEAR_ELASTIC };
-    let _ = writeln!(deck, "*DEPVAR, DELETE={}\n{},", deletion_variable(preset.table) + 1, variables.len());
+    let variables = &state::HYPERELASTIC;
+    let _ = writeln!(deck, "*DEPVAR, DELETE={}\n{},", deletion_variable(&HYPERELASTIC) + 1, variables.len());
     for (i, variable) in variables.iter().enumerate() {
         let _ = writeln!(deck, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
     }

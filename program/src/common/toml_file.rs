@@ -1,6 +1,7 @@
 //! A TOML file that is read: its text, and errors that name file, line and what is allowed there.
 
 use std::ops::Range;
+use std::path::Path;
 
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
@@ -32,9 +33,18 @@ impl Source<'_> {
     }
 
     pub fn error(&self, span: Range<usize>, message: &str) -> Error {
+        Error::Input(format!("{}:{}: {message}", self.name, self.line(span)))
+    }
+
+    /// The line of a place, from 1.
+    pub fn line(&self, span: Range<usize>) -> usize {
         let before = &self.text.as_bytes()[..span.start.min(self.text.len())];
-        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
-        Error::Input(format!("{}:{line}: {message}", self.name))
+        1 + before.iter().filter(|&&byte| byte == b'\n').count()
+    }
+
+    /// The folder of the file, which the names of other files in it are relative to.
+    pub fn folder(&self) -> &Path {
+        Path::new(self.name).parent().unwrap_or(Path::new(""))
     }
 
     /// The number, where it is finite and above 0.

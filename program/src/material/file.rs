@@ -7,10 +7,11 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::model::{Law, Material};
+use super::preset::{LawName, Preset, first_property};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{self, DENSITY, FIBRE, LINEAR_FIBRE, Preset, Property};
+use toron::law::parameters::{FIBRE, LINEAR_FIBRE, Property};
 use toron::{Criterion, Rotation};
 
 /// A table that describes a material.
@@ -25,13 +26,6 @@ pub struct MaterialFile {
     criterion: Option<Spanned<CriterionName>>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum LawName {
-    Hyperelastic,
-    LinearElastic,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -75,12 +69,58 @@ impl MaterialFile {
     }
 }
 
+/// The values of all properties of a law, and the places that errors name for them: none where the preset gives the value.
+struct Values {
+    values: Vec<f64>,
+    places: Vec<Option<Range<usize>>>,
+}
+
 impl Source<'_> {
     /// The material of a table; `span` is the place that errors name for keys that are missing.
     pub fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
         let preset = file.preset.as_ref().map(|name| self.preset(name)).transpose()?;
-        let table = self.property_table(file, preset, span.clone())?;
-        let (values, spans) = self.values(file, preset, table, units, &span)?;
+        let law_name = self.law_name(file, preset.as_ref(), span.clone())?;
+        let table = law_name.table();
+        let Values { values, places } = self.values(file, preset.as_ref(), table, units, &span)?;
+        let (frame, criterion) = self.options(file, law_name)?;
+        let law = Law::new(table, &values, frame, criterion).map_err(|error| {
+            let (message, index) = (error.to_string(), first_property(&error).unwrap_or(0));
+            if let Some(place) = &places[index] {
+                return self.error(place.clone(), &message);
+            }
+            let of_preset = preset.as_ref().and_then(|preset| preset.error_at(index, &message));
+            of_preset.unwrap_or_else(|| self.error(file.preset.as_ref().map_or(span, Spanned::span), &message))
+        })?;
+        let density = match &file.density {
+            Some(density) => Some(self.positive("density", *density.get_ref(), density.span())?),
+            None => preset.as_ref().and_then(|preset| preset.density_in(units)),
+        };
+        let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
+        Ok(Material { law, values, density, label })
+    }
+
+    fn preset(&self, name: &Spanned<String>) -> Result<Preset, Error> {
+        Preset::find(name.get_ref(), self.folder(), |message| self.error(name.span(), message))
+    }
+
+    /// The law that is named or that the preset belongs to.
+    fn law_name(&self, file: &MaterialFile, preset: Option<&Preset>, span: Range<usize>) -> Result<LawName, Error> {
+        match (&file.law, preset) {
+            (Some(law), Some(preset)) if *law.get_ref() != preset.law => {
+                Err(self.error(law.span(), &format!("preset \"{}\" belongs to the other law", preset.name)))
+            }
+            (Some(law), _) => Ok(*law.get_ref()),
+            (None, Some(preset)) => Ok(preset.law),
+            (None, None) => Err(self.error(span, "the material needs a preset, or a law and its properties")),
+        }
+    }
+
+    /// The options of the linear elastic law; the other law has none.
+    fn options(&self, file: &MaterialFile, law: LawName) -> Result<(Rotation, Criterion), Error> {
+        let place = file.frame.as_ref().map(Spanned::span).or(file.criterion.as_ref().map(Spanned::span));
+        if let (LawName::Hyperelastic, Some(place)) = (law, place) {
+            return Err(self.error(place, "frame and criterion are options of the linear elastic law"));
+        }
         let frame = match file.frame.as_ref().map(|name| *name.get_ref()) {
             None | Some(FrameName::Fibre) => Rotation::Fibre,
             Some(FrameName::Polar) => Rotation::Polar,
@@ -90,57 +130,10 @@ impl Source<'_> {
             None | Some(CriterionName::LargestPrincipal) => Criterion::LargestPrincipal,
             Some(CriterionName::FibreStress) => Criterion::FibreStress,
         };
-        let law = Law::new(table, &values, frame, criterion).map_err(|error| {
-            let index = match error {
-                toron::Error::Property { index, .. } | toron::Error::Direction { index, .. } => index,
-                _ => 0,
-            };
-            self.error(spans[index].clone(), &error.to_string())
-        })?;
-        if let (Law::Hyperelastic(_), Some(option)) =
-            (&law, file.frame.as_ref().map(Spanned::span).or(file.criterion.as_ref().map(Spanned::span)))
-        {
-            return Err(self.error(option, "frame and criterion are options of the linear elastic law"));
-        }
-        let density = match &file.density {
-            Some(density) => Some(self.positive("density", *density.get_ref(), density.span())?),
-            None => preset.map(|preset| units.from_si(preset.density, DENSITY)),
-        };
-        let label = preset.map_or(if table.len() == 11 { "hyperelastic" } else { "linear-elastic" }, |p| p.name);
-        Ok(Material { law, values, density, label: label.to_string() })
+        Ok((frame, criterion))
     }
 
-    fn preset(&self, name: &Spanned<String>) -> Result<&'static Preset, Error> {
-        parameters::preset(name.get_ref()).ok_or_else(|| {
-            let known: Vec<&str> = parameters::PRESETS.iter().map(|preset| preset.name).collect();
-            let message = format!("preset \"{}\"; allowed: {}", name.get_ref(), known.join(", "));
-            self.error(name.span(), &message)
-        })
-    }
-
-    /// The table of the law that is named or that the preset belongs to.
-    fn property_table(
-        &self,
-        file: &MaterialFile,
-        preset: Option<&Preset>,
-        span: Range<usize>,
-    ) -> Result<&'static [Property], Error> {
-        let named: Option<&'static [Property]> = file.law.as_ref().map(|law| match law.get_ref() {
-            LawName::Hyperelastic => &parameters::HYPERELASTIC[..],
-            LawName::LinearElastic => &parameters::LINEAR_ELASTIC[..],
-        });
-        match (named, preset) {
-            (Some(table), Some(preset)) if !std::ptr::eq(table, preset.table) => {
-                let span = file.law.as_ref().map_or(span, Spanned::span);
-                Err(self.error(span, &format!("preset \"{}\" belongs to the other law", preset.name)))
-            }
-            (Some(table), _) => Ok(table),
-            (None, Some(preset)) => Ok(preset.table),
-            (None, None) => Err(self.error(span, "the material needs a preset, or a law and its properties")),
-        }
-    }
-
-    /// The values of all properties, and for each the place that errors name: preset or default, then fibre, then properties.
+    /// The values of all properties: preset or default, then fibre, then properties.
     fn values(
         &self,
         file: &MaterialFile,
@@ -148,39 +141,32 @@ impl Source<'_> {
         table: &'static [Property],
         units: &UnitSystem,
         span: &Range<usize>,
-    ) -> Result<(Vec<f64>, Vec<Range<usize>>), Error> {
-        let mut values: Vec<Option<f64>> = table.iter().map(|property| property.default).collect();
-        let mut spans = vec![file.preset.as_ref().map_or(span.clone(), Spanned::span); table.len()];
-        if let Some(preset) = preset {
-            for (value, (property, &si)) in values.iter_mut().zip(table.iter().zip(preset.values)) {
-                *value = Some(units.from_si(si, property.dimension));
-            }
-        }
+    ) -> Result<Values, Error> {
+        let of_preset = |index: usize| preset.and_then(|preset| preset.value(index, units));
+        let given = table.iter().enumerate().map(|(index, property)| of_preset(index).or(property.default));
+        let mut values: Vec<Option<f64>> = given.collect();
+        let mut places = vec![None; table.len()];
         if let Some(fibre) = &file.fibre {
-            let first = if std::ptr::eq(table, &parameters::HYPERELASTIC[..]) { FIBRE } else { LINEAR_FIBRE };
+            let first = if LawName::of(table) == LawName::Hyperelastic { FIBRE } else { LINEAR_FIBRE };
             for (i, &component) in fibre.get_ref().0.iter().enumerate() {
                 values[first + i] = Some(component);
-                spans[first + i] = fibre.span();
+                places[first + i] = Some(fibre.span());
             }
         }
         for (name, value) in &file.properties {
-            let Some(index) = table.iter().position(|property| property.name == name.get_ref()) else {
-                let known: Vec<&str> = table.iter().map(|property| property.name).collect();
-                let message = format!("property \"{}\"; allowed: {}", name.get_ref(), known.join(" "));
-                return Err(self.error(name.span(), &message));
-            };
+            let index = self.property_index(table, name)?;
             values[index] = Some(*value.get_ref());
-            spans[index] = value.span();
+            places[index] = Some(value.span());
         }
         let complete = values.iter().zip(table).map(|(value, property)| {
             value.ok_or_else(|| {
-                let message = format!(
-                    "property {} ({}) is missing; allowed: {}",
-                    property.name, property.meaning, property.allowed
-                );
+                let Property { name, meaning, allowed, .. } = property;
+                let file = preset.and_then(Preset::file).map(|file| format!(", and {file} does not give it"));
+                let file = file.unwrap_or_default();
+                let message = format!("property {name} ({meaning}) is missing{file}; allowed: {allowed}");
                 self.error(span.clone(), &message)
             })
         });
-        Ok((complete.collect::<Result<_, _>>()?, spans))
+        Ok(Values { values: complete.collect::<Result<_, _>>()?, places })
     }
 }

@@ -19,4 +19,5 @@ mod impact;
 mod load_paths;
 mod newton;
 mod parallel;
+mod presets;
 mod yarn_between_plates;

@@ -1,0 +1,216 @@
+//! Presets of a user's own files, in load paths, scenes and decks.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use toron::host::units::UnitSystem;
+use toron_program::impact::scene::{Scene, Zones};
+use toron_program::load_path::path::LoadPath;
+use toron_program::material::model::Material;
+
+const YARN: &str = "name = \"my-yarn\"\nsource = \"lot 12\"\nunits = \"mm-tonne-s\"\ndensity = 1.1e-9\n[properties]\n\
+                    k_el = 82445.3\nk_tc = 1012.7\np = 2.3\nk_td = 655.1\neps_lim = 0.046\n";
+const LINEAR: &str = "units = \"si\"\nlaw = \"linear-elastic\"\ndensity = 1100\n[properties]\ne_1 = 79.1e9\ne_2 = 0.8e9\n\
+                      g = 0.13e9\nsigma_lim = 3.6e9\n";
+
+/// A folder with the two yarns in `yarns/`.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("presets-{name}"));
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).expect("an old folder can be removed");
+    }
+    std::fs::create_dir_all(folder.join("yarns")).expect("a folder can be made");
+    write(&folder, "yarns/my-yarn.toml", YARN);
+    write(&folder, "yarns/linear.toml", LINEAR);
+    folder
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    std::fs::write(folder.join(name), text).expect("a file can be written");
+}
+
+fn toron(folder: &Path, arguments: &[&str]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    program.args(arguments).current_dir(folder).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).expect("output is UTF-8")
+}
+
+/// A load path with this material, and points if any.
+fn load_path(units: &str, material: &str) -> String {
+    format!("units = \"{units}\"\n[material]\n{material}\n[[step]]\nF = {{ 11 = 1.01 }}\n")
+}
+
+fn materials(folder: &Path, text: &str) -> Vec<Material> {
+    write(folder, "path.toml", text);
+    let path = LoadPath::read(&folder.join("path.toml")).unwrap_or_else(|error| panic!("{text}: {error}"));
+    path.points.into_iter().map(|point| point.material).collect()
+}
+
+fn property(material: &Material, name: &str) -> f64 {
+    material.property(name).expect("the law has it")
+}
+
+#[test]
+fn the_file_s_own_units_keep_every_bit() {
+    let folder = folder("units");
+    let own = materials(&folder, &load_path("mm-tonne-s", "preset = \"yarns/my-yarn.toml\"")).remove(0);
+    assert_eq!(own.values, [82445.3, 1012.7, 2.3, 655.1, 0.0, 0.046, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    assert_eq!((own.density, own.label.as_str()), (Some(1.1e-9), "my-yarn"));
+    // The same units of stress, another one of mass: the stresses are not touched.
+    let grams = materials(&folder, &load_path("mm-g-ms", "preset = \"yarns/my-yarn.toml\"")).remove(0);
+    assert_eq!((&grams.values, grams.density), (&own.values, Some(1.1e-9 * 1e6)));
+    let si = materials(&folder, &load_path("si", "preset = \"yarns/my-yarn.toml\"")).remove(0);
+    assert_eq!((property(&si, "k_el"), property(&si, "p"), si.density), (82445.3e6, 2.3, Some(1.1e-9 * 1e12)));
+    let inches = materials(&folder, &load_path("in-slinch-s", "preset = \"yarns/my-yarn.toml\"")).remove(0);
+    let psi = UnitSystem::parse("in-slinch-s").expect("a system").from_si(1e6, toron::parameters::STRESS);
+    assert!((property(&inches, "k_el") / (82445.3 * psi) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn a_material_overrides_the_file_as_a_built_in_preset() {
+    let folder = folder("overrides");
+    let points = "preset = \"yarns/my-yarn.toml\"\nproperties = { k_ld = 20, alpha = 1.5 }\n\
+                  [[point]]\nname = \"askew\"\nmaterial = { fibre = [1, 0.1, 0], density = 2e-9 }\n\
+                  [[point]]\nname = \"linear\"\nmaterial = { preset = \"yarns/linear.toml\", frame = \"polar\" }";
+    let materials = materials(&folder, &load_path("mm-tonne-s", points));
+    assert_eq!(materials[0].values, [82445.3, 1012.7, 2.3, 655.1, 20.0, 0.046, 1.5, 0.0, 1.0, 0.1, 0.0]);
+    assert_eq!(materials[0].density, Some(2e-9));
+    assert_eq!((materials[1].law_name(), materials[1].label.as_str()), ("linear elastic", "linear"));
+    assert_eq!((property(&materials[1], "e_1"), property(&materials[1], "g")), (79.1e9 / 1e6, 0.13e9 / 1e6));
+}
+
+#[test]
+fn an_absolute_path_is_one() {
+    let folder = folder("absolute");
+    let file = folder.join("yarns/my-yarn.toml");
+    let elsewhere = folder.join("yarns");
+    let path = load_path("mm-tonne-s", &format!("preset = '{}'", file.display()));
+    assert_eq!(property(&materials(&elsewhere, &path)[0], "k_el"), 82445.3);
+}
+
+fn scene(lines: &str) -> String {
+    format!(
+        "units = \"mm-g-ms\"\n[scene]\nhalf-length = 12.7\nheight = 0.115\nwidth = 0.5337\nlayers = 100\nrows = 2\n\
+         columns = 6\nspeed = 120.0\nend = 0.03\nmass = 9.91e-3\nradius = 1.1\ncontact-stiffness = 1e6\n{lines}\n"
+    )
+}
+
+/// The zones of the first case.
+fn zones(folder: &Path, lines: &str) -> Result<Zones, String> {
+    write(folder, "scene.toml", &scene(lines));
+    let scene = Scene::read(&folder.join("scene.toml")).map_err(|error| error.to_string())?;
+    Ok(scene.cases.into_iter().next().expect("a case").zones)
+}
+
+#[test]
+fn both_zones_of_a_scene_take_files() {
+    let folder = folder("scene");
+    let hybrid = "law = \"hybrid\"\nfailure = \"uniaxial\"\nhyperelastic-length = 2.54\n\
+                  hyperelastic = { preset = \"yarns/my-yarn.toml\" }\nlinear-elastic = { preset = \"yarns/linear.toml\" }";
+    let Ok(Zones::Two(materials, _)) = zones(&folder, hybrid) else { panic!("two laws") };
+    assert_eq!((property(&materials[0], "k_el"), property(&materials[0], "eps_lim")), (82445.3, 0.046));
+    assert_eq!((property(&materials[1], "e_1"), materials[1].density), (79.1e9 / 1e6, Some(1100.0 / 1e6)));
+    let case = "[[case]]\nname = \"a\"\nhyperelastic = { preset = \"yarns/my-yarn.toml\", properties = { p = 3.0 } }";
+    let Ok(Zones::One(material)) = zones(&folder, case) else { panic!("one law") };
+    assert_eq!((property(&material, "p"), property(&material, "k_tc")), (3.0, 1012.7));
+
+    let place = folder.join("scene.toml").display().to_string();
+    assert_eq!(
+        zones(&folder, "hyperelastic = { preset = \"yarns/linear.toml\" }").err(),
+        Some(format!("{place}:14: hyperelastic has a material of the law linear-elastic; allowed: hyperelastic"))
+    );
+    let missing = zones(&folder, "hyperelastic = { preset = \"nylon.toml\" }").expect_err("there is no such file");
+    let file = folder.join("nylon.toml").display().to_string();
+    let expected = format!("{place}:14: preset \"nylon.toml\": {file} cannot be read: ");
+    assert!(missing.starts_with(&expected), "{missing}");
+}
+
+#[test]
+fn errors_name_the_file_that_is_wrong() {
+    let folder = folder("errors");
+    let said = |yarn: &str, material: &str| {
+        write(&folder, "yarns/wrong.toml", yarn);
+        let material = format!("preset = \"yarns/wrong.toml\"\n{material}");
+        write(&folder, "path.toml", &load_path("mm-tonne-s", &material));
+        let output = toron(&folder, &["run", "path.toml"]);
+        (output.status.code(), text(&output.stderr))
+    };
+    let wrong = |yarn: &str, material: &str, message: &str| {
+        let expected = format!("toron: {message}\n");
+        assert_eq!(said(yarn, material), (Some(2), expected), "{yarn}{material}");
+    };
+    let without = |line: &str| YARN.replace(line, "");
+    let k_td = "property k_td (transverse distortion stiffness) is missing, and yarns/wrong.toml does not give it";
+    wrong(&without("k_td = 655.1\n"), "", &format!("path.toml:2: {k_td}; allowed: a number from 0 to 1e25"));
+    assert_eq!(said(&without("k_td = 655.1\n"), "properties = { k_td = 600 }").0, Some(0));
+    let negative = "property 2 (k_tc, transverse compaction stiffness) is -1012.7; allowed: a number from 0 to 1e25";
+    wrong(&YARN.replace("k_tc = ", "k_tc = -"), "", &format!("yarns/wrong.toml:7: {negative}"));
+    let direction = "properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero";
+    wrong(&format!("{YARN}m_1 = 0\n"), "", &format!("yarns/wrong.toml:11: {direction}"));
+    assert_eq!(said(&format!("{YARN}m_1 = 0\n"), "fibre = [0, 1, 0]").0, Some(0));
+    wrong(YARN, "fibre = [0, 0, 0]", &format!("path.toml:4: {direction}"));
+    wrong(YARN, "law = \"linear-elastic\"", "path.toml:4: preset \"my-yarn\" belongs to the other law");
+    // Allowed in the file's units, not in those of the load path.
+    let huge = "property 1 (k_el, longitudinal elongation stiffness) is 2e25; allowed: a number from 0 to 1e25";
+    let giga = YARN.replace("mm-tonne-s", "mm-kg-ms").replace("82445.3", "2e22");
+    wrong(&giga, "", &format!("yarns/wrong.toml:6: {huge}"));
+    std::fs::remove_file(folder.join("yarns/wrong.toml")).expect("it is there");
+    let (code, missing) = {
+        let output = toron(&folder, &["run", "path.toml"]);
+        (output.status.code(), text(&output.stderr))
+    };
+    let expected = "toron: path.toml:3: preset \"yarns/wrong.toml\": yarns/wrong.toml cannot be read: ";
+    assert!(code == Some(2) && missing.starts_with(expected), "{missing}");
+}
+
+#[test]
+fn a_summary_names_the_yarn() {
+    let folder = folder("summary");
+    write(&folder, "path.toml", &load_path("mm-tonne-s", "preset = \"yarns/my-yarn.toml\""));
+    let output = toron(&folder, &["run", "path.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(said.contains("law                    hyperelastic (my-yarn)\n"), "{said}");
+}
+
+#[test]
+fn a_file_prints_as_a_deck() {
+    let folder = folder("deck");
+    let deck = |arguments: &[&str]| {
+        let output = toron(&folder, &[&["params", "--preset"], arguments].concat());
+        if output.status.success() { Ok(text(&output.stdout)) } else { Err(text(&output.stderr)) }
+    };
+    let own = deck(&["yarns/my-yarn.toml"]).expect("a deck");
+    for line in [
+        "my-yarn",
+        "$ lot 12, in mm, tonne, s",
+        "   82445.3    1012.7       2.3     655.1       0.0     0.046       0.0       0.0",
+        "*MATERIAL, NAME=MY-YARN",
+        "82445.3, 1012.7, 2.3, 655.1, 0.0, 0.046, 0.0, 0.0",
+        "1.1e-9,",
+    ] {
+        assert!(own.lines().any(|found| found == line), "{line}\nin\n{own}");
+    }
+    assert_eq!(deck(&["yarns/my-yarn.toml", "--units", "mm-tonne-s"]), Ok(own));
+    let si = deck(&["yarns/my-yarn.toml", "--units", "si"]).expect("a deck");
+    assert!(si.contains("\n** lot 12, in m, kg, s\n*DENSITY\n1.1e3,\n"), "{si}");
+    let linear = deck(&["yarns/linear.toml"]).expect("a table");
+    assert!(linear.contains("linear, in m, kg, s\n") && linear.contains("density    1.1e3 kg/m³"), "{linear}");
+
+    write(&folder, "bare.toml", "units = \"si\"\n[properties]\nk_el = 1\nk_tc = 1\np = 2\n");
+    let missing = "property k_td (transverse distortion stiffness) is missing; allowed: a number from 0 to 1e25";
+    assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
+    write(&folder, "bare.toml", "units = \"si\"\n[properties]\nk_el = 1\nk_tc = 1\np = 2\nk_td = 1\n");
+    let missing = "density is missing, which a deck needs; allowed: a finite number > 0";
+    assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
+    let nothing = deck(&["nothing.toml"]).expect_err("there is no file");
+    assert!(
+        nothing.starts_with("toron: --preset: preset \"nothing.toml\": nothing.toml cannot be read: "),
+        "{nothing}"
+    );
+    let known = "kevlar-km2-600, kevlar-km2-600-linear, or a file NAME.toml";
+    assert_eq!(deck(&["nylon"]), Err(format!("toron: --preset: preset \"nylon\"; allowed: {known}\n")));
+}
