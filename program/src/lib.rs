@@ -7,6 +7,7 @@
 //! - single points through any C entry (`toron eval`): [`eval`];
 //! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties, presets and decks (`toron params`): [`params`];
+//! - properties from measured data (`toron fit`): [`identify`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
 //!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].

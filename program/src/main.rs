@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand};
 use toron_program::common::console::print_error;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, eval, impact, load_path, params};
+use toron_program::{bench, eval, identify, impact, load_path, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -47,6 +47,14 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
+    /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
+    Fit {
+        /// The data and what is known besides (see docs/identification.md and examples/identification/).
+        data: PathBuf,
+        /// Where the preset, the tables and the plot go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
     /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
     Impact {
         /// The scene (see docs/impact.md and examples/yarn_impact/).
@@ -68,6 +76,7 @@ fn main() -> ExitCode {
         Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
+        Command::Fit { data, output } => identify::command::run(&data, &output),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Bench { output } => bench::command::run(output.as_deref()),
     };

@@ -18,6 +18,8 @@ const INSENSITIVE: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct DataSet {
     pub name: String,
+    /// File and last line, for messages.
+    pub place: String,
     pub loading: Loading,
     /// What the plot is drawn over; the ordinates are what is fitted.
     pub abscissa: Axis,

@@ -11,6 +11,7 @@ use super::data::{DataSet, Loading};
 use super::equivalence::{Constant, Fibre};
 use super::fit::Problem;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
+use super::reader::{Reader, plain_name};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use crate::material::preset::{LawName, Preset};
@@ -122,12 +123,14 @@ impl Job {
         let preset = source.yarn(&file, units)?;
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
-        let reader = super::reader::Reader { source: &source, folder, units: &units, known: &known };
+        let reader = Reader { source: &source, folder, units: &units, known: &known };
         let sets = reader.sets(&file.data, fibre.is_some())?;
         let fitted = |parameter: Parameter| sets.iter().any(|set| set.fits.contains(&parameter));
         let mut known_deviations = Vec::new();
         if let Some(fibre) = fibre {
-            for (parameter, value) in [(Parameter::KEl, fibre.k_el()), (Parameter::EpsLim, fibre.strain_at_failure.value)] {
+            for (parameter, value) in
+                [(Parameter::KEl, fibre.k_el()), (Parameter::EpsLim, fibre.strain_at_failure.value)]
+            {
                 if known[parameter.index()].is_none() && !fitted(parameter) {
                     known[parameter.index()] = Some(value);
                 }
@@ -174,7 +177,11 @@ impl Source<'_> {
         let fibre = Fibre {
             modulus: constant("modulus", &file.modulus, &file.modulus_deviation)?,
             volume_fraction: constant("volume_fraction", &file.volume_fraction, &file.volume_fraction_deviation)?,
-            strain_at_failure: constant("strain_at_failure", &file.strain_at_failure, &file.strain_at_failure_deviation)?,
+            strain_at_failure: constant(
+                "strain_at_failure",
+                &file.strain_at_failure,
+                &file.strain_at_failure_deviation,
+            )?,
         };
         for (name, value, span) in [
             ("volume_fraction", fibre.volume_fraction.value, file.volume_fraction.span()),
@@ -191,7 +198,8 @@ impl Source<'_> {
     fn base(&self, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
         let preset = Preset::find(name.get_ref(), folder, |message| self.error(name.span(), message))?;
         if preset.law != LawName::Hyperelastic {
-            let message = format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
+            let message =
+                format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);
             return Err(self.error(name.span(), &message));
         }
         Ok(preset)
@@ -201,8 +209,7 @@ impl Source<'_> {
     fn yarn(&self, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
         let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
         let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        if name.is_empty() || !name.chars().all(plain) {
+        if !plain_name(&name) {
             let span = file.yarn.name.as_ref().map_or(0..0, Spanned::span);
             return Err(self.error(span, &format!("name is \"{name}\"; allowed: letters, digits and - _ .")));
         }

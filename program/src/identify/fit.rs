@@ -242,12 +242,9 @@ fn require_enough(sets: &[&DataSet], parameters: &[Parameter]) -> Result<(), Err
         return Ok(());
     }
     let names: Vec<&str> = parameters.iter().map(|parameter| parameter.name()).collect();
-    let sets: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
-    Err(Error::Input(format!(
-        "data set {}: {data} points for {}; allowed: {least} or more",
-        sets.join(", "),
-        names.join(", ")
-    )))
+    let shortest = sets.iter().min_by_key(|set| set.len()).map_or("", |set| set.place.as_str());
+    let points = if data == 1 { "1 point" } else { &format!("{data} points") };
+    Err(Error::Input(format!("{shortest}: {points} for {}; allowed: {least} or more", names.join(", "))))
 }
 
 /// No parameter may be made up for by others.

@@ -107,7 +107,8 @@ fn descend(data: Weighted, fitted: &[Parameter], start: &Values) -> Result<Solut
         problem = found;
     }
     let squares = problem.residuals.iter().zip(data.weights).map(|(r, weight)| weight * r * r).sum();
-    let on_bound = |scaled: &&Scaled| problem.values[scaled.parameter.index()] - scaled.least <= ON_THE_BOUND * scaled.scale;
+    let on_bound =
+        |scaled: &&Scaled| problem.values[scaled.parameter.index()] - scaled.least <= ON_THE_BOUND * scaled.scale;
     let bounded = problem.scaled.iter().filter(on_bound).map(|scaled| scaled.parameter).collect();
     let Problem { values, residuals, gradients, .. } = problem;
     Ok(Solution { values, residuals, gradients, squares, bounded })

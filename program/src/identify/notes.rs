@@ -18,13 +18,7 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
     for (set, parameter) in &fit.untold {
         notes.push(format!("data set {set} says nothing of {}: {} would", parameter.name(), parameter.told_by()));
     }
-    for parameter in ALL.into_iter().filter(|p| fit.values[p.index()].is_none() && p.property().default.is_none()) {
-        let name = parameter.name();
-        notes.push(match problem.fallback[parameter.index()] {
-            Some(_) => format!("nothing here tells {name}, which is that of the preset: {} would", parameter.told_by()),
-            None => format!("nothing here tells {name}: {} would; the preset lacks it", parameter.told_by()),
-        });
-    }
+    notes.extend(open_parameters(problem, fit));
     for estimate in &fit.estimates {
         let name = estimate.parameter.name();
         let reach = (estimate.high - estimate.value).max(estimate.value - estimate.low);
@@ -43,6 +37,25 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
                 set.name
             ));
         }
+    }
+    notes
+}
+
+/// Which parameters nothing tells, and what would.
+fn open_parameters(problem: &Problem, fit: &Fit) -> Vec<String> {
+    let open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
+    let filled = |p: &Parameter| problem.fallback[p.index()].is_some();
+    let names = |parameters: &[Parameter]| parameters.iter().map(|p| p.name()).collect::<Vec<_>>().join(", ");
+    let (filled, missing): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().filter(open).partition(filled);
+    let mut notes = Vec::new();
+    if !filled.is_empty() {
+        notes.push(format!("the data say nothing of {}: these are the base preset's", names(&filled)));
+    }
+    if !missing.is_empty() {
+        let mut told_by: Vec<&str> = missing.iter().map(|p| p.told_by()).collect();
+        told_by.dedup();
+        let would = told_by.join("; ");
+        notes.push(format!("the data say nothing of {}, which the preset lacks. What would: {would}", names(&missing)));
     }
     notes
 }

@@ -56,7 +56,8 @@ pub fn write_parameters(file: &Path, job: &Job, fit: &Fit) -> Result<(), Error> 
     for (row, estimate) in fit.estimates.iter().enumerate() {
         let property = estimate.parameter.property();
         let numbers = [estimate.error, estimate.low, estimate.high].map(|value| value.to_string());
-        let mut line = vec![property.name.to_string(), estimate.value.to_string(), unit(&job.units, property.dimension)];
+        let mut line =
+            vec![property.name.to_string(), estimate.value.to_string(), unit(&job.units, property.dimension)];
         line.extend(numbers);
         line.extend(fit.correlations.row(row).iter().map(|value| format!("{value:.6}")));
         lines.push(line);

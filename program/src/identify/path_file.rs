@@ -28,7 +28,12 @@ struct Driver {
 }
 
 /// The data set of a table along the path of a file.
-pub(super) fn set(reader: &Reader, path: &Spanned<String>, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
+pub(super) fn set(
+    reader: &Reader,
+    path: &Spanned<String>,
+    file: &DataFile,
+    table: &DataTable,
+) -> Result<DataSet, Error> {
     let source = reader.source;
     let name = reader.folder.join(path.get_ref());
     let text = std::fs::read_to_string(&name)
@@ -64,7 +69,8 @@ pub(super) fn set(reader: &Reader, path: &Spanned<String>, file: &DataFile, tabl
         let fraction = (driver.rest + driver.factor * x.values[row] - start) / (end - start);
         if !(0.0..=1.0).contains(&fraction) {
             let component = COMPONENT_NAMES[driver.component];
-            let allowed = format!("what lies in the last step of {}, F{component} from {start} to {end}", name.display());
+            let allowed =
+                format!("what lies in the last step of {}, F{component} from {start} to {end}", name.display());
             return Err(wrong(table, &x.column, row, &allowed));
         }
         fractions.push(fraction);
@@ -87,9 +93,12 @@ fn sign(name: &Spanned<String>) -> f64 {
 }
 
 fn driver(reader: &Reader, file: &DataFile, element: &Hexahedron) -> Result<Driver, Error> {
-    let missing = || reader.source.error(file.file.span(), "data along a path need an abscissa; allowed: F33, -displacement_z, …");
+    let missing = || {
+        reader.source.error(file.file.span(), "data along a path need an abscissa; allowed: F33, -displacement_z, …")
+    };
     let name = file.abscissa.as_ref().ok_or_else(missing)?;
-    let component = plain(name).strip_prefix('F').and_then(|name| COMPONENT_NAMES.iter().position(|known| *known == name));
+    let component =
+        plain(name).strip_prefix('F').and_then(|name| COMPONENT_NAMES.iter().position(|known| *known == name));
     if let Some(component) = component {
         return Ok(Driver { dimension: NUMBER, component, rest: 0.0, factor: sign(name) });
     }
@@ -107,7 +116,8 @@ fn driver(reader: &Reader, file: &DataFile, element: &Hexahedron) -> Result<Driv
 }
 
 fn measured(reader: &Reader, file: &DataFile, element: &Hexahedron) -> Result<(Measured, Dimension), Error> {
-    let missing = || reader.source.error(file.file.span(), "data along a path need an ordinate; allowed: -force_z_z, P33, …");
+    let missing =
+        || reader.source.error(file.file.span(), "data along a path need an ordinate; allowed: -force_z_z, P33, …");
     let name = file.ordinate.as_ref().ok_or_else(missing)?;
     let plain = plain(name);
     if plain == "stored_energy" {

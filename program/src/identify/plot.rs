@@ -142,11 +142,11 @@ fn draw_region(area: &Area, job: &Job, fit: &Fit, border: &[[f64; 2]]) -> Drawn<
     let (Some(k_tc), Some(p)) = (of(Parameter::KTc), of(Parameter::P)) else { return Ok(()) };
     let axis = |i: usize, more: [f64; 2]| bounds(&border.iter().map(|pair| pair[i]).chain(more).collect::<Vec<_>>());
     let frame = Frame {
-        title: "k_tc and p: joint 95 % region".to_string(),
-        legend: &[(COLOURS[1], "joint region"), (GREY, "single intervals")],
+        title: format!("k_tc ({}) over p", unit(&job.units, Parameter::KTc.property().dimension)),
+        legend: &[(COLOURS[1], "joint 95 % region"), (GREY, "each one's 95 % interval")],
         x: axis(1, [p.low, p.high]),
         y: axis(0, [k_tc.low, k_tc.high]),
-        x_name: format!("p; ordinate k_tc ({})", unit(&job.units, Parameter::KTc.property().dimension)),
+        x_name: "p".to_string(),
     };
     let mut chart = frame.draw(area)?;
     let corners = [(p.low, k_tc.low), (p.high, k_tc.low), (p.high, k_tc.high), (p.low, k_tc.high), (p.low, k_tc.low)];

@@ -67,7 +67,9 @@ static COMPRESSION: [Abscissa; 5] = [
     abscissa("I_tc", 0.0, "a number <= 0: half the logarithm of the area ratio", |i_tc, _| (2.0 * i_tc).exp()),
     Abscissa {
         dimension: LENGTH,
-        ..abscissa("displacement", 0.0, "a length >= 0 and less than the height", |travel, height| 1.0 - travel / height)
+        ..abscissa("displacement", 0.0, "a length >= 0 and less than the height", |travel, height| {
+            1.0 - travel / height
+        })
     },
 ];
 
@@ -150,8 +152,8 @@ pub static FAILED_AT: [Invariant; 3] = [
 
 /// ⟨−I_tc⟩ at failure.
 pub static COMPACTED: [Invariant; 2] = [
-    Invariant { name: "I_tc", allowed: "a number <= 0", of: |i_tc| -i_tc },
-    Invariant { name: "area_ratio", allowed: "a number > 0 and <= 1", of: |ratio| -0.5 * ratio.ln() },
+    Invariant { name: "I_tc", allowed: "a number <= 0", of: |i_tc| 0.0 - i_tc },
+    Invariant { name: "area_ratio", allowed: "a number > 0 and <= 1", of: |ratio| 0.0 - 0.5 * ratio.ln() },
 ];
 
 /// I_td at failure.

@@ -68,6 +68,11 @@ impl Reader<'_> {
         let (span, file) = (file.span(), file.get_ref());
         let table = DataTable::read(&self.folder.join(file.file.get_ref()))?;
         let name = file.name.as_ref().map_or_else(|| format!("data-{number}"), |name| name.get_ref().clone());
+        if !plain_name(&name) {
+            let message =
+                format!("data set \"{name}\"; allowed: letters, digits and - _ ., since files are named by it");
+            return Err(self.source.error(file.name.as_ref().map_or(span, Spanned::span), &message));
+        }
         let mut set = match (&file.loading, &file.path) {
             (Some(loading), None) => match loading.get_ref() {
                 LoadingName::Elongation => self.simple(Simple::Elongation, file, &table)?,
@@ -82,6 +87,7 @@ impl Reader<'_> {
             }
         };
         set.name = name;
+        set.place = last_place(&table);
         if let Some(weight) = &file.weight {
             set.weight = self.source.positive("weight", *weight.get_ref(), weight.span())?;
         }
@@ -124,7 +130,10 @@ impl Reader<'_> {
     fn failure(&self, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
         let (y, at) = self.invariants(file, table, &FAILED_AT)?.ok_or_else(|| {
             let names: Vec<&str> = FAILED_AT.iter().map(|known| known.name).collect();
-            self.source.error(file.file.span(), &format!("{}: no column of the strain at failure; allowed: {}", table.name, names.join(", ")))
+            self.source.error(
+                file.file.span(),
+                &format!("{}: no column of the strain at failure; allowed: {}", table.name, names.join(", ")),
+            )
         })?;
         let none = |table: &DataTable| vec![0.0; table.columns[0].values.len()];
         let compacted = self.invariants(file, table, &COMPACTED)?;
@@ -149,6 +158,7 @@ impl Reader<'_> {
         let axis = |name: &str, values| Axis { name: name.to_string(), unit: "-".to_string(), values };
         Ok(DataSet {
             name: String::new(),
+            place: String::new(),
             abscissa: axis(name, pick(over)),
             ordinate: axis("I_el at failure", pick(&at)),
             rest: 0.0,
@@ -191,7 +201,8 @@ impl Reader<'_> {
     ) -> Result<usize, Error> {
         if let Some(name) = named {
             return known.iter().position(|known| known == name.get_ref()).ok_or_else(|| {
-                let message = format!("{key} is \"{}\"; allowed with this loading: {}", name.get_ref(), known.join(", "));
+                let message =
+                    format!("{key} is \"{}\"; allowed with this loading: {}", name.get_ref(), known.join(", "));
                 self.source.error(name.span(), &message)
             });
         }
@@ -295,6 +306,7 @@ impl Reader<'_> {
         };
         DataSet {
             name: String::new(),
+            place: String::new(),
             loading,
             abscissa: axis(0),
             ordinate: axis(1),
@@ -362,11 +374,25 @@ impl Reader<'_> {
             self.source.error(name.span(), &format!("fits \"{}\"; allowed: {}", name.get_ref(), known.join(" ")))
         })?;
         if self.known[parameter.index()].is_some() {
-            let message = format!("{} is given in [yarn] properties; allowed there or among the fits, not both", parameter.name());
+            let message = format!(
+                "{} is given in [yarn] properties; allowed there or among the fits, not both",
+                parameter.name()
+            );
             return Err(self.source.error(name.span(), &message));
         }
         Ok(parameter)
     }
+}
+
+/// Whether files can be named by it.
+pub(super) fn plain_name(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
+}
+
+/// File and last line.
+fn last_place(table: &DataTable) -> String {
+    let last = table.columns.first().and_then(|column| column.values.last());
+    last.map_or_else(|| table.name.clone(), |cell| format!("{}:{}", table.name, cell.line))
 }
 
 /// A column of failure points.

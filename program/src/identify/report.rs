@@ -1,5 +1,6 @@
 //! The summary of a fit on the terminal.
 
+use super::data::Loading;
 use super::file::Job;
 use super::fit::{Fit, Problem, SetFit};
 use super::notes;
@@ -101,7 +102,10 @@ fn quality(unit: &str, largest: f64, fitted: &SetFit) -> String {
     let mean_square = fitted.residuals.iter().map(|r| r * r).sum::<f64>() / count as f64;
     let share = 100.0 * mean_square.sqrt() / largest;
     let unit = if unit == "-" { String::new() } else { format!(" {unit}") };
-    let size = format!("{count} points, residuals {}{unit} (root mean square), {share:.2} % of the largest", number(mean_square.sqrt()));
+    let size = format!(
+        "{count} points, residuals {}{unit} (root mean square), {share:.2} % of the largest",
+        number(mean_square.sqrt())
+    );
     if fitted.freedom.is_finite() {
         return size;
     }
@@ -112,7 +116,7 @@ fn quality(unit: &str, largest: f64, fitted: &SetFit) -> String {
 /// The fitted parameters when only a part of the range is used.
 fn by_range(problem: &Problem, fit: &Fit) -> String {
     let fitted: Vec<Parameter> = fit.groups.iter().flat_map(|group| group.parameters.clone()).collect();
-    if fitted.is_empty() {
+    if problem.sets.iter().all(|set| matches!(set.loading, Loading::Failure { .. })) {
         return String::new();
     }
     let mut text = String::new();

@@ -171,14 +171,14 @@ fn mark_failure(area: &Area, x: i32, y: i32) -> Drawn<()> {
 }
 
 /// Least and largest value, apart from one another even where there is but one.
-fn bounds(values: &[f64]) -> (f64, f64) {
+pub fn bounds(values: &[f64]) -> (f64, f64) {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if low < high { (low, high) } else { (low, low + 1.0) }
 }
 
 /// A label without the noise of rounding: as many decimals as ticks of this range need.
-fn tick(value: f64, range: f64) -> String {
+pub fn tick(value: f64, range: f64) -> String {
     let decimals = (2 - range.log10().floor() as i32).clamp(0, 9) as usize;
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

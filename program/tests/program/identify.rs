@@ -1,11 +1,19 @@
 //! Identification: intervals hold the true value as often as they say, and what is fitted is what the law answers.
 
-use approx::assert_relative_eq;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use approx::{assert_abs_diff_eq, assert_relative_eq};
 use nalgebra::Matrix3;
+
+use crate::library::ROOT;
 use toron_program::identify::data::{Axis, DataSet, Loading};
+use toron_program::identify::file::Job;
 use toron_program::identify::fit::{Fit, Problem};
+use toron_program::identify::notes;
 use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_program::identify::response::{Measured, Quantity};
+use toron_program::load_path::path::LoadPath;
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];
@@ -27,12 +35,12 @@ impl Normal {
 /// A curve of energies at these states, with the law's own values.
 fn energies(name: &str, fits: &[Parameter], abscissae: Vec<f64>, state: impl Fn(f64) -> Matrix3<f64>) -> DataSet {
     let states = abscissae.iter().map(|&x| state(x)).collect();
-    let loading =
-        Loading::Prescribed { states, measured: Measured { quantity: Quantity::Energy, factor: 1.0 } };
+    let loading = Loading::Prescribed { states, measured: Measured { quantity: Quantity::Energy, factor: 1.0 } };
     let responses = loading.responses(&TRUE).expect("the law has an answer");
     let axis = |name: &str, values| Axis { name: name.to_string(), unit: "-".to_string(), values };
     DataSet {
         name: name.to_string(),
+        place: name.to_string(),
         loading,
         abscissa: axis("invariant", abscissae),
         ordinate: axis("energy", responses.iter().map(|response| response.value).collect()),
@@ -74,7 +82,7 @@ fn fit(sets: Vec<DataSet>) -> Fit {
     let start = [1.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     let mut known = [None; PARAMETERS];
     known[Parameter::KEl.index()] = Some(TRUE[0]);
-    Problem { sets, known, known_deviations: Vec::new(), start }.fit().expect("a fit")
+    Problem { sets, known, fallback: [None; PARAMETERS], known_deviations: Vec::new(), start }.fit().expect("a fit")
 }
 
 /// How often the interval of each parameter holds the true value.
@@ -114,4 +122,231 @@ fn intervals_hold_the_true_value_as_often_as_they_say() {
         let spread = 0.02_f64.max(3.0 * (0.95 * 0.05 / trials as f64).sqrt());
         assert!(held.iter().all(|held| (held - 0.95).abs() <= spread), "{name}: {held:?}");
     }
+}
+
+#[test]
+fn one_stiffness_has_the_interval_of_a_line_through_rest() {
+    // With W = ½ k I² and a known deviation s, k is Σ gW/Σ g², g = ½ I², and its standard error s/√(Σ g²).
+    let mut set = energies("elongation", &[Parameter::KEl], invariants(), |i| {
+        Matrix3::from_diagonal(&[i.exp(), 1.0, 1.0].into())
+    });
+    let mut normal = Normal(fastrand::Rng::with_seed(7));
+    set = with_noise(&set, &mut normal);
+    let deviation = 0.01;
+    set.deviations = Some(vec![deviation; POINTS]);
+    let mut sums = [0.0; 2];
+    for (i, w) in invariants().iter().zip(&set.ordinate.values) {
+        let g = 0.5 * i * i;
+        sums[0] += g * w;
+        sums[1] += g * g;
+    }
+    let fit = Problem {
+        sets: vec![set],
+        known: [None; PARAMETERS],
+        fallback: [None; PARAMETERS],
+        known_deviations: Vec::new(),
+        start: [1.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+    };
+    let estimate = fit.fit().expect("a fit").estimates[0];
+    assert_relative_eq!(estimate.value, sums[0] / sums[1], max_relative = 1e-9);
+    assert_relative_eq!(estimate.error, deviation / sums[1].sqrt(), max_relative = 1e-9);
+    assert_relative_eq!(estimate.high - estimate.value, 1.959964 * estimate.error, max_relative = 1e-5);
+}
+
+#[test]
+fn a_stiffness_that_the_data_want_negative_is_zero() {
+    let mut set = compression();
+    let compaction: Vec<f64> = invariants().iter().map(|i| TRUE[1] * i.powf(TRUE[2])).collect();
+    for (value, compaction) in set.ordinate.values.iter_mut().zip(compaction) {
+        *value = 0.99 * compaction;
+    }
+    let fit = fit(vec![self::compaction(), set]);
+    let k_td = fit.estimates.iter().find(|estimate| estimate.parameter == Parameter::KTd).expect("k_td");
+    assert!(k_td.bounded && k_td.value < 1e-6 && k_td.low == 0.0, "{k_td:?}");
+}
+
+#[test]
+fn a_path_s_derivatives_are_those_of_differences() {
+    let job = Job::read(&example("press.toml")).expect("the example is valid");
+    let values = [82341.0, 900.0, 2.1, 700.0, 5.0, 0.0, 0.0, 0.0];
+    for set in &job.problem.sets {
+        let responses = set.loading.responses(&values).expect("the law has an answer");
+        for i in 0..5 {
+            let step = 1e-5 * values[i];
+            let moved = |sign: f64| {
+                let mut values = values;
+                values[i] += sign * step;
+                set.loading.responses(&values).expect("the law has an answer")
+            };
+            for ((response, more), less) in responses.iter().zip(moved(1.0)).zip(moved(-1.0)) {
+                let difference = (more.value - less.value) / (2.0 * step);
+                let size = responses.last().expect("there are data").value.abs() / values[i];
+                assert_abs_diff_eq!(response.gradient[i], difference, epsilon = 2e-6 * size);
+            }
+        }
+    }
+}
+
+fn example(name: &str) -> PathBuf {
+    Path::new(ROOT).join("examples/identification").join(name)
+}
+
+/// Every example gives the values that its data were made with, within four standard errors.
+#[test]
+fn the_examples_give_what_their_data_were_made_with() {
+    let kevlar = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.0];
+    for (name, fitted) in [
+        ("tension.toml", &["k_el"][..]),
+        ("energies.toml", &["k_tc", "p", "k_td"]),
+        ("pressure.toml", &["k_tc", "p"]),
+        ("press.toml", &["k_tc", "p", "k_td"]),
+        ("failure.toml", &["eps_lim", "alpha"]),
+    ] {
+        let job = Job::read(&example(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let fit = job.problem.fit().unwrap_or_else(|error| panic!("{name}: {error}"));
+        let names: Vec<&str> = fit.estimates.iter().map(|estimate| estimate.parameter.name()).collect();
+        assert_eq!(names, fitted, "{name}");
+        for estimate in fit.estimates {
+            let error = (estimate.value - kevlar[estimate.parameter.index()]).abs();
+            assert!(error < 4.0 * estimate.error, "{name}: {estimate:?}");
+        }
+    }
+}
+
+#[test]
+fn the_fibre_of_table_4_1_has_its_stiffness() {
+    let job = Job::read(&example("fibre.toml")).expect("the example is valid");
+    let fit = job.problem.fit().expect("a fit");
+    assert_abs_diff_eq!(fit.values[0].expect("k_el"), 82445.0, epsilon = 10.0);
+    assert_eq!(fit.values[Parameter::EpsLim.index()], Some(0.0458));
+}
+
+/// What `toron fit` makes of an example is read back, bit for bit, by a load path.
+#[test]
+fn the_preset_that_comes_out_is_used_by_a_load_path() {
+    let folder = new_folder("preset");
+    let run = |arguments: &[&str]| {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let output = program.args(arguments).current_dir(&folder).output().expect("the program starts");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let data = example("energies.toml");
+    let report = run(&["fit", &data.display().to_string(), "-o", "out"]);
+    assert!(report.contains("which the preset lacks"), "{report}");
+    for file in
+        ["kevlar-energies.toml", "parameters.csv", "fit-compaction.csv", "fit-compression.csv", "fit.svg", "fit.png"]
+    {
+        assert!(folder.join("out").join(file).metadata().is_ok_and(|file| file.len() > 0), "{file}");
+    }
+    let job = Job::read(&data).expect("the example is valid");
+    let fit = job.problem.fit().expect("a fit");
+    let path = "units = \"mm-tonne-s\"\n[material]\npreset = \"out/kevlar-energies.toml\"\nproperties = { k_el = 82000 }\n\
+                [[step]]\nF = { 33 = 0.9 }\n";
+    std::fs::write(folder.join("path.toml"), path).expect("a file can be written");
+    let path = LoadPath::read(&folder.join("path.toml")).expect("the preset is valid");
+    let material = &path.points[0].material;
+    for parameter in [Parameter::KTc, Parameter::P, Parameter::KTd] {
+        assert_eq!(material.property(parameter.name()), fit.values[parameter.index()]);
+    }
+    run(&["run", "path.toml"]);
+}
+
+fn new_folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("identify-{name}"));
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).expect("an old folder can be removed");
+    }
+    std::fs::create_dir_all(&folder).expect("a folder can be made");
+    folder
+}
+
+/// The message about a set of this loading with this table.
+fn message(loading: &str, table: &str, more: &str) -> String {
+    let folder = new_folder("errors");
+    std::fs::write(folder.join("data.csv"), table).expect("a file can be written");
+    let text = format!(
+        "units = \"mm-tonne-s\"\n[[data]]\nname = \"set\"\nfile = \"data.csv\"\nloading = \"{loading}\"\n{more}"
+    );
+    std::fs::write(folder.join("fit.toml"), text).expect("a file can be written");
+    let fit = Job::read(&folder.join("fit.toml")).and_then(|job| job.problem.fit());
+    let error = fit.err().map(|error| error.to_string());
+    error.unwrap_or_else(|| "no error".to_string()).replace(&format!("{}/", folder.display()), "")
+}
+
+#[test]
+fn bad_data_are_named_by_file_line_and_column() {
+    let head = "I_tc (-),energy (MPa)\n";
+    let table = |rows: &str| format!("{head}{rows}");
+    let rising = "-0.01,0.04\n-0.02,0.19\n-0.03,0.47\n-0.04,0.88\n-0.05,1.44\n-0.06,2.15\n-0.07,3.03\n";
+    for (table, more, expected) in [
+        (String::new(), "", "data.csv:1:1: no header"),
+        (head.to_string(), "", "data.csv:1:1: column \"I_tc\": no line of data follows the header"),
+        (table("-0.1,6\n"), "", "data.csv:2: 1 point for k_tc, p; allowed: 3 or more"),
+        (table("-0.1,6\n-0.12,nan\n"), "", "data.csv:3:2: column \"energy\": the cell is \"nan\""),
+        (table("-0.1,6\n-0.12,8 MPa\n"), "", "data.csv:3:2: column \"energy\": the cell is \"8 MPa\""),
+        (table("-0.1,6\n0.12,8\n"), "", "data.csv:3:1: column \"I_tc\": the value is 0.12 -; allowed: a number <= 0"),
+        (
+            table("-0.1,-6\n-0.12,-8\n"),
+            "",
+            "data.csv:2:2: column \"energy\": the value is -6 MPa; allowed: a value >= 0",
+        ),
+        (
+            table(&format!("{rising}-0.08,1\n")),
+            "",
+            "data.csv:9:2: column \"energy\": the value is 1 MPa; allowed: no less",
+        ),
+        (
+            table("-0.1,0\n-0.12,0\n-0.13,0\n"),
+            "",
+            "data.csv:2:2: column \"energy\": the value is 0 MPa; allowed: values that",
+        ),
+        (
+            "I_tc (mm),energy (MPa)\n-0.1,6\n".to_string(),
+            "",
+            "data.csv:1:1: column \"I_tc\": the unit is \"mm\"; allowed: - or %",
+        ),
+        ("I_tc (-),energy (N)\n-0.1,6\n".to_string(), "", "data.csv:1:2: column \"energy\": the unit is \"N\""),
+        ("I_tc (-)\n-0.1\n".to_string(), "", "fit.toml:4: data.csv has the columns I_tc, none of which is an ordinate"),
+        (table(rising), "columns = { energy = \"W\" }\n", "data.csv:1: no column \"W\"; there are: I_tc, energy"),
+        (table(rising), "range = [-1, -0.5]\n", "fit.toml:6: range is [-1, -0.5]; no line of data.csv is in it"),
+        (table(rising), "ordinate = \"force\"\n", "data.csv:1: no column \"force\""),
+        (
+            table(rising),
+            "abscissa = \"strain\"\n",
+            "fit.toml:6: abscissa is \"strain\"; allowed with this loading: I_tc",
+        ),
+        (table(rising), "fits = [\"k_xy\"]\n", "fit.toml:6: fits \"k_xy\"; allowed: k_el k_tc"),
+        (table(rising), "deviation = -1\n", "fit.toml:6: deviation is -1; allowed: a finite number > 0"),
+        (table(rising), "weight = 0\n", "fit.toml:6: weight is 0"),
+    ] {
+        let found = message("compaction", &table, more);
+        assert!(found.starts_with(expected), "{table}{more}\nfound    {found}\nexpected {expected}");
+    }
+}
+
+#[test]
+fn parameters_that_the_data_cannot_tell_apart_are_named() {
+    // The same distortion for the same compaction: α and β make up for each other.
+    let table = "strain (-),I_tc (-),I_td (-)\n0.045,0,0\n0.044,-0.02,0.02\n0.043,-0.04,0.04\n0.042,-0.06,0.06\n0.041,-0.08,0.08\n";
+    let found = message("failure", table, "");
+    assert!(found.contains("tell only a combination of alpha and beta"), "{found}");
+    // One compaction only: ε_lim and α.
+    let table = "strain (-),I_tc (-)\n0.045,-0.02\n0.0451,-0.02\n0.0449,-0.02\n0.0452,-0.02\n";
+    let found = message("failure", table, "");
+    assert!(found.contains("tell only a combination of eps_lim and alpha"), "{found}");
+}
+
+#[test]
+fn tension_says_nothing_of_compaction() {
+    let folder = new_folder("tension");
+    std::fs::write(folder.join("data.csv"), "strain (%),stress (MPa)\n1,811\n2,1599\n3,2363\n").expect("a file");
+    let text = "units = \"mm-tonne-s\"\n[[data]]\nname = \"pull\"\nfile = \"data.csv\"\nloading = \"elongation\"\n\
+                fits = [\"k_el\", \"k_tc\"]\n";
+    std::fs::write(folder.join("fit.toml"), text).expect("a file");
+    let job = Job::read(&folder.join("fit.toml")).expect("valid");
+    let fit = job.problem.fit().expect("a fit");
+    let notes = notes::notes(&job.problem, &fit);
+    assert!(notes[0].starts_with("data set pull says nothing of k_tc"), "{notes:?}");
+    assert!(fit.values[Parameter::KTc.index()].is_none());
 }
