@@ -54,6 +54,9 @@ enum Command {
         /// Where the preset, the tables and the plot go.
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
+        /// Run this scene of `toron impact` with the parameters, and with each at the ends of its interval.
+        #[arg(long)]
+        scene: Option<PathBuf>,
     },
     /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
     Impact {
@@ -76,7 +79,7 @@ fn main() -> ExitCode {
         Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
-        Command::Fit { data, output } => identify::command::run(&data, &output),
+        Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Bench { output } => bench::command::run(output.as_deref()),
     };

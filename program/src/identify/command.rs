@@ -3,16 +3,19 @@
 use std::path::Path;
 
 use super::file::Job;
-use super::{output, plot, region, report};
+use super::{output, plot, region, report, worth};
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::impact::scene::Scene;
 
-/// Fits the parameters to the data of a file and writes what came of it to the directory `output`.
+/// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
+/// makes of them.
 ///
 /// # Errors
-/// The input, data that do not suffice, or a file that cannot be written.
-pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
+/// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.
+pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error> {
     let job = Job::read(path)?;
+    let scene = scene.map(Scene::read).transpose()?;
     let fit = job.problem.fit()?;
     std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
     let preset = format!("{}.toml", job.preset.name);
@@ -32,6 +35,12 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
         written.extend(["fit.svg".to_string(), "fit.png".to_string()]);
     }
     print(&report::report(&job, &fit));
+    if let Some(scene) = scene {
+        let trials = worth::trials(&job, &fit, &scene)?;
+        worth::write(&output.join("worth.csv"), &scene, &trials)?;
+        written.push("worth.csv".to_string());
+        print(&worth::report(&scene, &trials));
+    }
     print(&report::line("written", &format!("{} in {}", written.join(", "), output.display())));
     Ok(())
 }

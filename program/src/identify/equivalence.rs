@@ -88,7 +88,8 @@ mod tests {
 
     #[test]
     fn kevlar_has_the_stiffness_of_the_least_squares() {
-        approx::assert_abs_diff_eq!(kevlar().k_el(), 82.445, epsilon = 0.001);
+        // 82.445 with the fraction's further digits, 0.93848.
+        approx::assert_abs_diff_eq!(kevlar().k_el(), 82.447, epsilon = 0.001);
         // The thesis, whose points are not stated.
         approx::assert_relative_eq!(kevlar().k_el(), 82.341, max_relative = 0.0015);
         assert!(kevlar().misfit() < 0.01);

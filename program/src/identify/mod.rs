@@ -20,3 +20,4 @@ pub mod region;
 pub mod report;
 pub mod response;
 pub mod uncertainty;
+pub mod worth;

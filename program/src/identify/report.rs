@@ -133,7 +133,7 @@ fn by_range(problem: &Problem, fit: &Fit) -> String {
 }
 
 /// Five significant digits.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || (1e-4..1e7).contains(&size) {
         let decimals = if value == 0.0 { 0 } else { (4 - size.log10().floor() as i32).max(0) as usize };
@@ -141,4 +141,20 @@ fn digits(value: f64) -> String {
         return if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text };
     }
     format!("{value:.4e}")
+}
+
+/// Rows of cells in columns: the first one to the left, the others to the right.
+pub fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max();
+    let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for row in rows {
+        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| match column {
+            0 => format!("{cell:<width$}"),
+            _ => format!("{cell:>width$}"),
+        });
+        text += &format!("  {}\n", cells.collect::<Vec<_>>().join("  ").trim_end());
+    }
+    text
 }

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use nalgebra::{DMatrix, RowDVector};
-use statrs::distribution::{ContinuousCDF, StudentsT};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::least_squares::Solution;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
@@ -171,9 +171,12 @@ impl Uncertainty {
 
 /// The two-sided quantile of Student's t, of the normal distribution for infinite degrees of freedom.
 pub fn quantile(freedom: f64) -> f64 {
-    // Beyond this the two agree to six digits.
-    let freedom = if freedom.is_nan() { 1.0 } else { freedom.min(1e6) };
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |student| student.inverse_cdf(0.5 + 0.5 * LEVEL))
+    let upper = 0.5 + 0.5 * LEVEL;
+    // Beyond this the two agree to five digits.
+    if freedom > 1e5 {
+        return Normal::standard().inverse_cdf(upper);
+    }
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |student| student.inverse_cdf(upper))
 }
 
 /// (JᵀWJ)⁻¹JᵀW, for the columns of these parameters.
@@ -192,4 +195,18 @@ fn inverse(solution: &Solution, weights: &[f64], free: &[Parameter]) -> Option<D
     Some(DMatrix::from_fn(free.len(), weights.len(), |row, column| {
         pseudo_inverse[(row, column)] * roots[column] / sizes[row]
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_tables() {
+        for (freedom, expected) in
+            [(1.0, 12.7062), (2.0, 4.302653), (10.0, 2.228139), (38.0, 2.024394), (100.0, 1.983972), (1e9, 1.959964)]
+        {
+            approx::assert_relative_eq!(quantile(freedom), expected, max_relative = 1e-5);
+        }
+    }
 }

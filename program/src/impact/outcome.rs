@@ -138,6 +138,19 @@ impl Outcome {
         energy(&self.samples).filter(|_| contact > 0.0).map_or(0.0, |(_, scale)| contact / scale)
     }
 
+    /// The largest energy densities of elongation, compaction and distortion up to the break.
+    pub fn largest_densities(&self) -> [f64; 3] {
+        [0, 1, 2].map(|mode| self.largest_before_break(|sample| sample.largest[mode]))
+    }
+
+    /// How much wider the section is than at rest when the transverse wave is at the clamp: the most of the stations.
+    pub fn widening(&self, half_length: f64) -> Option<f64> {
+        let rest = self.samples.first()?.widths;
+        let then = self.at(self.transverse_at_clamp(half_length)?).widths;
+        let growth = then.iter().zip(rest).map(|(then, rest)| then / rest - 1.0);
+        growth.reduce(f64::max)
+    }
+
     /// The samples in which the wave of elongation passes the middle of half the span.
     fn passing(&self, half_length: f64) -> &[Sample] {
         let [from, to] = FITTED.map(|fraction| fraction * half_length);

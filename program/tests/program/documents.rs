@@ -18,7 +18,7 @@ use toron::law::status;
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Point, Request};
 
-const DOCUMENTS: [&str; 4] = ["theory.md", "hosts.md", "validation.md", "load-paths.md"];
+const DOCUMENTS: [&str; 5] = ["theory.md", "hosts.md", "validation.md", "load-paths.md", "identification.md"];
 
 fn document(name: &str) -> PathBuf {
     Path::new(ROOT).join("docs").join(name)
@@ -174,6 +174,20 @@ fn deck() -> [String; 2] {
     [dyna, abaqus].map(|deck| format!("{}\n", deck.trim_end()))
 }
 
+/// What `toron fit` prints of an example.
+fn fit_of_energies() -> String {
+    let output = folder("fit-of-energies");
+    let arguments = ["fit", "examples/identification/energies.toml", "-o"];
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let printed = run(program.args(arguments).arg(&output).current_dir(ROOT), "");
+    let text = String::from_utf8(printed.stdout).expect("UTF-8");
+    let (report, _) = text.split_once("  written ").expect("the files are named last");
+    if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
+        std::fs::copy(output.join("fit.png"), document("images/fit.png")).expect("docs/images/fit.png");
+    }
+    fenced(report)
+}
+
 /// The same cards with the fibre from AOPT: IORTHO = 1, IHYPER = −1 and the two cards of the axes.
 fn deck_with_axes() -> String {
     const AXES: &str = "\
@@ -273,6 +287,7 @@ fn generate(name: &str) -> String {
         "LS-DYNA deck with axes" => fenced(&deck_with_axes()),
         "Abaqus deck" => fenced(&deck()[1]),
         "figures" => figures(),
+        "fit of energies" => fit_of_energies(),
         name => panic!("nothing is generated under the name {name}"),
     }
 }
@@ -304,7 +319,7 @@ fn generated_parts_are_current() {
         );
         count += parts;
     }
-    assert_eq!(count, 12, "a part has got lost");
+    assert_eq!(count, 13, "a part has got lost");
 }
 
 /// The fenced blocks of a document in their order: language and text.

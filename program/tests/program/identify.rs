@@ -10,9 +10,10 @@ use crate::library::ROOT;
 use toron_program::identify::data::{Axis, DataSet, Loading};
 use toron_program::identify::file::Job;
 use toron_program::identify::fit::{Fit, Problem};
-use toron_program::identify::notes;
 use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_program::identify::response::{Measured, Quantity};
+use toron_program::identify::{notes, output, worth};
+use toron_program::impact::{self, scene::Scene};
 use toron_program::load_path::path::LoadPath;
 
 /// Table 4.3, in GPa.
@@ -349,4 +350,42 @@ fn tension_says_nothing_of_compaction() {
     let notes = notes::notes(&job.problem, &fit);
     assert!(notes[0].starts_with("data set pull says nothing of k_tc"), "{notes:?}");
     assert!(fit.values[Parameter::KTc.index()].is_none());
+}
+
+/// A coarse yarn, struck: the scene gives with the fitted parameters what it gives with the preset of them, and every
+/// parameter that has an interval is moved to both ends.
+#[test]
+fn a_scene_shows_what_the_parameters_are_worth() {
+    let folder = new_folder("worth");
+    let scene = |material: &str| {
+        format!(
+            "units = \"mm-g-ms\"\n[scene]\nlaw = \"hyperelastic\"\nfailure = \"none\"\nhalf-length = 12.7\nheight = 0.115\n\
+             width = 0.5337\nlayers = 20\nrows = 1\ncolumns = 2\nmass = 9.91e-3\nradius = 1.1\nfriction = 0.18\n\
+             contact-stiffness = 1e6\nspeed = 120.0\nend = 0.02\n{material}[[case]]\nname = \"strike\"\n"
+        )
+    };
+    std::fs::write(folder.join("scene.toml"), scene("")).expect("a file");
+    let job = Job::read(&example("yarn.toml")).expect("the example is valid");
+    let fit = job.problem.fit().expect("a fit");
+    let trials = worth::trials(&job, &fit, &Scene::read(&folder.join("scene.toml")).expect("a scene")).expect("a run");
+    // k_el, k_tc, p, k_td at two ends each, k_tc and p also with the other one; no failure, so eps_lim and alpha are left out.
+    assert_eq!(trials.len(), 1 + 4 * 2 + 2 * 2, "{trials:?}");
+    assert!(trials[1..].iter().all(|trial| trial.speed != trials[0].speed));
+    std::fs::write(folder.join("kevlar-identified.toml"), output::preset(&job, &fit)).expect("a file");
+    let text = scene("hyperelastic = { preset = \"kevlar-identified.toml\" }\n");
+    std::fs::write(folder.join("with-preset.toml"), text).expect("a file");
+    let with_preset = Scene::read(&folder.join("with-preset.toml")).expect("a scene");
+    let outcome = impact::run::run(&with_preset.cases[0], &mut Silent).expect("a run");
+    // The same but for the conversion of units.
+    assert_relative_eq!(trials[0].speed, outcome.last().speed, max_relative = 1e-9);
+}
+
+struct Silent;
+
+impl impact::run::Observer for Silent {
+    fn progress(&mut self, _: f64) {}
+
+    fn frame(&mut self, _: f64, _: &str) -> Result<(), toron_program::common::error::Error> {
+        Ok(())
+    }
 }
