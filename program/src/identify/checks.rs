@@ -3,8 +3,8 @@
 /// A curve falls, or is negative, where it does by more than this many times its noise: by chance that does not happen.
 const SURE: f64 = 8.0;
 /// From this number of points on the noise can be read off a curve.
-const ENOUGH: usize = 6;
-/// With fewer points, or without noise: what counts as none, over the largest value.
+const ENOUGH: usize = 20;
+/// With fewer points it is taken for this at least, over the largest value; without noise, for that.
 const FEW: f64 = 0.1;
 const EXACT: f64 = 1e-6;
 /// The standard deviation of normally distributed numbers over the median of their sizes.
@@ -23,10 +23,11 @@ pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| distances[a].total_cmp(&distances[b]));
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let rough = if values.len() < ENOUGH { FEW * largest } else { SURE * roughness(distances, values, &order) };
+    let few = if values.len() < ENOUGH { FEW * largest } else { 0.0 };
+    let rough = few.max(SURE * roughness(distances, values, &order));
     let tolerance = noise.map_or(rough, |noise| SURE * noise).max(EXACT * largest);
     let mut highest = *order.first()?;
-    for point in order {
+    for &point in &order {
         if values[point] < -tolerance {
             return Some(Flaw::Negative(point));
         }
@@ -37,7 +38,16 @@ pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
             highest = point;
         }
     }
-    None
+    // However large the noise, the whole may not fall.
+    let (first, last) = (order[0], order[order.len() - 1]);
+    (values.len() > 2 && slope(distances, values) < 0.0).then_some(Flaw::Falls(last, first))
+}
+
+/// The sign of the line through the points.
+fn slope(distances: &[f64], values: &[f64]) -> f64 {
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    let (x, y) = (mean(distances), mean(values));
+    distances.iter().zip(values).map(|(a, b)| (a - x) * (b - y)).sum()
 }
 
 /// The noise of a curve: how far its points are off the line between their neighbours.
@@ -50,7 +60,7 @@ fn roughness(distances: &[f64], values: &[f64], order: &[usize]) -> f64 {
     };
     let mut deviations: Vec<f64> = order.windows(3).map(deviation).collect();
     deviations.sort_by(f64::total_cmp);
-    NORMAL * deviations[deviations.len() / 2]
+    deviations.get(deviations.len() / 2).map_or(0.0, |median| NORMAL * median)
 }
 
 #[cfg(test)]
@@ -84,6 +94,7 @@ mod tests {
         assert_eq!(flaw(&x, &y, None), Some(Flaw::Negative(0)));
         let (x, y) = curve(3, |x| 1.0 - x);
         assert!(matches!(flaw(&x, &y, None), Some(Flaw::Falls(1, 0))));
+        assert_eq!(flaw(&[1.0, 2.0, 3.0], &[5.0, 4.9, 4.8], None), Some(Flaw::Falls(2, 0)));
         // Unloading in the file's order is sorted by distance first, and is then rough, not falling.
         assert_eq!(flaw(&[], &[], None), None);
     }

@@ -18,7 +18,7 @@ const INSENSITIVE: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub struct DataSet {
     pub name: String,
-    /// File and last line, for messages.
+    /// File, last line and column, for messages.
     pub place: String,
     pub loading: Loading,
     /// What the plot is drawn over; the ordinates are what is fitted.

@@ -389,10 +389,10 @@ pub(super) fn plain_name(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c))
 }
 
-/// File and last line.
+/// File, last line and first column.
 fn last_place(table: &DataTable) -> String {
     let last = table.columns.first().and_then(|column| column.values.last());
-    last.map_or_else(|| table.name.clone(), |cell| format!("{}:{}", table.name, cell.line))
+    last.map_or_else(|| table.name.clone(), |cell| format!("{}:{}:{}", table.name, cell.line, cell.column))
 }
 
 /// A column of failure points.

@@ -283,7 +283,7 @@ fn bad_data_are_named_by_file_line_and_column() {
     for (table, more, expected) in [
         (String::new(), "", "data.csv:1:1: no header"),
         (head.to_string(), "", "data.csv:1:1: column \"I_tc\": no line of data follows the header"),
-        (table("-0.1,6\n"), "", "data.csv:2: 1 point for k_tc, p; allowed: 3 or more"),
+        (table("-0.1,6\n"), "", "data.csv:2:1: 1 point for k_tc, p; allowed: 3 or more"),
         (table("-0.1,6\n-0.12,nan\n"), "", "data.csv:3:2: column \"energy\": the cell is \"nan\""),
         (table("-0.1,6\n-0.12,8 MPa\n"), "", "data.csv:3:2: column \"energy\": the cell is \"8 MPa\""),
         (table("-0.1,6\n0.12,8\n"), "", "data.csv:3:1: column \"I_tc\": the value is 0.12 -; allowed: a number <= 0"),
