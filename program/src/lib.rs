@@ -8,10 +8,12 @@
 //! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties, presets and decks (`toron params`): [`params`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - a yarn's section, fibre by fibre (`toron cell`): [`cell`], in CalculiX;
 //! - what they share: materials and how files describe them in [`material`], the calls of the C interface in [`entries`],
 //!   drawing in [`picture`], errors, units and TOML files in [`common`].
 
 pub mod bench;
+pub mod cell;
 pub mod common;
 pub mod entries;
 pub mod eval;
