@@ -118,9 +118,9 @@ impl Deck<'_> {
                     next += 1;
                 }
             }
-            // Half at the front, half behind.
+            // Half at the front, half behind. CalculiX takes a number such as 5e-2 here for no number.
             let stiffness = 0.5 * SPRING / STRESS_UNIT;
-            self.line(format_args!("*SPRING, ELSET=SPRINGS{axis}\n{axis}, {axis}\n{stiffness:e}"));
+            self.line(format_args!("*SPRING, ELSET=SPRINGS{axis}\n{axis}, {axis}\n{stiffness:.9}"));
         }
     }
 
@@ -142,9 +142,9 @@ impl Deck<'_> {
         let normal = NORMAL / STRESS_UNIT;
         for (name, friction) in [("ROUGH", self.task.friction), ("SMOOTH", 0.0)] {
             self.line(format_args!("*SURFACE INTERACTION, NAME={name}"));
-            self.line(format_args!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{normal:e}"));
+            self.line(format_args!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{normal:.9e}"));
             if friction > 0.0 {
-                self.line(format_args!("*FRICTION\n{friction}, {:e}", STICK / STRESS_UNIT));
+                self.line(format_args!("*FRICTION\n{friction}, {:.9e}", STICK / STRESS_UNIT));
             }
         }
         for (number, contact) in self.task.model.contacts.iter().enumerate() {

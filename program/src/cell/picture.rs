@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::model::Model;
 use super::report::title;
-use super::run::{Outcome, Patch};
+use super::run::{Outcome, Shape};
 use super::scene::Scene;
 use crate::common::error::Error;
 use crate::common::units::{number, unit};
@@ -43,7 +43,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model, outcome: &Out
     let sheet = [WIDTH + 2 * AIR, HEAD + (scale * height).ceil() as i32 + AIR];
     let low = [0, 1].map(|axis| size[axis] * f64::from(images[axis][0]));
     let view = View { scale, low, top: f64::from(HEAD) + scale * height };
-    let largest = outcome.patches.iter().map(|(_, stress)| *stress).fold(0.0, f64::max);
+    let largest = outcome.shape.patches.iter().map(|(_, stress)| *stress).fold(0.0, f64::max);
     page::write(svg, png, sheet.map(|length| length as u32), |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(AIR), fine(TITLE_TOP)))?;
         let [i_tc, i_td] = last.invariants;
@@ -52,7 +52,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model, outcome: &Out
         draw_scale(root, largest, &unit(&scene.units, STRESS))?;
         for image in images[0][0]..images[0][1] {
             for row in images[1][0]..images[1][1] {
-                draw_image(root, &view, &outcome.patches, [image, row], size, largest)?;
+                draw_image(root, &view, &outcome.shape, [image, row], size, largest)?;
             }
         }
         draw_frame(root, &view, [low, [0, 1].map(|axis| size[axis] * f64::from(images[axis][1]))], model.mirrored)
@@ -78,12 +78,12 @@ fn colour(share: f64) -> RGBColor {
 }
 
 /// The image in this column and row of cells: mirrored in every other one.
-fn draw_image(root: &Area, view: &View, patches: &[Patch], image: [i32; 2], size: [f64; 2], largest: f64) -> Drawn<()> {
+fn draw_image(root: &Area, view: &View, shape: &Shape, image: [i32; 2], size: [f64; 2], largest: f64) -> Drawn<()> {
     let place = |x: f64, axis: usize| {
         let (cell, size) = (image[axis], size[axis]);
         if cell.rem_euclid(2) == 0 { f64::from(cell) * size + x } else { f64::from(cell + 1) * size - x }
     };
-    for (corners, stress) in patches {
+    for (corners, stress) in &shape.patches {
         let mut points: Vec<(i32, i32)> =
             corners.iter().map(|[x, y]| view.place([place(*x, 0), place(*y, 1)])).collect();
         let fill = colour(if largest > 0.0 { stress / largest } else { 0.0 });
@@ -91,6 +91,10 @@ fn draw_image(root: &Area, view: &View, patches: &[Patch], image: [i32; 2], size
         // Between neighbours the ground would shine through.
         points.push(points[0]);
         root.draw(&PathElement::new(points, fill.stroke_width(fine(1) as u32 / 2)))?;
+    }
+    for rim in &shape.rims {
+        let points = rim.map(|[x, y]| view.place([place(x, 0), place(y, 1)]));
+        root.draw(&PathElement::new(points, INK.stroke_width(fine(1) as u32)))?;
     }
     Ok(())
 }

@@ -14,13 +14,21 @@ use crate::common::error::Error;
 /// A quadrilateral of a fibre, deformed: its corners in diameters, and the von Mises stress in the scene's unit.
 pub type Patch = ([[f64; 2]; 4], f64);
 
+/// The fibres, deformed.
+#[derive(Debug, Default)]
+pub struct Shape {
+    pub patches: Vec<Patch>,
+    /// The edges of the fibres' circumferences, which tell fibres apart where they are pressed together.
+    pub rims: Vec<[[f64; 2]; 2]>,
+}
+
 /// What came of a load.
 #[derive(Debug)]
 pub struct Outcome {
     pub load: Load,
     pub increments: Vec<Increment>,
     /// The fibres at the last increment.
-    pub patches: Vec<Patch>,
+    pub shape: Shape,
     /// Why the load was not taken to its end.
     pub failure: Option<String>,
     pub elapsed: Duration,
@@ -57,27 +65,37 @@ pub fn run(
         let (reached, wanted) = (last.stretch, task.last_stretch);
         format!("load {name}: increment {} does not converge; the stretch is {reached:.5} then, and {wanted:.5} at the end: {why}", increments.len() + 1)
     });
-    let patches = patches(task, &printed);
-    Ok(Outcome { load: task.load, increments, patches, failure, elapsed: printed.elapsed })
+    let shape = shape(task, &printed);
+    Ok(Outcome { load: task.load, increments, shape, failure, elapsed: printed.elapsed })
 }
 
-/// The fibres' quadrilaterals with the mean of their corners' stresses.
-fn patches(task: &Task, printed: &Printed) -> Vec<Patch> {
+/// The fibres' quadrilaterals with the mean of their corners' stresses, and their circumferences.
+fn shape(task: &Task, printed: &Printed) -> Shape {
     let moved: HashMap<usize, [f64; 3]> = printed.displacements.iter().copied().collect();
-    let stressed: HashMap<usize, f64> =
-        printed.stresses.iter().map(|(node, stress)| (*node, von_mises(stress))).collect();
+    let stressed = printed.stresses.iter().map(|(node, stress)| (*node, von_mises(stress)));
+    let stressed: HashMap<usize, f64> = stressed.collect();
     let unit = STRESS_UNIT * task.fibre.e_2;
-    let patch = |quad: &[usize; 4]| {
-        let mut corners = quad.map(|node| task.model.nodes[node]);
-        let mut sum = 0.0;
-        for (corner, &node) in corners.iter_mut().zip(quad) {
-            let u = moved.get(&front(node))?;
-            *corner = [corner[0] + u[0], corner[1] + u[1]];
-            sum += stressed.get(&front(node))?;
-        }
-        Some((corners, 0.25 * unit * sum))
+    let place = |node: usize| {
+        let ([x, y], u) = (task.model.nodes[node], moved.get(&front(node))?);
+        Some([x + u[0], y + u[1]])
     };
-    task.model.bodies[..task.model.fibres].iter().flat_map(|body| &body.quads).filter_map(patch).collect()
+    let mut shape = Shape::default();
+    for body in &task.model.bodies[..task.model.fibres] {
+        for quad in &body.quads {
+            let corners: Option<Vec<[f64; 2]>> = quad.iter().map(|&node| place(node)).collect();
+            let stresses: Option<Vec<f64>> = quad.iter().map(|&node| stressed.get(&front(node)).copied()).collect();
+            let (Some(corners), Some(stresses)) = (corners, stresses) else { continue };
+            let mean = 0.25 * unit * stresses.iter().sum::<f64>();
+            shape.patches.push(([corners[0], corners[1], corners[2], corners[3]], mean));
+        }
+        for (edge, _) in &body.rim {
+            let quad = body.quads[edge.quad];
+            if let (Some(from), Some(to)) = (place(quad[edge.edge]), place(quad[(edge.edge + 1) % 4])) {
+                shape.rims.push([from, to]);
+            }
+        }
+    }
+    shape
 }
 
 /// Of xx, yy, zz, xy, yz, zx.
