@@ -8,11 +8,13 @@
 //! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties, presets and decks (`toron params`): [`params`];
 //! - properties from measured data (`toron fit`): [`identify`];
+//! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
 //!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].
 
 pub mod bench;
+pub mod cell;
 pub mod common;
 pub mod entries;
 pub mod eval;

@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand};
 use toron_program::common::console::print_error;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, eval, identify, impact, load_path, params};
+use toron_program::{bench, cell, eval, identify, impact, load_path, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -66,6 +66,17 @@ enum Command {
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
     },
+    /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
+    Cell {
+        /// The section (see examples/identification/).
+        scene: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+        /// The program ccx of CalculiX; without it, that of the variable TORON_CCX, or the one in PATH.
+        #[arg(long)]
+        ccx: Option<PathBuf>,
+    },
     /// Measure what a point costs on this machine; takes about half a minute.
     Bench {
         /// Where to write the figures as bench.json.
@@ -81,6 +92,8 @@ fn main() -> ExitCode {
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
+        Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
+            .and_then(|fit| identify::command::run(&fit, &output, None)),
         Command::Bench { output } => bench::command::run(output.as_deref()),
     };
     match answer {

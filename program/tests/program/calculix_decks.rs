@@ -23,7 +23,7 @@ const MATERIAL: &str = "@TORON_HYPERELASTIC";
 static DECKS: LazyLock<PathBuf> = LazyLock::new(|| Path::new(ROOT).join("ffi-tests/calculix"));
 
 /// The solver, built if it is not there yet.
-static SOLVER: LazyLock<PathBuf> = LazyLock::new(|| {
+pub static SOLVER: LazyLock<PathBuf> = LazyLock::new(|| {
     let output = run(Command::new("sh").arg(DECKS.join("build.sh")), "dash");
     PathBuf::from(String::from_utf8(output.stdout).expect("a path").trim())
 });

@@ -8,6 +8,7 @@ mod library;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part
 mod calculix_decks;
+mod cell;
 mod command_line;
 mod documents;
 mod eval;

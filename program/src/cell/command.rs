@@ -1,0 +1,106 @@
+//! `toron cell`: from the file of a section to its energies, pictures and the file for the identification.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use indicatif::ProgressDrawTarget;
+use rayon::prelude::*;
+
+use super::model::Model;
+use super::run::{self, Outcome};
+use super::scene::{Arrangement, Load, Scene};
+use super::{arrangement, output, picture, report, solver};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::progress;
+
+/// Ticks of the progress bar for each load.
+const TICKS: f64 = 1000.0;
+
+/// Runs the loads of a section and writes what came of them to the directory `output`; returns the path of the file that the
+/// identification reads.
+///
+/// A load that does not get to its end keeps its increments, and no other from having its own; there is no file for the
+/// identification then.
+///
+/// # Errors
+/// The input, no CalculiX, a file that cannot be written, or the loads that did not get to their end.
+pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Error> {
+    let scene = Scene::read(path)?;
+    let model = arrangement::model(&scene.arrangement, scene.elements)
+        .map_err(|message| Error::Input(format!("{}: {message}", path.display())))?;
+    let program = solver::find(ccx)?;
+    if output.exists() && !output.is_dir() {
+        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
+    }
+    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    let fit = output.join("fit.toml");
+    // One of an earlier run would stand beside other tables.
+    if fit.exists() {
+        std::fs::remove_file(&fit).map_err(|error| Error::Input(format!("{}: {error}", fit.display())))?;
+    }
+    let runs = run_loads(&program, &scene, &model, output);
+    let (mut outcomes, mut failures) = (Vec::new(), Vec::new());
+    for run in runs {
+        match run {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(error) => failures.push(error),
+        }
+    }
+    failures.extend(outcomes.iter().filter_map(|outcome| outcome.failure.clone().map(Error::Evaluation)));
+    if !outcomes.is_empty() {
+        print(&report::report(&scene, &model, &outcomes, output));
+    }
+    if let Some(first) = failures.first() {
+        let text = failures.iter().map(Error::to_string).collect::<Vec<_>>().join("\n");
+        return Err(if matches!(first, Error::Input(_)) { Error::Input(text) } else { Error::Evaluation(text) });
+    }
+    output::write(&fit, &output::fit_file(&scene, &model, &scene.loads))?;
+    Ok(fit)
+}
+
+/// The loads side by side: CalculiX spends most of a small cell's time on what no second thread shortens.
+fn run_loads(program: &Path, scene: &Scene, model: &Model, output: &Path) -> Vec<Result<Outcome, Error>> {
+    let length = (TICKS * scene.loads.len() as f64) as u64;
+    let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
+    let done = Mutex::new(vec![0.0; scene.loads.len()]);
+    let one = |(number, &load): (usize, &Load)| {
+        let mut progress = |part: f64| {
+            if let Ok(mut done) = done.lock() {
+                done[number] = part;
+                bar.set_position((TICKS * done.iter().sum::<f64>()) as u64);
+            }
+        };
+        run_load(program, scene, model, load, output, &mut progress)
+    };
+    let runs = match scene.arrangement {
+        Arrangement::Cell(_) => scene.loads.par_iter().enumerate().map(one).collect(),
+        // A box takes the memory and the threads of the machine for itself.
+        Arrangement::Box(_) => scene.loads.iter().enumerate().map(one).collect(),
+    };
+    bar.finish_and_clear();
+    runs
+}
+
+/// Runs a load and writes its files.
+fn run_load(
+    program: &Path,
+    scene: &Scene,
+    model: &Model,
+    load: Load,
+    output: &Path,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Outcome, Error> {
+    let file = |ending: &str| output.join(format!("{}.{ending}", load.name()));
+    let task = run::task(scene, model, load);
+    let deck = run::deck(&task);
+    output::write(&file("inp"), &deck)?;
+    let threads = match scene.arrangement {
+        Arrangement::Cell(_) => 1,
+        Arrangement::Box(_) => std::thread::available_parallelism().map_or(1, usize::from),
+    };
+    let outcome = run::run(program, &task, &deck, threads, progress)?;
+    output::write(&file("csv"), &output::table(scene, &outcome))?;
+    picture::write(&file("svg"), &file("png"), scene, model, &outcome)?;
+    Ok(outcome)
+}

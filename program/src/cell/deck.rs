@@ -1,0 +1,225 @@
+//! The deck: a model and a load as CalculiX reads them. Lengths are in diameters, stresses in [`STRESS_UNIT`] of e_2.
+
+use std::fmt::Write;
+
+use super::model::{Edge, Model};
+use super::scene::{Fibre, Load};
+
+/// The unit of stress inside CalculiX, over the fibre's e_2.
+pub const STRESS_UNIT: f64 = 1e-3;
+/// Stiffness of the contact, as pressure over depth: this many times e_2 a diameter. Doubled, it changes the energies by
+/// 0.1 %. The stick slope is the same in shear, a tenth: no energy depends on it by more than 0.01 %.
+const NORMAL: f64 = 4000.0;
+const STICK: f64 = 400.0;
+/// Stiffness of a grounding spring over e_2 times the thickness.
+pub const SPRING: f64 = 1e-4;
+/// Increments in all, with those that CalculiX takes again; and the smallest, as a part of the load.
+const MOST_INCREMENTS: usize = 2000;
+const SMALLEST: f64 = 1e-6;
+
+/// Names by which the printed results call the sets.
+pub const FIBRES: &str = "FIBRES";
+pub const MIDDLE: &str = "MIDDLE";
+pub const SPRUNG: &str = "SPRUNG";
+
+/// What a deck is made for.
+pub struct Task<'a> {
+    pub model: &'a Model,
+    pub fibre: &'a Fibre,
+    pub friction: f64,
+    pub load: Load,
+    /// The stretch at the end; it falls from 1 with the time, which goes from 0 to 1.
+    pub last_stretch: f64,
+    pub increments: usize,
+}
+
+/// The deck's text.
+pub fn text(task: &Task) -> String {
+    let mut deck = Deck { text: String::new(), task, starts: starts(task.model) };
+    deck.mesh();
+    deck.springs();
+    deck.materials();
+    deck.contacts();
+    deck.sets();
+    deck.step();
+    deck.text
+}
+
+/// The name of the set of a support's nodes.
+pub fn support_name(number: usize) -> String {
+    format!("SUPPORT{number}")
+}
+
+/// The number of a node of the front layer; those behind and the springs' fixed ends follow.
+pub fn front(node: usize) -> usize {
+    node + 1
+}
+
+/// The first element of each body.
+fn starts(model: &Model) -> Vec<usize> {
+    let counts = model.bodies.iter().map(|body| body.quads.len());
+    counts.scan(1, |next, count| Some(std::mem::replace(next, *next + count))).collect()
+}
+
+struct Deck<'a> {
+    text: String,
+    task: &'a Task<'a>,
+    starts: Vec<usize>,
+}
+
+impl Deck<'_> {
+    fn line(&mut self, line: impl std::fmt::Display) {
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    fn back(&self, node: usize) -> usize {
+        self.task.model.nodes.len() + front(node)
+    }
+
+    /// The fixed end of the springs of the sprung node of this number.
+    fn ghost(&self, number: usize) -> usize {
+        2 * self.task.model.nodes.len() + 1 + number
+    }
+
+    /// A layer of elements, one thick.
+    fn mesh(&mut self) {
+        let model = self.task.model;
+        self.line("*NODE, NSET=ALL");
+        for (node, [x, y]) in model.nodes.iter().enumerate() {
+            self.line(format_args!("{}, {x:.12}, {y:.12}, 0.", front(node)));
+            self.line(format_args!("{}, {x:.12}, {y:.12}, 1.", self.back(node)));
+        }
+        for (number, &node) in model.sprung.iter().enumerate() {
+            let [x, y] = model.nodes[node];
+            self.line(format_args!("{}, {x:.12}, {y:.12}, 0.", self.ghost(number)));
+        }
+        for (body, start) in model.bodies.iter().zip(self.starts.clone()) {
+            self.line("*ELEMENT, TYPE=C3D8, ELSET=ALL");
+            for (i, quad) in body.quads.iter().enumerate() {
+                let nodes: Vec<usize> =
+                    quad.iter().map(|&node| front(node)).chain(quad.iter().map(|&node| self.back(node))).collect();
+                self.line(format_args!("{}, {}", start + i, list(&nodes)));
+            }
+        }
+    }
+
+    /// From each sprung node to a node that moves affinely.
+    fn springs(&mut self) {
+        let model = self.task.model;
+        let mut next = 1 + model.bodies.iter().map(|body| body.quads.len()).sum::<usize>();
+        for axis in 1..=2 {
+            if model.sprung.is_empty() {
+                return;
+            }
+            self.line(format_args!("*ELEMENT, TYPE=SPRING2, ELSET=SPRINGS{axis}"));
+            for (number, &node) in model.sprung.iter().enumerate() {
+                for end in [front(node), self.back(node)] {
+                    self.line(format_args!("{next}, {end}, {}", self.ghost(number)));
+                    next += 1;
+                }
+            }
+            // Half at the front, half behind. CalculiX takes a number such as 5e-2 here for no number.
+            let stiffness = 0.5 * SPRING / STRESS_UNIT;
+            self.line(format_args!("*SPRING, ELSET=SPRINGS{axis}\n{axis}, {axis}\n{stiffness:.9}"));
+        }
+    }
+
+    /// The fibre's axis 1 is the deck's third; a wall is rigid since all of its nodes are moved.
+    fn materials(&mut self) {
+        let fibre = self.task.fibre;
+        let stress = |value: f64| value / (STRESS_UNIT * fibre.e_2);
+        let [e_1, e_2, g_12, g_23] = [fibre.e_1, fibre.e_2, fibre.g_12, fibre.g_23].map(stress);
+        let nu_21 = fibre.nu_12 * fibre.e_2 / fibre.e_1;
+        let nu_23 = fibre.nu_23;
+        self.line("*MATERIAL, NAME=FIBRE\n*ELASTIC, TYPE=ENGINEERING CONSTANTS");
+        self.line(format_args!(
+            "{e_2:.12e}, {e_2:.12e}, {e_1:.12e}, {nu_23:.12e}, {nu_21:.12e}, {nu_21:.12e}, {g_23:.12e}, {g_12:.12e},"
+        ));
+        self.line(format_args!("{g_12:.12e}, 293.\n*SOLID SECTION, ELSET=ALL, MATERIAL=FIBRE"));
+    }
+
+    fn contacts(&mut self) {
+        let normal = NORMAL / STRESS_UNIT;
+        for (name, friction) in [("ROUGH", self.task.friction), ("SMOOTH", 0.0)] {
+            self.line(format_args!("*SURFACE INTERACTION, NAME={name}"));
+            self.line(format_args!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{normal:.9e}"));
+            if friction > 0.0 {
+                self.line(format_args!("*FRICTION\n{friction}, {:.9e}", STICK / STRESS_UNIT));
+            }
+        }
+        for (number, contact) in self.task.model.contacts.iter().enumerate() {
+            for (side, (body, edges)) in [("S", &contact.slave), ("M", &contact.master)] {
+                self.line(format_args!("*SURFACE, NAME={side}{number}, TYPE=ELEMENT"));
+                for &Edge { quad, edge } in edges {
+                    // The faces of C3D8 after its two layers, S1 and S2.
+                    self.line(format_args!("{}, S{}", self.starts[*body] + quad, 3 + edge));
+                }
+            }
+            let name = if contact.friction { "ROUGH" } else { "SMOOTH" };
+            self.line(format_args!("*CONTACT PAIR, INTERACTION={name}, TYPE=SURFACE TO SURFACE\nS{number}, M{number}"));
+        }
+    }
+
+    fn sets(&mut self) {
+        let model = self.task.model;
+        let elements = |deck: &mut Self, name: &str, bodies: &[usize]| {
+            deck.line(format_args!("*ELSET, ELSET={name}, GENERATE"));
+            for &body in bodies {
+                let start = deck.starts[body];
+                deck.line(format_args!("{start}, {}", start + model.bodies[body].quads.len() - 1));
+            }
+        };
+        elements(self, FIBRES, &(0..model.fibres).collect::<Vec<_>>());
+        elements(self, MIDDLE, &model.middle);
+        let last_of_fibres = model.bodies[..model.fibres].iter().flat_map(|body| body.quads.iter().flatten()).max();
+        let last = last_of_fibres.map_or(1, |&node| front(node));
+        self.line(format_args!("*NSET, NSET=FRONT, GENERATE\n1, {last}"));
+        for (number, support) in model.supports.iter().enumerate() {
+            self.line(format_args!("*NSET, NSET={}", support_name(number)));
+            for &node in &support.nodes {
+                self.line(format_args!("{}, {}", front(node), self.back(node)));
+            }
+        }
+        if !model.sprung.is_empty() {
+            self.line(format_args!("*NSET, NSET={SPRUNG}"));
+            for &node in &model.sprung {
+                self.line(format_args!("{},", front(node)));
+            }
+        }
+    }
+
+    fn step(&mut self) {
+        let model = self.task.model;
+        let stretches = self.task.load.stretches(self.task.last_stretch);
+        let increment = 1.0 / self.task.increments as f64;
+        self.line(format_args!("*STEP, NLGEOM, INC={MOST_INCREMENTS}\n*STATIC"));
+        self.line(format_args!("{increment:.12}, 1., {SMALLEST:e}, {increment:.12}"));
+        self.line("*BOUNDARY\nALL, 3, 3");
+        for (number, support) in model.supports.iter().enumerate() {
+            let (axis, moved) = (support.axis + 1, (stretches[support.axis] - 1.0) * support.at);
+            self.line(format_args!("{}, {axis}, {axis}, {moved:.12e}", support_name(number)));
+        }
+        for (number, &node) in model.sprung.iter().enumerate() {
+            let ghost = self.ghost(number);
+            self.line(format_args!("{ghost}, 3, 3"));
+            for axis in 0..2 {
+                let moved = (stretches[axis] - 1.0) * model.nodes[node][axis];
+                self.line(format_args!("{ghost}, {0}, {0}, {moved:.12e}", axis + 1));
+            }
+        }
+        for set in [FIBRES, MIDDLE] {
+            self.line(format_args!("*EL PRINT, ELSET={set}, TOTALS=ONLY\nELSE"));
+        }
+        for number in 0..model.supports.len() {
+            self.line(format_args!("*NODE PRINT, NSET={}, TOTALS=ONLY\nRF", support_name(number)));
+        }
+        if !model.sprung.is_empty() {
+            self.line(format_args!("*NODE PRINT, NSET={SPRUNG}\nU"));
+        }
+        self.line("*NODE FILE, NSET=FRONT\nU\n*EL FILE, NSET=FRONT\nS\n*END STEP");
+    }
+}
+
+fn list(numbers: &[usize]) -> String {
+    numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}

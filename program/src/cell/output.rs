@@ -1,0 +1,89 @@
+//! The files of figures: a table of energies a load, and the file that the identification reads.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::energies::Increment;
+use super::model::Model;
+use super::run::Outcome;
+use super::scene::{Arrangement, Load, Scene};
+use crate::common::error::Error;
+use crate::common::units::unit;
+use toron::law::parameters::STRESS;
+
+/// Writes a file.
+///
+/// # Errors
+/// It cannot be written.
+pub fn write(file: &Path, text: &str) -> Result<(), Error> {
+    std::fs::write(file, text).map_err(|error| Error::Input(format!("{}: {error}", file.display())))
+}
+
+/// The table of a load. A box has columns for what lies outside its middle.
+pub fn table(scene: &Scene, outcome: &Outcome) -> String {
+    let stress = unit(&scene.units, STRESS);
+    let boxed = matches!(scene.arrangement, Arrangement::Box(_));
+    let mut text = format!("I_tc (-),I_td (-),stretch (-),energy ({stress})");
+    if boxed {
+        let _ = write!(text, ",energy of the whole box ({stress}),energy of the springs ({stress})");
+    }
+    text.push('\n');
+    for Increment { stretch, invariants: [i_tc, i_td], energy, whole, springs, .. } in &outcome.increments {
+        let _ = write!(text, "{i_tc:.8},{i_td:.8},{stretch:.8},{energy:.7e}");
+        if boxed {
+            let _ = write!(text, ",{whole:.7e},{springs:.3e}");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The fibres' part of the yarn: the file's, or the model's own.
+pub fn volume_fraction(scene: &Scene, model: &Model) -> f64 {
+    scene.yarn.volume_fraction.unwrap_or(model.fraction)
+}
+
+/// The file that `toron fit` reads.
+pub fn fit_file(scene: &Scene, model: &Model, loads: &[Load]) -> String {
+    let fraction = volume_fraction(scene, model);
+    let [length, mass, time] = scene.units.names();
+    let source = scene.yarn.source.clone().unwrap_or_else(|| format!("{}: fibres in CalculiX", scene.title));
+    let mut text = format!(
+        "title = {}\nunits = \"{length}-{mass}-{time}\"\n\n[yarn]\nname = {}\nsource = {}\n",
+        quoted(&scene.title),
+        quoted(&scene.yarn.name),
+        quoted(&source)
+    );
+    if let Some(density) = scene.fibre.density {
+        let _ = writeln!(text, "density = {}", rounded(density * fraction));
+    }
+    if let Some(strain) = scene.fibre.strain_at_failure {
+        let _ = write!(
+            text,
+            "\n[fibre]\nmodulus = {}\nvolume_fraction = {}\nstrain_at_failure = {strain:?}\n",
+            rounded(scene.fibre.e_1),
+            rounded(fraction)
+        );
+    }
+    for load in loads {
+        let (name, loading) = (load.name(), if *load == Load::Compaction { "compaction" } else { "compression" });
+        let _ = write!(text, "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n");
+    }
+    text
+}
+
+/// A number of seven digits, as TOML has it.
+fn rounded(value: f64) -> String {
+    let digits = format!("{value:.6e}").parse::<f64>().unwrap_or(value);
+    format!("{digits:?}")
+}
+
+/// A text of one line in quotes, as TOML has it.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|c| match c {
+        '"' | '\\' => format!("\\{c}"),
+        c if c.is_control() => format!("\\u{:04X}", u32::from(c)),
+        c => c.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}

@@ -1,0 +1,106 @@
+//! The summary of a scene for the terminal.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::model::Model;
+use super::output::volume_fraction;
+use super::run::Outcome;
+use super::scene::{Arrangement, Load, Scene};
+use crate::common::units::{number, unit};
+use toron::law::parameters::STRESS;
+
+/// The springs that hold free fibres may store this part of the fibres' energy, or they bear the load with them.
+pub const LARGEST_SPRINGS: f64 = 1e-3;
+
+/// Areas, energies and where the files are.
+pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path) -> String {
+    let mut text = format!("{}\n\n", scene.title);
+    areas(&mut text, scene, model);
+    energies(&mut text, scene, outcomes);
+    for outcome in outcomes {
+        let share = largest_spring_share(outcome);
+        if share > LARGEST_SPRINGS {
+            let _ = writeln!(
+                text,
+                "warning: {}: the springs that hold free fibres store {:.2} % of the fibres' energy, more than {:.1} %",
+                outcome.load.name(),
+                100.0 * share,
+                100.0 * LARGEST_SPRINGS
+            );
+        } else if !model.sprung.is_empty() {
+            let name = outcome.load.name();
+            let _ = writeln!(
+                text,
+                "{name}: springs that hold free fibres store up to {:.4} % of the fibres' energy",
+                100.0 * share
+            );
+        }
+    }
+    let _ = writeln!(text, "\nFiles in {}: the table, the deck and the picture of each load", output.display());
+    text
+}
+
+fn areas(text: &mut String, scene: &Scene, model: &Model) {
+    let length = scene.units.names()[0];
+    let scale = scene.fibre.diameter;
+    let quads: usize = model.bodies[..model.fibres].iter().map(|body| body.quads.len()).sum();
+    let pieces = match scene.arrangement {
+        Arrangement::Cell(_) => "quarters of fibres",
+        Arrangement::Box(_) => "fibres",
+    };
+    let [width, height] = model.size.map(|size| number(size * scale));
+    let _ = writeln!(text, "{} {pieces} in {width} × {height} {length}, {quads} elements", model.fibres);
+    let area = number(model.middle_area * scale * scale);
+    let of_middle =
+        if model.mirrored { String::new() } else { format!(" of the middle's {} fibres", model.middle.len()) };
+    let fraction = volume_fraction(scene, model);
+    let _ = writeln!(
+        text,
+        "reference area{of_middle}, voids included: {area} {length}²; fibres' part of it {:.4}",
+        model.fraction
+    );
+    let _ =
+        writeln!(text, "over the fibres' own area the energies would be those below times {:.4}", 1.0 / model.fraction);
+    if (fraction - model.fraction).abs() > 1e-9 {
+        let _ = writeln!(text, "over a yarn's with the fraction {fraction}: times {:.4}", fraction / model.fraction);
+    }
+}
+
+/// The last increment of each load.
+fn energies(text: &mut String, scene: &Scene, outcomes: &[Outcome]) {
+    let stress = unit(&scene.units, STRESS);
+    let boxed = matches!(scene.arrangement, Arrangement::Box(_));
+    let whole = if boxed { format!("  {:>12}", "whole box") } else { String::new() };
+    let _ = writeln!(text, "\n  {:<12}  {:>8}  {:>8}  {:>12}{whole}  {:>6}", "load", "I_tc", "I_td", "energy", "run");
+    let below = if boxed { format!("  {stress:>12}") } else { String::new() };
+    let _ = writeln!(text, "  {:<12}  {:>8}  {:>8}  {stress:>12}{below}  {:>6}", "", "", "", "s");
+    for outcome in outcomes {
+        let Some(last) = outcome.increments.last() else { continue };
+        let [i_tc, i_td] = last.invariants;
+        let whole = if boxed { format!("  {:>12}", number(last.whole)) } else { String::new() };
+        let _ = writeln!(
+            text,
+            "  {:<12}  {i_tc:>8.4}  {i_td:>8.4}  {:>12}{whole}  {:>6.1}",
+            outcome.load.name(),
+            number(last.energy),
+            outcome.elapsed.as_secs_f64()
+        );
+    }
+    text.push('\n');
+}
+
+/// The largest part of the fibres' energy that the springs have, from the load's middle on: before, there is hardly any.
+pub fn largest_spring_share(outcome: &Outcome) -> f64 {
+    let later = &outcome.increments[outcome.increments.len() / 2..];
+    later.iter().map(|increment| increment.springs / increment.whole).fold(0.0, f64::max)
+}
+
+/// What a load is, for titles.
+pub fn title(load: Load) -> &'static str {
+    match load {
+        Load::Compaction => "compaction, all sides alike",
+        Load::AlongRows => "compression along the rows",
+        Load::AcrossRows => "compression across the rows",
+    }
+}

@@ -1,0 +1,110 @@
+//! A load on the section: deck, CalculiX, energies and the deformed section at the end.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::time::Duration;
+
+use super::deck::{self, STRESS_UNIT, Task, front};
+use super::energies::{self, Increment};
+use super::model::Model;
+use super::scene::{Load, Scene};
+use super::solver::{self, Printed};
+use crate::common::error::Error;
+
+/// A quadrilateral of a fibre, deformed: its corners in diameters, and the von Mises stress in the scene's unit.
+pub type Patch = ([[f64; 2]; 4], f64);
+
+/// The fibres, deformed.
+#[derive(Debug, Default)]
+pub struct Shape {
+    pub patches: Vec<Patch>,
+    /// The edges of the fibres' circumferences, which tell fibres apart where they are pressed together.
+    pub rims: Vec<[[f64; 2]; 2]>,
+}
+
+/// What came of a load.
+#[derive(Debug)]
+pub struct Outcome {
+    pub load: Load,
+    pub increments: Vec<Increment>,
+    /// The fibres at the last increment.
+    pub shape: Shape,
+    /// Why the load was not taken to its end.
+    pub failure: Option<String>,
+    pub elapsed: Duration,
+}
+
+/// What CalculiX is asked to compute.
+pub fn task<'a>(scene: &'a Scene, model: &'a Model, load: Load) -> Task<'a> {
+    let (fibre, friction, increments) = (&scene.fibre, scene.friction, scene.increments);
+    Task { model, fibre, friction, load, last_stretch: scene.last_stretch(load), increments }
+}
+
+/// Runs a load on so many threads.
+///
+/// # Errors
+/// CalculiX cannot be started, or leaves nothing of what it was asked for.
+pub fn run(
+    program: &Path,
+    task: &Task,
+    text: &str,
+    threads: usize,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Outcome, Error> {
+    let name = task.load.name();
+    let printed = solver::run(program, text, threads, progress)?;
+    let in_load = |message: String| Error::Evaluation(format!("load {name}: {message}"));
+    let increments = energies::increments(task, &printed.tables).map_err(in_load)?;
+    let Some(last) = increments.last() else {
+        let why = printed.failure.unwrap_or_else(|| "CalculiX has printed no energies".to_string());
+        return Err(in_load(format!("not one increment converges: {why}")));
+    };
+    let short = (last.stretch - task.last_stretch).abs() > 1e-6;
+    let failure = (short || printed.failure.is_some()).then(|| {
+        let why = printed.failure.clone().unwrap_or_else(|| "CalculiX stopped".to_string());
+        let (reached, wanted) = (last.stretch, task.last_stretch);
+        format!("load {name}: increment {} does not converge; the stretch is {reached:.5} then, and {wanted:.5} at the end: {why}", increments.len() + 1)
+    });
+    let shape = shape(task, &printed);
+    Ok(Outcome { load: task.load, increments, shape, failure, elapsed: printed.elapsed })
+}
+
+/// The fibres' quadrilaterals with the mean of their corners' stresses, and their circumferences.
+fn shape(task: &Task, printed: &Printed) -> Shape {
+    let moved: HashMap<usize, [f64; 3]> = printed.displacements.iter().copied().collect();
+    let stressed = printed.stresses.iter().map(|(node, stress)| (*node, von_mises(stress)));
+    let stressed: HashMap<usize, f64> = stressed.collect();
+    let unit = STRESS_UNIT * task.fibre.e_2;
+    let place = |node: usize| {
+        let ([x, y], u) = (task.model.nodes[node], moved.get(&front(node))?);
+        Some([x + u[0], y + u[1]])
+    };
+    let mut shape = Shape::default();
+    for body in &task.model.bodies[..task.model.fibres] {
+        for quad in &body.quads {
+            let corners: Option<Vec<[f64; 2]>> = quad.iter().map(|&node| place(node)).collect();
+            let stresses: Option<Vec<f64>> = quad.iter().map(|&node| stressed.get(&front(node)).copied()).collect();
+            let (Some(corners), Some(stresses)) = (corners, stresses) else { continue };
+            let mean = 0.25 * unit * stresses.iter().sum::<f64>();
+            shape.patches.push(([corners[0], corners[1], corners[2], corners[3]], mean));
+        }
+        for (edge, _) in &body.rim {
+            let quad = body.quads[edge.quad];
+            if let (Some(from), Some(to)) = (place(quad[edge.edge]), place(quad[(edge.edge + 1) % 4])) {
+                shape.rims.push([from, to]);
+            }
+        }
+    }
+    shape
+}
+
+/// Of xx, yy, zz, xy, yz, zx.
+fn von_mises([xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
+    let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+    (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
+}
+
+/// The deck of a task, for those who want to run it themselves.
+pub fn deck(task: &Task) -> String {
+    deck::text(task)
+}
