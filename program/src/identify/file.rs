@@ -118,9 +118,9 @@ impl Job {
         if file.data.is_empty() && file.fibre.is_none() {
             return Err(source.error(0..0, "neither [[data]] nor [fibre]: nothing tells a parameter"));
         }
-        let fibre = file.fibre.as_ref().map(|fibre| source.fibre(fibre)).transpose()?;
+        let fibre = file.fibre.as_ref().map(|fibre| source.known_fibre(fibre)).transpose()?;
         let base = file.yarn.preset.as_ref().map(|name| source.base(name, folder)).transpose()?;
-        let preset = source.yarn(&file, units)?;
+        let preset = source.preset_to_be(&file, units)?;
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
         let reader = Reader { source: &source, folder, units: &units, known: &known };
@@ -165,7 +165,7 @@ fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitS
 }
 
 impl Source<'_> {
-    fn fibre(&self, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
+    fn known_fibre(&self, file: &Spanned<FibreFile>) -> Result<Fibre, Error> {
         let file = file.get_ref();
         let constant = |name: &str, value: &Spanned<f64>, deviation: &Option<Spanned<f64>>| {
             let number = self.positive(name, *value.get_ref(), value.span())?;
@@ -206,7 +206,7 @@ impl Source<'_> {
     }
 
     /// The preset that comes out, with the values that the file gives.
-    fn yarn(&self, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
+    fn preset_to_be(&self, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
         let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
         let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
         if !plain_name(&name) {
