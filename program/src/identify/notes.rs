@@ -1,6 +1,7 @@
 //! What a user has to know of a fit besides its numbers.
 
-use super::fit::{Fit, Problem};
+use super::data::DataSet;
+use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
 
 /// An interval that reaches this far to one side, over the value, tells little.
@@ -28,15 +29,18 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
             notes.push(format!("the data hardly tell {name}: its interval is as wide as its value"));
         }
     }
-    for (set, fitted) in problem.sets.iter().zip(&fit.sets) {
+    let patterned = |(set, fitted): &(&DataSet, &SetFit)| {
         let seen = fitted.residuals.iter().any(|r| r.abs() > EXACT * set.largest());
-        if seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i))) {
-            notes.push(format!(
-                "the residuals of {} are not noise: the law does not follow these data, or they were smoothed; the \
-                 intervals do not cover that",
-                set.name
-            ));
-        }
+        seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i)))
+    };
+    let patterned: Vec<&str> =
+        problem.sets.iter().zip(&fit.sets).filter(patterned).map(|(set, _)| set.name.as_str()).collect();
+    if !patterned.is_empty() {
+        notes.push(format!(
+            "the residuals of {} are not noise: the law does not follow these data exactly, or they were smoothed; the intervals \
+             do not cover that",
+            patterned.join(", ")
+        ));
     }
     notes
 }

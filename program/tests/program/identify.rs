@@ -389,3 +389,30 @@ impl impact::run::Observer for Silent {
         Ok(())
     }
 }
+
+/// A set with the weight 4 counts as much as one whose known deviations are half as large, but is no surer for it.
+#[test]
+fn a_weight_moves_the_answer_and_is_no_evidence() {
+    let mut normal = Normal(fastrand::Rng::with_seed(3));
+    let parameters = [Parameter::KTc, Parameter::P, Parameter::KTd];
+    let mut sets = [compaction(), compression()].map(|set| with_noise(&set, &mut normal));
+    for set in &mut sets {
+        set.fits = parameters.to_vec();
+        set.deviations = Some(vec![NOISE * set.largest(); POINTS]);
+    }
+    let plain = fit(sets.to_vec());
+    let mut weighted = sets.clone();
+    weighted[1].weight = 4.0;
+    let weighted = fit(weighted.to_vec());
+    let mut surer = sets;
+    surer[1].deviations.iter_mut().flatten().for_each(|deviation| *deviation *= 0.5);
+    let surer = fit(surer.to_vec());
+    for (i, parameter) in parameters.into_iter().enumerate() {
+        let [plain, weighted, surer] = [&plain, &weighted, &surer].map(|fit| fit.estimates[i]);
+        assert_eq!(weighted.parameter, parameter);
+        assert_relative_eq!(weighted.value, surer.value, max_relative = 1e-6);
+        assert!(weighted.value != plain.value);
+        // Weights other than the inverse variances are never better than those.
+        assert!(weighted.error > plain.error && surer.error < plain.error, "{weighted:?} {plain:?} {surer:?}");
+    }
+}
