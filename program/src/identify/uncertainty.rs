@@ -158,6 +158,9 @@ impl Uncertainty {
     }
 
     fn interval(&self, parameter: Parameter, value: f64, error: f64) -> [f64; 2] {
+        if error == 0.0 {
+            return [value; 2];
+        }
         let half = quantile(self.freedom(parameter)) * error;
         let centre = self.unbounded[parameter.index()].unwrap_or(value);
         let ends = if parameter.logarithmic() && centre > 0.0 {
