@@ -208,9 +208,8 @@ impl Deck<'_> {
         for (number, &node) in model.sprung.iter().enumerate() {
             let ghost = self.ghost(number);
             self.line(format_args!("{ghost}, 3, 3"));
-            for axis in 0..2 {
-                let moved = (stretches[axis] - 1.0) * model.nodes[node][axis];
-                self.line(format_args!("{ghost}, {0}, {0}, {moved:.12e}", axis + 1));
+            for (axis, (stretch, place)) in stretches.into_iter().zip(model.nodes[node]).enumerate() {
+                self.line(format_args!("{ghost}, {0}, {0}, {1:.12e}", axis + 1, (stretch - 1.0) * place));
             }
         }
         for set in [FIBRES, MIDDLE] {
