@@ -13,7 +13,7 @@ use crate::common::toml_file::Source;
 /// Defaults of the keys: those of the thesis, but for the mesh and the increments.
 const FRICTION: f64 = 0.2;
 const LARGEST: f64 = 0.12;
-const ELEMENTS: usize = 6;
+const ELEMENTS: usize = 8;
 const INCREMENTS: usize = 24;
 /// What a key may be at most. Fibres pressed further than this have no voids left between them.
 const MOST_INVARIANT: f64 = 0.2;
