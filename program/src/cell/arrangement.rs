@@ -73,7 +73,7 @@ fn read_from_all(model: &mut Model, fibre_area: f64) {
 
 /// Whole fibres between four walls.
 fn walled_box(contents: &BoxOf, elements: usize) -> Result<Model, String> {
-    let (centres, size, area_of_fibre) = places(contents)?;
+    let Places { centres, size, area_of_fibre } = places(contents)?;
     let mut model = Model { size, area: size[0] * size[1], ..Model::default() };
     let disc = Disc::whole(elements);
     for &centre in &centres {
@@ -117,8 +117,16 @@ fn distance(centre: [f64; 2], side: Side, size: [f64; 2]) -> f64 {
     }
 }
 
-/// Centres, the box's size, and the area that belongs to a fibre inside.
-fn places(contents: &BoxOf) -> Result<(Vec<[f64; 2]>, [f64; 2], f64), String> {
+/// Where the fibres of a box lie.
+struct Places {
+    centres: Vec<[f64; 2]>,
+    /// The box's.
+    size: [f64; 2],
+    /// What belongs to a fibre inside, voids included.
+    area_of_fibre: f64,
+}
+
+fn places(contents: &BoxOf) -> Result<Places, String> {
     Ok(match *contents {
         BoxOf::Rows { packing, rows, fibres_in_row } => {
             let hexagonal = packing == Packing::Hexagonal;
@@ -129,14 +137,14 @@ fn places(contents: &BoxOf) -> Result<(Vec<[f64; 2]>, [f64; 2], f64), String> {
                 (0..count).map(move |i| [start + i as f64, 0.5 + height * row as f64])
             };
             let size = [fibres_in_row as f64, 1.0 + height * (rows - 1) as f64];
-            ((0..rows).flat_map(row).collect(), size, height)
+            Places { centres: (0..rows).flat_map(row).collect(), size, area_of_fibre: height }
         }
         BoxOf::Random { fibres, fraction, seed } => {
             let side = (FRAC_PI_4 * fibres as f64 / fraction).sqrt();
             let centres = random_packing::centres(fibres, side, seed).ok_or_else(|| {
                 format!("{fibres} fibres with fraction {fraction} and seed {seed} find no room; allowed: a smaller fraction, or another seed")
             })?;
-            (centres, [side, side], side * side / fibres as f64)
+            Places { centres, size: [side, side], area_of_fibre: side * side / fibres as f64 }
         }
     })
 }
@@ -160,11 +168,11 @@ mod tests {
     #[test]
     fn random_fibres_do_not_overlap() {
         let random = BoxOf::Random { fibres: 40, fraction: 0.75, seed: 1 };
-        let (centres, size, _) = places(&random).expect("there is room");
+        let Places { centres, size, .. } = places(&random).expect("there is room");
         for (i, a) in centres.iter().enumerate() {
             assert!(SIDES.iter().all(|&side| distance(*a, side, size) > 0.5 - 1e-4));
             assert!(centres[..i].iter().all(|b| (a[0] - b[0]).hypot(a[1] - b[1]) > 1.0 - 1e-4));
         }
-        assert_eq!(centres, places(&random).expect("there is room").0);
+        assert_eq!(centres, places(&random).expect("there is room").centres);
     }
 }

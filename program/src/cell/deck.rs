@@ -17,6 +17,9 @@ pub const SPRING: f64 = 1e-4;
 /// The first increment over the others, in a box: its fibres are free to turn until they touch, and CalculiX finds out in
 /// small steps only which do. It lengthens the increments by itself then.
 const FIRST_OF_BOX: f64 = 0.1;
+/// Iterations after which CalculiX takes a smaller increment: faces that open and close in turn do so for ever. Before it stand
+/// its own values of the three other parameters of contact.
+const ITERATIONS: usize = 16;
 /// Increments in all, with those that CalculiX takes again; and the smallest, as a part of the load.
 const MOST_INCREMENTS: usize = 2000;
 const SMALLEST: f64 = 1e-6;
@@ -200,6 +203,7 @@ impl Deck<'_> {
         self.line(format_args!("*STEP, NLGEOM, INC={MOST_INCREMENTS}\n*STATIC"));
         let first = if model.sprung.is_empty() { increment } else { FIRST_OF_BOX * increment };
         self.line(format_args!("{first:.12}, 1., {SMALLEST:e}, {increment:.12}"));
+        self.line(format_args!("*CONTROLS, PARAMETERS=CONTACT\n0.001, 0.1, 100, {ITERATIONS}"));
         self.line("*BOUNDARY\nALL, 3, 3");
         for (number, support) in model.supports.iter().enumerate() {
             let (axis, moved) = (support.axis + 1, (stretches[support.axis] - 1.0) * support.at);
@@ -208,9 +212,8 @@ impl Deck<'_> {
         for (number, &node) in model.sprung.iter().enumerate() {
             let ghost = self.ghost(number);
             self.line(format_args!("{ghost}, 3, 3"));
-            for axis in 0..2 {
-                let moved = (stretches[axis] - 1.0) * model.nodes[node][axis];
-                self.line(format_args!("{ghost}, {0}, {0}, {moved:.12e}", axis + 1));
+            for (axis, (stretch, place)) in stretches.into_iter().zip(model.nodes[node]).enumerate() {
+                self.line(format_args!("{ghost}, {0}, {0}, {1:.12e}", axis + 1, (stretch - 1.0) * place));
             }
         }
         for set in [FIBRES, MIDDLE] {

@@ -18,40 +18,50 @@ pub struct Increment {
     pub work: f64,
 }
 
-/// The increments that were reached.
-///
-/// # Errors
-/// A value is missing: its name and the time.
-pub fn increments(task: &Task, tables: &[Table]) -> Result<Vec<Increment>, String> {
+/// The increments that were reached, and what is missing where one is not whole: those before it stand.
+pub fn increments(task: &Task, tables: &[Table]) -> (Vec<Increment>, Option<String>) {
+    let mut increments = Vec::new();
+    let mut before = Reached { stretch: 1.0, forces: vec![0.0; task.model.supports.len()], work: 0.0 };
+    for tables in by_time(tables) {
+        match increment(task, tables, &mut before) {
+            Ok(increment) => increments.push(increment),
+            Err(missing) => return (increments, Some(missing)),
+        }
+    }
+    (increments, None)
+}
+
+/// Where the supports are, with their forces along their axes, and the work that they have done.
+struct Reached {
+    stretch: f64,
+    forces: Vec<f64>,
+    work: f64,
+}
+
+/// The increment of these tables; moves `before` to its end.
+fn increment(task: &Task, tables: &[Table], before: &mut Reached) -> Result<Increment, String> {
     let Task { model, load, .. } = *task;
     let unit = STRESS_UNIT * task.fibre.e_2;
-    let mut increments = Vec::new();
-    let mut before = (1.0, vec![0.0; model.supports.len()], 0.0);
-    for tables in by_time(tables) {
-        let time = tables[0].time;
-        let stretch = 1.0 + time * (task.last_stretch - 1.0);
-        let energy = |set: &str| Ok::<f64, String>(table(tables, "total internal energy", set)?.rows[0][0]);
-        let forces = (0..model.supports.len()).map(|i| {
-            let total = table(tables, "total force", &support_name(i))?;
-            total.rows[0].get(model.supports[i].axis).copied().ok_or_else(|| missing("a force", time))
-        });
-        let forces = forces.collect::<Result<Vec<f64>, String>>()?;
-        let (last, last_forces, mut work) = before;
-        let [from, to] = [last, stretch].map(|stretch| load.stretches(stretch));
-        for (i, support) in model.supports.iter().enumerate() {
-            work += 0.5 * (last_forces[i] + forces[i]) * (to[support.axis] - from[support.axis]) * support.at;
-        }
-        increments.push(Increment {
-            stretch,
-            invariants: load.invariants(stretch),
-            energy: unit * energy(MIDDLE)? / model.middle_area,
-            whole: unit * energy(FIBRES)? / model.area,
-            springs: task.fibre.e_2 * springs(task, tables, stretch)? / model.area,
-            work: unit * work / model.area,
-        });
-        before = (stretch, forces, work);
+    let time = tables[0].time;
+    let stretch = 1.0 + time * (task.last_stretch - 1.0);
+    let energy = |set: &str| Ok::<f64, String>(table(tables, "total internal energy", set)?.rows[0][0]);
+    let [from, to] = [before.stretch, stretch].map(|stretch| load.stretches(stretch));
+    let (mut forces, mut work) = (Vec::new(), before.work);
+    for (i, support) in model.supports.iter().enumerate() {
+        let total = table(tables, "total force", &support_name(i))?;
+        let force = *total.rows[0].get(support.axis).ok_or_else(|| missing("a force", time))?;
+        work += 0.5 * (before.forces[i] + force) * (to[support.axis] - from[support.axis]) * support.at;
+        forces.push(force);
     }
-    Ok(increments)
+    *before = Reached { stretch, forces, work };
+    Ok(Increment {
+        stretch,
+        invariants: load.invariants(stretch),
+        energy: unit * energy(MIDDLE)? / model.middle_area,
+        whole: unit * energy(FIBRES)? / model.area,
+        springs: task.fibre.e_2 * springs(task, tables, stretch)? / model.area,
+        work: unit * work / model.area,
+    })
 }
 
 /// The tables of each time; CalculiX prints a last increment that it has cut to nothing a second time.

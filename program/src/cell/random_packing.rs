@@ -2,30 +2,43 @@
 
 use fastrand::Rng;
 
-/// Steps in which the discs grow to diameter 1.
+/// Steps in which the discs grow to diameter 1, and rounds of pushing in each.
 const GROWTH: usize = 200;
-/// Rounds of pushing in a step, and in the last.
 const ROUNDS: usize = 200;
-const LAST_ROUNDS: usize = 200_000;
+/// Where discs of full size are stuck they are shaken, by less each time, and pushed again.
+const SHAKES: usize = 60;
+const SHAKE: f64 = 0.3;
+const SHAKEN_ROUNDS: usize = 4000;
 /// An overlap that counts as touching.
 const TOUCH: f64 = 1e-5;
 
 /// The centres of so many discs of diameter 1 in a box of this side, or none where they find no room.
 pub fn centres(discs: usize, side: f64, seed: u64) -> Option<Vec<[f64; 2]>> {
+    if side < 1.0 {
+        return None;
+    }
     let mut random = Rng::with_seed(seed);
     let mut centres: Vec<[f64; 2]> = (0..discs).map(|_| [side * random.f64(), side * random.f64()]).collect();
     for step in 1..=GROWTH {
         let diameter = (step as f64 / GROWTH as f64).sqrt();
-        let rounds = if step == GROWTH { LAST_ROUNDS } else { ROUNDS };
-        let free = (0..rounds).any(|_| push(&mut centres, diameter, side) < TOUCH);
-        if step == GROWTH && !free {
-            return None;
+        let free = (0..ROUNDS).any(|_| push(&mut centres, diameter, side) < TOUCH);
+        if step == GROWTH && free {
+            return Some(centres);
         }
     }
-    Some(centres)
+    for shake in 0..SHAKES {
+        let most = SHAKE * (1.0 - shake as f64 / SHAKES as f64);
+        for centre in &mut centres {
+            *centre = centre.map(|x| x + most * (random.f64() - 0.5));
+        }
+        if (0..SHAKEN_ROUNDS).any(|_| push(&mut centres, 1.0, side) < TOUCH) {
+            return Some(centres);
+        }
+    }
+    None
 }
 
-/// Moves overlapping discs apart, by half of the overlap each; returns the largest overlap there was.
+/// Moves overlapping discs apart, by half of the overlap each, and all into the box; returns the largest overlap there was.
 fn push(centres: &mut [[f64; 2]], diameter: f64, side: f64) -> f64 {
     let mut largest: f64 = 0.0;
     for i in 0..centres.len() {
@@ -45,7 +58,23 @@ fn push(centres: &mut [[f64; 2]], diameter: f64, side: f64) -> f64 {
         }
     }
     for centre in centres {
-        *centre = centre.map(|x| x.clamp(0.5 * diameter, side - 0.5 * diameter));
+        for x in centre {
+            let inside = x.clamp(0.5 * diameter, side - 0.5 * diameter);
+            largest = largest.max((*x - inside).abs());
+            *x = inside;
+        }
     }
     largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discs_find_room_where_there_is_some() {
+        let side = |fraction: f64| (0.25 * std::f64::consts::PI * 20.0 / fraction).sqrt();
+        assert!(centres(20, side(0.7), 1).is_some());
+        assert!(centres(20, side(0.95), 1).is_none());
+    }
 }

@@ -13,7 +13,7 @@ use crate::common::toml_file::Source;
 /// Defaults of the keys: those of the thesis, but for the mesh and the increments.
 const FRICTION: f64 = 0.2;
 const LARGEST: f64 = 0.12;
-const ELEMENTS: usize = 6;
+const ELEMENTS: usize = 8;
 const INCREMENTS: usize = 24;
 /// What a key may be at most. Fibres pressed further than this have no voids left between them.
 const MOST_INVARIANT: f64 = 0.2;
@@ -53,7 +53,7 @@ impl Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
             units: source.units(&file.units)?,
             fibre: source.fibre(file.fibre.get_ref())?,
-            friction: source.from_zero("friction", &cell.friction, MOST_FRICTION, FRICTION)?,
+            friction: source.zero_up_to("friction", &cell.friction, MOST_FRICTION, FRICTION)?,
             elements: source.count("elements", &cell.elements, [1, MOST_ELEMENTS], ELEMENTS)?,
             largest,
             largest_distortion: source.up_to(
@@ -199,7 +199,7 @@ impl Source<'_> {
     }
 
     /// A number from 0 to `most`, or the default.
-    fn from_zero(&self, key: &str, value: &Option<Spanned<f64>>, most: f64, default: f64) -> Result<f64, Error> {
+    fn zero_up_to(&self, key: &str, value: &Option<Spanned<f64>>, most: f64, default: f64) -> Result<f64, Error> {
         let Some(value) = value else { return Ok(default) };
         let number = *value.get_ref();
         if (0.0..=most).contains(&number) {

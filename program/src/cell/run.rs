@@ -11,6 +11,9 @@ use super::scene::{Load, Scene};
 use super::solver::{self, Printed};
 use crate::common::error::Error;
 
+/// The stretch is known to the seven digits that CalculiX prints of the time.
+const ROUNDING: f64 = 1e-6;
+
 /// A quadrilateral of a fibre, deformed: its corners in diameters, and the von Mises stress in the scene's unit.
 pub type Patch = ([[f64; 2]; 4], f64);
 
@@ -54,16 +57,21 @@ pub fn run(
     let name = task.load.name();
     let printed = solver::run(program, text, threads, progress)?;
     let in_load = |message: String| Error::Evaluation(format!("load {name}: {message}"));
-    let increments = energies::increments(task, &printed.tables).map_err(in_load)?;
+    let (increments, missing) = energies::increments(task, &printed.tables);
+    let why = printed.failure.clone().or(missing);
     let Some(last) = increments.last() else {
-        let why = printed.failure.unwrap_or_else(|| "CalculiX has printed no energies".to_string());
+        let why = why.unwrap_or_else(|| "CalculiX has printed no energies".to_string());
         return Err(in_load(format!("not one increment converges: {why}")));
     };
-    let short = (last.stretch - task.last_stretch).abs() > 1e-6;
-    let failure = (short || printed.failure.is_some()).then(|| {
-        let why = printed.failure.clone().unwrap_or_else(|| "CalculiX stopped".to_string());
-        let (reached, wanted) = (last.stretch, task.last_stretch);
-        format!("load {name}: increment {} does not converge; the stretch is {reached:.5} then, and {wanted:.5} at the end: {why}", increments.len() + 1)
+    let short = (last.stretch - task.last_stretch).abs() > ROUNDING;
+    let failure = (short || why.is_some()).then(|| {
+        format!(
+            "load {name}: increment {} does not converge, at I_tc = {:.4}, I_td = {:.4}; the increments before are kept: {}",
+            increments.len() + 1,
+            last.invariants[0],
+            last.invariants[1],
+            why.unwrap_or_else(|| "CalculiX stopped".to_string())
+        )
     });
     let shape = shape(task, &printed);
     Ok(Outcome { load: task.load, increments, shape, failure, elapsed: printed.elapsed })

@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | k_tc, k_td | 1.055 and 0.64974 GPa, thesis section 4.5 | 20 %: another program, contact and mesh |
 //! | p, 2.05 to 2.25 | 2.2, thesis | the same; 2.08 on finer meshes |
-//! | energies of 6 elements against 9, 1 % | the finer mesh | the demand on the mesh |
+//! | energies of 8 elements against 12, 1 % | the finer mesh | the demand on the mesh |
 //! | approach of two cylinders, 3 % | Johnson, Contact Mechanics (1985), Eq. 5.58 | the demand on the contact |
 //! | work of the supports, 1.5 % | the strain energy | penalty of the contact, and the trapezoidal rule over 24 increments |
 
@@ -192,7 +192,7 @@ fn the_command_writes_its_files() {
     let folder = crate::library::folder("cell");
     let _ = std::fs::remove_dir_all(folder.join("out"));
     let text = std::fs::read_to_string(example("cell.toml")).expect("the example");
-    let coarse = text.replace("elements = 6", "elements = 2").replace("increments = 24", "increments = 6");
+    let coarse = text.replace("elements = 8", "elements = 2").replace("increments = 24", "increments = 6");
     std::fs::write(folder.join("cell.toml"), &coarse).expect("a file");
     let output =
         toron(&folder, &["cell", "cell.toml", "-o", "out"]).env("TORON_CCX", &*SOLVER).output().expect("it runs");
@@ -252,7 +252,7 @@ fn errors_name_the_line_and_what_is_allowed() {
         ("nu_23 = 0.24", "nu_23 = 1.0", "nu_23 is 1; allowed: between -1 and 1"),
         ("g_23 = 540 ", "g_23 = 600 ", "g_23 is 600; allowed: within 2 %"),
         ("friction = 0.2", "friction = -0.2", "friction is -0.2; allowed: a number from 0"),
-        ("elements = 6", "elements = 0", "elements is 0; allowed: a whole number from 1 to 40"),
+        ("elements = 8", "elements = 0", "elements is 0; allowed: a whole number from 1 to 40"),
         ("largest = 0.12", "largest = 0.5", "largest is 0.5; allowed: a number > 0, up to 0.2"),
         ("packing = \"hexagonal\"", "packing = \"cubic\"", "packing is \"cubic\"; allowed: hexagonal, square, random"),
         ("diameter = 0.012", "diameter = 0", "diameter is 0; allowed: a finite number > 0"),
@@ -274,18 +274,18 @@ fn errors_name_the_line_and_what_is_allowed() {
 #[ignore = "takes minutes"]
 fn the_cell_converges() {
     let mut ends = Vec::new();
-    for elements in [3, 4, 6, 9] {
+    for elements in [3, 4, 6, 8, 12] {
         let outcomes = all(&Scene { elements, ..scene() });
         let fit = fit_by(&outcomes, |increment| increment.energy);
         show(&format!("{elements} elements"), &fit, &outcomes);
         ends.push(outcomes.map(|outcome| last(&outcome).energy));
     }
-    for load in 0..3 {
-        assert_within(ends[2][load], ends[3][load], 0.01);
+    for (chosen, finer) in ends[3].into_iter().zip(ends[4]) {
+        assert_within(chosen, finer, 0.01);
     }
     for friction in [0.0, 0.2, 0.4] {
         for largest_distortion in [0.06, 0.12] {
-            let outcomes = all(&Scene { friction, largest_distortion, ..scene() });
+            let outcomes = all(&Scene { friction, largest_distortion, elements: 6, ..scene() });
             let fit = fit_by(&outcomes, |increment| increment.energy);
             show(&format!("friction {friction}, to {largest_distortion}"), &fit, &outcomes);
         }
@@ -313,7 +313,7 @@ fn the_box_of_the_thesis() {
 #[test]
 #[ignore = "takes minutes"]
 fn a_random_packing_is_pressed() {
-    let arrangement = Arrangement::Box(BoxOf::Random { fibres: 40, fraction: 0.78, seed: 1 });
+    let arrangement = Arrangement::Box(BoxOf::Random { fibres: 40, fraction: 0.75, seed: 1 });
     let outcome = outcome(&Scene { arrangement, elements: 3, largest: 0.05, ..scene() }, Load::Compaction);
     println!("W {:.4}, whole {:.4}, {:?}", last(&outcome).energy, last(&outcome).whole, outcome.elapsed);
     assert!(largest_spring_share(&outcome) < 1e-3);
