@@ -55,7 +55,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
         let text = failures.iter().map(Error::to_string).collect::<Vec<_>>().join("\n");
         return Err(if matches!(first, Error::Input(_)) { Error::Input(text) } else { Error::Evaluation(text) });
     }
-    output::write(&fit, &output::fit_file(&scene, &model, &scene.loads))?;
+    output::write(&fit, &output::fit_file(&scene, &model, &outcomes))?;
     Ok(fit)
 }
 

@@ -43,8 +43,12 @@ pub fn volume_fraction(scene: &Scene, model: &Model) -> f64 {
     scene.yarn.volume_fraction.unwrap_or(model.fraction)
 }
 
+/// The energies' standard deviation, over the largest of a load: computed, they have no noise that could be estimated, and where
+/// the law follows one load better than another this one would count for nothing.
+const DEVIATION: f64 = 0.01;
+
 /// The file that `toron fit` reads.
-pub fn fit_file(scene: &Scene, model: &Model, loads: &[Load]) -> String {
+pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
     let fraction = volume_fraction(scene, model);
     let [length, mass, time] = scene.units.names();
     let source = scene.yarn.source.clone().unwrap_or_else(|| format!("{}: fibres in CalculiX", scene.title));
@@ -65,9 +69,16 @@ pub fn fit_file(scene: &Scene, model: &Model, loads: &[Load]) -> String {
             rounded(fraction)
         );
     }
-    for load in loads {
-        let (name, loading) = (load.name(), if *load == Load::Compaction { "compaction" } else { "compression" });
-        let _ = write!(text, "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n");
+    for outcome in outcomes {
+        let name = outcome.load.name();
+        let loading = if outcome.load == Load::Compaction { "compaction" } else { "compression" };
+        let largest = outcome.increments.iter().fold(0.0, |largest: f64, increment| largest.max(increment.energy));
+        let deviation = rounded(DEVIATION * largest);
+        let _ = write!(
+            text,
+            "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n\
+             deviation = {deviation} # 1 % of the largest energy\n"
+        );
     }
     text
 }
