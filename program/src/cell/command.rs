@@ -33,6 +33,14 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
+    let folder = |path: &Path| std::fs::canonicalize(path).ok();
+    if folder(output).is_some()
+        && folder(output) == folder(path).as_deref().and_then(Path::parent).map(Path::to_path_buf)
+    {
+        let message =
+            "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
+        return Err(Error::Input(message.to_string()));
+    }
     std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
     let fit = output.join("fit.toml");
     // One of an earlier run would stand beside other tables.

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::model::Model;
 use super::output::volume_fraction;
 use super::run::Outcome;
-use super::scene::{Arrangement, Load, Scene};
+use super::scene::{Arrangement, Load, Packing, Scene};
 use crate::common::units::{number, unit};
 use toron::law::parameters::STRESS;
 
@@ -46,11 +46,15 @@ fn areas(text: &mut String, scene: &Scene, model: &Model) {
     let scale = scene.fibre.diameter;
     let quads: usize = model.bodies[..model.fibres].iter().map(|body| body.quads.len()).sum();
     let pieces = match scene.arrangement {
-        Arrangement::Cell(_) => "quarters of fibres",
+        Arrangement::Cell(Packing::Square) => "quarter of a fibre",
+        Arrangement::Cell(Packing::Hexagonal) => "quarters of fibres",
         Arrangement::Box(_) => "fibres",
     };
     let [width, height] = model.size.map(|size| number(size * scale));
     let _ = writeln!(text, "{} {pieces} in {width} × {height} {length}, {quads} elements", model.fibres);
+    if scene.arrangement == Arrangement::Cell(Packing::Square) && scene.friction > 0.0 {
+        let _ = writeln!(text, "friction does not act: by symmetry nothing slides in a square packing");
+    }
     let area = number(model.middle_area * scale * scale);
     let of_middle =
         if model.mirrored { String::new() } else { format!(" of the middle's {} fibres", model.middle.len()) };

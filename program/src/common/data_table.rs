@@ -69,14 +69,21 @@ impl DataTable {
             return Err(Error::Input(format!("{name}:1:1: no header; allowed: columns as in \"{EXAMPLE}\"")));
         };
         let semicolons = first.contains(';') && !first.contains(',');
-        let delimiter = if semicolons { b';' } else { b',' };
+        let tabs = first.contains('\t') && !first.contains([',', ';']);
+        let delimiter = if tabs {
+            b'\t'
+        } else if semicolons {
+            b';'
+        } else {
+            b','
+        };
         let mut table = DataTable { name: name.to_string(), columns: Vec::new(), header };
         table.read_header(&cells(first, delimiter))?;
         let rows: Vec<(usize, Vec<String>)> = lines.map(|(line, text)| (line, cells(text, delimiter))).collect();
         if rows.is_empty() {
             return Err(table.error(header, 1, "no line of data follows the header; allowed: one at least"));
         }
-        let comma = semicolons && rows.iter().any(|(_, row)| row.iter().any(|cell| cell.contains(',')));
+        let comma = (semicolons || tabs) && rows.iter().any(|(_, row)| row.iter().any(|cell| cell.contains(',')));
         for (line, row) in &rows {
             table.read_row(*line, row, if comma { ',' } else { '.' })?;
         }

@@ -7,6 +7,8 @@ const ENOUGH: usize = 20;
 /// With fewer points it is taken for this at least, over the largest value; without noise, for that.
 const FEW: f64 = 0.1;
 const EXACT: f64 = 1e-6;
+/// A way back that is this much below the way out, over the largest value, is another way.
+const HYSTERESIS: f64 = 0.03;
 /// The standard deviation of normally distributed numbers over the median of their sizes.
 const NORMAL: f64 = 1.4826;
 
@@ -16,10 +18,15 @@ pub enum Flaw {
     Negative(usize),
     /// The point and the earlier one that it is far below.
     Falls(usize, usize),
+    /// The file turns back at this point and comes back below the way it went.
+    Unloads(usize),
 }
 
 /// The first flaw of a curve over the distance from rest; `noise` is its standard deviation where that is known.
 pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Flaw> {
+    if let Some(point) = unloading(distances, values) {
+        return Some(Flaw::Unloads(point));
+    }
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| distances[a].total_cmp(&distances[b]));
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -41,6 +48,29 @@ pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
     // However large the noise, the whole may not fall.
     let (first, last) = (order[0], order[order.len() - 1]);
     (values.len() > 2 && slope(distances, values) < 0.0).then_some(Flaw::Falls(last, first))
+}
+
+/// Where a file that goes out and comes back, in its own order, comes back below: by more than a share of the largest value, in
+/// the mean. Points in any other order are no path.
+fn unloading(distances: &[f64], values: &[f64]) -> Option<usize> {
+    let turn = (0..distances.len()).max_by(|&a, &b| distances[a].total_cmp(&distances[b]))?;
+    let rises = distances[..=turn].windows(2).all(|pair| pair[0] <= pair[1]);
+    let falls = distances[turn..].windows(2).all(|pair| pair[0] >= pair[1]);
+    let back = turn + 1..distances.len();
+    if !(rises && falls && turn > 1 && back.len() > 1) {
+        return None;
+    }
+    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let below = back.clone().map(|i| out(&distances[..=turn], &values[..=turn], distances[i]) - values[i]);
+    (below.sum::<f64>() > HYSTERESIS * largest * back.len() as f64).then_some(back.start)
+}
+
+/// The value on the way out at a distance.
+fn out(distances: &[f64], values: &[f64], at: f64) -> f64 {
+    let after = distances.partition_point(|&distance| distance < at).clamp(1, distances.len() - 1);
+    let (from, to) = (distances[after - 1], distances[after]);
+    let part = if to > from { (at - from) / (to - from) } else { 1.0 };
+    values[after - 1] + part * (values[after] - values[after - 1])
 }
 
 /// The sign of the line through the points.
@@ -95,7 +125,18 @@ mod tests {
         let (x, y) = curve(3, |x| 1.0 - x);
         assert!(matches!(flaw(&x, &y, None), Some(Flaw::Falls(1, 0))));
         assert_eq!(flaw(&[1.0, 2.0, 3.0], &[5.0, 4.9, 4.8], None), Some(Flaw::Falls(2, 0)));
-        // Unloading in the file's order is sorted by distance first, and is then rough, not falling.
         assert_eq!(flaw(&[], &[], None), None);
+    }
+
+    #[test]
+    fn a_curve_that_comes_back_below_is_named_where_it_turns() {
+        let (mut x, mut y) = curve(20, |x| x.powf(2.2));
+        let back: Vec<f64> = x.iter().rev().skip(1).copied().collect();
+        y.extend(back.iter().map(|x| 0.6 * x.powf(2.2)));
+        x.extend(&back);
+        assert_eq!(flaw(&x, &y, None), Some(Flaw::Unloads(20)));
+        // There and back on the same way is elastic.
+        let elastic: Vec<f64> = x.iter().map(|x| x.powf(2.2)).collect();
+        assert_eq!(flaw(&x, &elastic, None), None);
     }
 }

@@ -17,30 +17,60 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     let job = Job::read(path)?;
     let scene = scene.map(Scene::read).transpose()?;
     let fit = job.problem.fit()?;
+    let files = names(&job);
+    require_new(&job, output, &files)?;
     std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
-    let preset = format!("{}.toml", job.preset.name);
-    let mut written = vec![preset.clone(), "parameters.csv".to_string()];
-    let file = output.join(&preset);
+    let file = output.join(&files[0]);
     std::fs::write(&file, output::preset(&job, &fit))
         .map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
-    output::write_parameters(&output.join("parameters.csv"), &job, &fit)?;
+    output::write_parameters(&output.join(PARAMETERS), &job, &fit)?;
     for (set, fitted) in job.problem.sets.iter().zip(&fit.sets) {
-        let name = format!("fit-{}.csv", set.name);
-        output::write_set(&output.join(&name), set, fitted)?;
-        written.push(name);
-    }
-    if !job.problem.sets.is_empty() {
-        let border = region::border(&job.problem, &fit);
-        plot::write(&output.join("fit.svg"), &output.join("fit.png"), &job, &fit, border.as_deref())?;
-        written.extend(["fit.svg".to_string(), "fit.png".to_string()]);
+        output::write_set(&output.join(of_set(&set.name)), set, fitted)?;
     }
     print(&report::report(&job, &fit));
+    if !job.problem.sets.is_empty() {
+        // The region takes a while along load paths.
+        let border = region::border(&job.problem, &fit);
+        let [svg, png] = PLOTS.map(|name| output.join(name));
+        plot::write(&svg, &png, &job, &fit, border.as_deref())?;
+    }
+    print(&report::line("written", &format!("{} in {}", files.join(", "), output.display())));
     if let Some(scene) = scene {
         let trials = worth::trials(&job, &fit, &scene)?;
-        worth::write(&output.join("worth.csv"), &scene, &trials)?;
-        written.push("worth.csv".to_string());
-        print(&worth::report(&scene, &trials));
+        worth::write(&output.join(WORTH), &scene, &trials)?;
+        print(&worth::report(&job, &fit, &scene, &trials));
+        print(&report::line("written", WORTH));
     }
-    print(&report::line("written", &format!("{} in {}", written.join(", "), output.display())));
+    Ok(())
+}
+
+const PARAMETERS: &str = "parameters.csv";
+const PLOTS: [&str; 2] = ["fit.svg", "fit.png"];
+const WORTH: &str = "worth.csv";
+
+fn of_set(name: &str) -> String {
+    format!("fit-{name}.csv")
+}
+
+/// The names of the files that are written, the preset's first.
+fn names(job: &Job) -> Vec<String> {
+    let mut names = vec![format!("{}.toml", job.preset.name), PARAMETERS.to_string()];
+    names.extend(job.problem.sets.iter().map(|set| of_set(&set.name)));
+    if !job.problem.sets.is_empty() {
+        names.extend(PLOTS.map(String::from));
+    }
+    names
+}
+
+/// No file that was read is overwritten.
+fn require_new(job: &Job, output: &Path, files: &[String]) -> Result<(), Error> {
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    for file in files.iter().map(String::as_str).chain([WORTH]).map(|name| output.join(name)) {
+        if real(&file).is_some_and(|file| job.inputs.iter().any(|input| real(input).as_ref() == Some(&file))) {
+            let message =
+                format!("{} would be overwritten, and is read; allowed: another -o, or other names", file.display());
+            return Err(Error::Input(message));
+        }
+    }
     Ok(())
 }

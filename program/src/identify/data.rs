@@ -20,6 +20,8 @@ pub struct DataSet {
     pub name: String,
     /// File, last line and column, for messages.
     pub place: String,
+    /// File and line where the fit names it.
+    pub declared: String,
     pub loading: Loading,
     /// What the plot is drawn over; the ordinates are what is fitted.
     pub abscissa: Axis,
@@ -122,7 +124,7 @@ impl DataSet {
     /// The law has no answer.
     pub fn depends_on(&self) -> Result<Vec<Parameter>, Error> {
         let trial = match &self.loading {
-            Loading::Path(path) => path.start(),
+            Loading::Path(path) => path.trial(),
             _ => TRIAL,
         };
         let refused = |reason| Error::Evaluation(format!("data set {}: {reason}", self.name));

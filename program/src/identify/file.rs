@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -14,7 +14,7 @@ use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
-use crate::material::preset::{LawName, Preset};
+use crate::material::preset::{LONGEST_NAME, LawName, Preset};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::HYPERELASTIC;
 
@@ -67,10 +67,19 @@ pub(super) struct DataFile {
     pub columns: BTreeMap<Spanned<String>, Spanned<String>>,
     pub length: Option<Spanned<f64>>,
     pub area: Option<Spanned<f64>>,
+    /// Where on the abscissa the specimen is at rest: the slack that a test begins with.
+    pub zero: Option<Spanned<f64>>,
     pub range: Option<Spanned<Numbers<2>>>,
     pub deviation: Option<Spanned<DeviationFile>>,
     pub weight: Option<Spanned<f64>>,
     pub fits: Option<Vec<Spanned<String>>>,
+}
+
+impl DataFile {
+    /// The files that it names.
+    fn files(&self) -> impl Iterator<Item = &str> {
+        [Some(&self.file), self.path.as_ref()].into_iter().flatten().map(|name| name.get_ref().as_str())
+    }
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -101,6 +110,8 @@ pub struct Job {
     pub base: Option<Preset>,
     pub fibre: Option<Fibre>,
     pub problem: Problem,
+    /// The files that were read, none of which is to be overwritten.
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Job {
@@ -142,9 +153,13 @@ impl Job {
         }
         let start = start(&known, base.as_ref(), &units, &sets);
         let of_base = |parameter: Parameter| base.as_ref().and_then(|base| base.value(parameter.index(), &units));
-        let problem = Problem { sets, known, fallback: ALL.map(of_base), known_deviations, start };
+        let density = preset.density.or_else(|| base.as_ref().and_then(|base| base.density_in(&units)));
+        let problem = Problem { sets, units, density, known, fallback: ALL.map(of_base), known_deviations, start };
         let title = file.title.unwrap_or_else(|| preset.name.clone());
-        Ok(Job { title, units, preset, base, fibre, problem })
+        let data = file.data.iter().flat_map(|data| data.get_ref().files());
+        let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
+        let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
+        Ok(Job { title, units, preset, base, fibre, problem, inputs })
     }
 }
 
@@ -153,7 +168,7 @@ impl Job {
 fn start(known: &[Option<f64>; PARAMETERS], base: Option<&Preset>, units: &UnitSystem, sets: &[DataSet]) -> Values {
     const ANY: Values = [1.0, 1.0, 2.0, 1.0, 0.0, 0.05, 0.0, 0.0];
     let of_path = sets.iter().find_map(|set| match &set.loading {
-        Loading::Path(path) => Some(path.start()),
+        Loading::Path(path) => Some(path.trial()),
         _ => None,
     });
     let value = |parameter: Parameter| {
@@ -209,9 +224,10 @@ impl Source<'_> {
     fn preset_to_be(&self, file: &FitFile, units: UnitSystem) -> Result<Preset, Error> {
         let text = |value: &Option<Spanned<String>>| value.as_ref().map(|text| text.get_ref().clone());
         let name = text(&file.yarn.name).unwrap_or_else(|| "my-yarn".to_string());
-        if !plain_name(&name) {
+        if !plain_name(&name) || name.len() > LONGEST_NAME || toron::preset(&name).is_some() {
             let span = file.yarn.name.as_ref().map_or(0..0, Spanned::span);
-            return Err(self.error(span, &format!("name is \"{name}\"; allowed: letters, digits and - _ .")));
+            let allowed = "up to 80 letters, digits and - _ ., and no name of the library's presets";
+            return Err(self.error(span, &format!("name is \"{name}\"; allowed: {allowed}")));
         }
         let source = text(&file.yarn.source).or_else(|| file.title.clone());
         let mut preset = Preset::new(&name, &source.unwrap_or_else(|| name.clone()), LawName::Hyperelastic, units);

@@ -1,21 +1,24 @@
 //! The fit of all data sets: what is fitted with what, in which order, and the weights of sets whose noise is not known.
 //!
-//! Sets that tell a common parameter are fitted together; then those whose deformation has more modes, with what the first
-//! have told: k_td from transverse compression after W_tc is subtracted (Eq. 4.29). What comes first carries its uncertainty
+//! Sets that tell a common parameter are fitted together, and after those that tell what else they depend on: k_td from transverse compression after W_tc is subtracted (Eq. 4.29). What comes first carries its uncertainty
 //! into what comes after.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
-use super::data::{DataSet, Loading};
+use super::data::DataSet;
 use super::least_squares::{self, Solution, Weighted};
 use super::parameter::{PARAMETERS, Parameter, Values};
 use super::uncertainty::{Estimate, Source, Uncertainty};
 use crate::common::error::Error;
+use toron::host::units::UnitSystem;
 
 /// Data sets and what is known besides.
 #[derive(Clone, Debug)]
 pub struct Problem {
     pub sets: Vec<DataSet>,
+    /// The units of everything, and the yarn's density where it is known.
+    pub units: UnitSystem,
+    pub density: Option<f64>,
     /// Values that are given, and not fitted.
     pub known: [Option<f64>; PARAMETERS],
     /// Values for what is neither given nor fitted.
@@ -29,7 +32,7 @@ pub struct Problem {
 /// The parameters that the data tell.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Fitted or known; `None` where neither.
+    /// Fitted, known, or what a set that needs them was given by the base preset or by default; else `None`.
     pub values: [Option<f64>; PARAMETERS],
     /// Of all parameters that have an interval, in the order of the property table.
     pub estimates: Vec<Estimate>,
@@ -68,10 +71,12 @@ pub struct Group {
 }
 
 /// How often the noise of sets is estimated anew, and how well it has to agree with the last time.
-const REWEIGHTINGS: usize = 50;
-const AGREED: f64 = 1e-8;
+const REWEIGHTINGS: usize = 200;
+const AGREED: f64 = 1e-6;
 /// No set is surer than this, over its largest ordinate: exact data would have no noise.
 const LEAST_NOISE: f64 = 1e-10;
+/// A set that is weighed against others has so many more points than it tells parameters: with fewer its noise is anybody's guess.
+const LEAST_FREEDOM: f64 = 2.0;
 /// Columns of derivatives, each of length 1, are dependent where a combination is shorter than this.
 const DEPENDENT: f64 = 1e-6;
 /// A parameter takes part in such a combination above this share.
@@ -84,14 +89,14 @@ impl Problem {
     /// The data do not suffice, or the law has no answer to them.
     pub fn fit(&self) -> Result<Fit, Error> {
         let mut state = State::new(self);
-        for (sets, parameters) in self.groups() {
+        for (sets, parameters) in self.groups()? {
             state.fit_group(sets, parameters)?;
         }
         Ok(state.finish())
     }
 
-    /// Sets that share a parameter, in the order in which they are fitted.
-    fn groups(&self) -> Vec<(Vec<usize>, Vec<Parameter>)> {
+    /// Sets that share a parameter, in the order in which they are fitted: each after those that tell what it depends on.
+    fn groups(&self) -> Result<Vec<(Vec<usize>, Vec<Parameter>)>, Error> {
         let mut groups: Vec<(Vec<usize>, Vec<Parameter>)> = Vec::new();
         for (index, set) in self.sets.iter().enumerate() {
             let (mut sets, mut parameters) = (vec![index], set.fits.clone());
@@ -106,23 +111,30 @@ impl Problem {
             parameters.dedup();
             groups.push((sets, parameters));
         }
-        let modes = |sets: &[usize]| sets.iter().map(|&set| self.sets[set].loading.modes()).max();
-        groups.sort_by_key(|(sets, _)| modes(sets));
-        groups
-    }
-}
-
-impl Loading {
-    /// A number that grows with the modes that a loading has at once: what is fitted first has few.
-    fn modes(&self) -> usize {
-        match self {
-            Loading::Prescribed { states, .. } => {
-                let isotropic = states.iter().all(|f| f.m22 == f.m33);
-                if isotropic { 1 } else { 2 }
+        let mut ordered = Vec::new();
+        while !groups.is_empty() {
+            let mut ready = None;
+            for (index, (sets, _)) in groups.iter().enumerate() {
+                let needs = sensitive(&sets.iter().map(|&set| &self.sets[set]).collect::<Vec<_>>())?;
+                let told_later = |(other, (_, told)): (usize, &(Vec<usize>, Vec<Parameter>))| {
+                    other != index && told.iter().any(|parameter| needs.contains(parameter))
+                };
+                if !groups.iter().enumerate().any(told_later) {
+                    ready = Some(index);
+                    break;
+                }
             }
-            Loading::Path(_) => 3,
-            Loading::Failure { .. } => 4,
+            let Some(index) = ready else {
+                let set = &self.sets[groups[0].0[0]];
+                return Err(Error::Input(format!(
+                    "{}: data set {} and others each depend on what the other tells; allowed: the same fits for both, which \
+                     fits them together",
+                    set.declared, set.name
+                )));
+            };
+            ordered.push(groups.remove(index));
         }
+        Ok(ordered)
     }
 }
 
@@ -161,7 +173,7 @@ impl<'a> State<'a> {
         }
         let (solution, weights, fits) = reweighted(&sets, &parameters, &start)?;
         let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
-        require_independent(&sets, &solution, &free)?;
+        require_independent(&sets, &solution, &weights, &free)?;
         for (&index, fit) in indices.iter().zip(fits) {
             self.uncertainty.describe(index, Source { freedom: fit.freedom }, &fit.deviations);
             self.sets[index] = Some(fit);
@@ -194,11 +206,12 @@ impl<'a> State<'a> {
             self.values[index] = self.values[index].or(self.problem.fallback[index]).or(default);
             if self.values[index].is_none() {
                 return Err(Error::Input(format!(
-                    "data set {} depends on {}, which no set tells before it; allowed: its value in [yarn] properties, \
-                     {}, or {0} among its own fits",
+                    "{}: data set {} depends on {name}, which is neither among its fits nor told before it; allowed: {name} among \
+                     its fits or in [yarn] properties, or data that tell it ({})",
+                    sets[0].declared,
                     sets[0].name,
-                    parameter.name(),
-                    parameter.told_by()
+                    parameter.told_by(),
+                    name = parameter.name()
                 )));
             }
         }
@@ -248,12 +261,16 @@ fn require_enough(sets: &[&DataSet], parameters: &[Parameter]) -> Result<(), Err
 }
 
 /// No parameter may be made up for by others.
-fn require_independent(sets: &[&DataSet], solution: &Solution, free: &[Parameter]) -> Result<(), Error> {
+fn require_independent(
+    sets: &[&DataSet],
+    solution: &Solution,
+    weights: &[f64],
+    free: &[Parameter],
+) -> Result<(), Error> {
     if free.is_empty() {
         return Ok(());
     }
-    let columns: Vec<_> = free.iter().map(|p| solution.gradients.column(p.index()).normalize()).collect();
-    let decomposition = DMatrix::from_columns(&columns).svd(false, true);
+    let decomposition = normalised(solution, weights, free).svd(false, true);
     let (least, Some(directions)) = (decomposition.singular_values.imin(), &decomposition.v_t) else { return Ok(()) };
     if decomposition.singular_values[least] > DEPENDENT {
         return Ok(());
@@ -261,9 +278,10 @@ fn require_independent(sets: &[&DataSet], solution: &Solution, free: &[Parameter
     let direction = directions.row(least);
     let involved = free.iter().zip(direction.iter()).filter(|(_, part)| part.abs() > INVOLVED);
     let names: Vec<&str> = involved.map(|(parameter, _)| parameter.name()).collect();
+    let place = sets[0].declared.as_str();
     let sets: Vec<&str> = sets.iter().map(|set| set.name.as_str()).collect();
     Err(Error::Input(format!(
-        "data set {}: the data tell only a combination of {}: a change of one is made up for by the others; allowed: give one of \
+        "{place}: data set {}: the data tell only a combination of {}: a change of one is made up for by the others; allowed: give one of \
          them in [yarn] properties, or add data in which they act apart",
         sets.join(", "),
         names.join(" and ")
@@ -284,15 +302,26 @@ fn reweighted(
         let data = Weighted { sets, weights: &weights };
         // After the first time the answer is near.
         let minimise = if round == 0 { least_squares::minimise } else { least_squares::search };
-        let solution = minimise(data, parameters, &start).map_err(Error::Evaluation)?;
+        let named = |reason: String| Error::Evaluation(format!("{}: {reason}", sets[0].declared));
+        let solution = minimise(data, parameters, &start).map_err(named)?;
         start = solution.values;
         let leverages = leverages(&solution, &weights, parameters);
         let (mut fits, mut first, mut change) = (Vec::new(), 0, 0.0_f64);
+        let least = if sets.len() > 1 { LEAST_FREEDOM } else { 0.0 };
         for (set, noise) in sets.iter().zip(&mut noise) {
             let rows = first..first + set.len();
             let residuals: Vec<f64> = rows.clone().map(|i| -solution.residuals[i]).collect();
             let freedom = set.len() as f64 - rows.map(|i| leverages[i]).sum::<f64>();
             if set.deviations.is_none() {
+                if freedom < least {
+                    return Err(Error::Input(format!(
+                        "{}: data set {} has too few points ({}) to tell its noise beside its parameters; allowed: its deviation, or \
+                         more points",
+                        set.declared,
+                        set.name,
+                        set.len()
+                    )));
+                }
                 let squares: f64 = residuals.iter().map(|r| r * r).sum();
                 let estimate = (squares / freedom.max(f64::MIN_POSITIVE)).sqrt().max(LEAST_NOISE * set.largest());
                 change = change.max((estimate / *noise).ln().abs());
@@ -304,12 +333,15 @@ fn reweighted(
             first += set.len();
         }
         // A set alone has the same answer whatever its noise.
-        if change < AGREED || sets.len() == 1 || round + 1 == REWEIGHTINGS {
+        if change < AGREED || sets.len() == 1 {
             let weights = sets.iter().zip(&noise).flat_map(|(set, &noise)| set.weights(noise)).collect();
             return Ok((solution, weights, fits));
         }
     }
-    Err(Error::Evaluation("the noise of the data sets was never estimated".to_string()))
+    Err(Error::Evaluation(format!(
+        "{}: the noise of data set {} and of those that are fitted with it cannot be told apart; allowed: their deviations",
+        sets[0].declared, sets[0].name
+    )))
 }
 
 /// How much of each prediction its own datum decides.
@@ -318,13 +350,18 @@ fn leverages(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> 
     if free.is_empty() {
         return vec![0.0; weights.len()];
     }
-    let columns = DMatrix::from_fn(weights.len(), free.len(), |row, column| {
-        weights[row].sqrt() * solution.gradients[(row, free[column].index())]
-    });
-    // Scaled, so that the sizes of the parameters do not matter.
-    let scaled: Vec<_> = columns.column_iter().map(|column| column.normalize()).collect();
-    let q = DMatrix::from_columns(&scaled).qr().q();
+    let q = normalised(solution, weights, &free).qr().q();
     q.row_iter().map(|row| row.norm_squared()).collect()
+}
+
+/// The weighted derivatives by some parameters, each column of length 1: then the units do not matter.
+fn normalised(solution: &Solution, weights: &[f64], parameters: &[Parameter]) -> DMatrix<f64> {
+    let columns = parameters.iter().map(|parameter| {
+        let column = solution.gradients.column(parameter.index());
+        let weighted = column.iter().zip(weights).map(|(gradient, weight)| gradient * weight.sqrt());
+        DVector::from_iterator(weights.len(), weighted).normalize()
+    });
+    DMatrix::from_columns(&columns.collect::<Vec<_>>())
 }
 
 impl DataSet {

@@ -1,8 +1,8 @@
 //! Weighted least squares over several data sets: by Levenberg and Marquardt's method, with analytic derivatives, scaled
 //! parameters and the bounds of the property table.
 //!
-//! A parameter θ with the least value a is sought as θ = a + s(√(u² + 1) − 1), with a scale s: whatever u the search tries, the
-//! law gets a value that it allows, and it can reach the bound itself.
+//! The method itself knows no bounds. A trial beyond one is evaluated on it; what ends there is fixed, the rest is sought again,
+//! and a parameter is let go of where the squares would fall on the allowed side.
 
 use levenberg_marquardt::TerminationReason::{LostPatience, Numerical};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
@@ -13,12 +13,10 @@ use super::parameter::{PARAMETERS, Parameter, Values};
 
 /// Exponents of compaction from which the search starts; the best answer counts.
 const EXPONENTS: [f64; 5] = [1.3, 1.7, 2.2, 3.0, 5.0];
-/// Where u starts for a parameter that is at its bound: at the bound itself the squares do not change with u.
-const OFF_THE_BOUND: f64 = 1.0;
-/// A parameter that is nearer than this to its bound, by its scale, is on it.
-const ON_THE_BOUND: f64 = 1e-6;
-/// How often the search leaves a bound that it should not have stopped at.
+/// How often a parameter is let go of that has been fixed on a bound.
 const RETURNS: usize = 3;
+/// What a trial counts that the law has no answer to, over the residuals at the start.
+const REFUSED: f64 = 10.0;
 
 /// Data sets, and the weight of each datum's square.
 #[derive(Clone, Copy)]
@@ -37,7 +35,7 @@ pub struct Solution {
     pub gradients: DMatrix<f64>,
     /// The weighted sum of squares.
     pub squares: f64,
-    /// The fitted parameters that are at the least value that the law allows.
+    /// The fitted parameters that are on a bound of the property table.
     pub bounded: Vec<Parameter>,
 }
 
@@ -70,48 +68,85 @@ pub fn minimise(data: Weighted, fitted: &[Parameter], start: &Values) -> Result<
 /// # Errors
 /// The law has no answer, or the search does not converge.
 pub fn search(data: Weighted, fitted: &[Parameter], start: &Values) -> Result<Solution, String> {
-    let mut start = *start;
-    for _ in 0..RETURNS {
-        let solution = descend(data, fitted, &start)?;
-        // On a bound the squares may not fall towards the allowed side.
-        let downhill = |parameter: &&Parameter| {
+    let mut values = *start;
+    let mut free = fitted.to_vec();
+    let mut bounded: Vec<Parameter> = Vec::new();
+    let mut returns = 0;
+    loop {
+        let mut solution = descend(data, &free, &values)?;
+        values = solution.values;
+        let (stopped, kept): (Vec<Parameter>, Vec<Parameter>) =
+            free.iter().partition(|p| p.on_bound(values[p.index()]));
+        if !stopped.is_empty() {
+            (free, bounded) = (kept, [bounded, stopped].concat());
+            continue;
+        }
+        let inwards = |parameter: &&Parameter| {
             let column = solution.gradients.column(parameter.index());
             let terms = column.iter().zip(&solution.residuals).zip(data.weights);
-            terms.map(|((gradient, residual), weight)| weight * gradient * residual).sum::<f64>() < 0.0
+            let slope: f64 = terms.map(|((gradient, residual), weight)| weight * gradient * residual).sum();
+            slope * parameter.inwards(values[parameter.index()]) < 0.0
         };
-        let Some(&parameter) = solution.bounded.iter().find(downhill) else { return Ok(solution) };
-        start = solution.values;
-        start[parameter.index()] = parameter.least() + Scaled::of(parameter, &start).scale;
+        match bounded.iter().find(inwards).copied() {
+            Some(parameter) if returns < RETURNS => {
+                returns += 1;
+                bounded.retain(|&other| other != parameter);
+                free.push(parameter);
+                let value = &mut values[parameter.index()];
+                *value += parameter.inwards(*value) * parameter.trial_step();
+            }
+            _ => {
+                solution.bounded = bounded;
+                return Ok(solution);
+            }
+        }
     }
-    descend(data, fitted, &start)
 }
 
-fn descend(data: Weighted, fitted: &[Parameter], start: &Values) -> Result<Solution, String> {
-    let scaled: Vec<Scaled> = fitted.iter().map(|&parameter| Scaled::of(parameter, start)).collect();
-    let mut values = *start;
-    for scaled in &scaled {
-        let value = &mut values[scaled.parameter.index()];
-        *value = scaled.value(if *value > scaled.least { scaled.unknown(*value) } else { OFF_THE_BOUND });
-    }
+fn descend(data: Weighted, free: &[Parameter], start: &Values) -> Result<Solution, String> {
+    let values = start_inside(free, start);
+    let scales = free.iter().map(|parameter| values[parameter.index()].abs()).collect();
     let (residuals, gradients) = evaluate(data.sets, &values)?;
-    let mut problem = Problem { data, scaled, values, residuals, gradients, refused: None };
-    if !fitted.is_empty() {
+    let mut problem = Problem { data, free, scales, unknown: values, residuals, gradients, refused: None };
+    if !free.is_empty() {
         let (found, report) = LevenbergMarquardt::new().minimize(problem);
+        // A search that cannot improve any more has arrived as well as one that meets a tolerance.
+        if let LostPatience | Numerical(_) = report.termination {
+            return Err(format!("the least squares do not converge: {:?}", report.termination));
+        }
         if let Some(reason) = found.refused {
             return Err(reason);
         }
-        // A search that cannot improve any more has arrived as well as one that meets a tolerance.
-        if matches!(report.termination, LostPatience | Numerical(_)) {
-            return Err(format!("the least squares do not converge: {:?}", report.termination));
-        }
         problem = found;
     }
-    let squares = problem.residuals.iter().zip(data.weights).map(|(r, weight)| weight * r * r).sum();
-    let on_bound =
-        |scaled: &&Scaled| problem.values[scaled.parameter.index()] - scaled.least <= ON_THE_BOUND * scaled.scale;
-    let bounded = problem.scaled.iter().filter(on_bound).map(|scaled| scaled.parameter).collect();
-    let Problem { values, residuals, gradients, .. } = problem;
-    Ok(Solution { values, residuals, gradients, squares, bounded })
+    let squares: f64 = problem.residuals.iter().zip(data.weights).map(|(r, weight)| weight * r * r).sum();
+    if !(squares.is_finite() && problem.gradients.iter().all(|gradient| gradient.is_finite())) {
+        return Err("the least squares overflow: the data are too large or too small in these units".to_string());
+    }
+    let values = within(free, &problem.unknown);
+    let Problem { residuals, gradients, .. } = problem;
+    Ok(Solution { values, residuals, gradients, squares, bounded: Vec::new() })
+}
+
+/// The start, off the bounds: on one, a parameter would have no scale.
+fn start_inside(free: &[Parameter], start: &Values) -> Values {
+    let mut values = *start;
+    for parameter in free {
+        let value = &mut values[parameter.index()];
+        if parameter.on_bound(*value) {
+            *value = parameter.clamped(*value);
+            *value += parameter.inwards(*value) * parameter.trial_step();
+        }
+    }
+    values
+}
+
+fn within(free: &[Parameter], unknown: &Values) -> Values {
+    let mut values = *unknown;
+    for parameter in free {
+        values[parameter.index()] = parameter.clamped(values[parameter.index()]);
+    }
+    values
 }
 
 /// Predicted less measured, and the derivatives by all parameters.
@@ -128,41 +163,13 @@ fn evaluate(sets: &[&DataSet], values: &Values) -> Result<(DVector<f64>, DMatrix
     Ok((DVector::from_vec(residuals), gradients))
 }
 
-/// A parameter θ = least + scale (√(u² + 1) − 1).
-struct Scaled {
-    parameter: Parameter,
-    least: f64,
-    scale: f64,
-}
-
-impl Scaled {
-    fn of(parameter: Parameter, start: &Values) -> Scaled {
-        let least = parameter.least();
-        let distance = start[parameter.index()] - least;
-        Scaled { parameter, least, scale: if distance > 0.0 { distance } else { 1.0 } }
-    }
-
-    fn value(&self, u: f64) -> f64 {
-        self.least + self.scale * (u.hypot(1.0) - 1.0)
-    }
-
-    fn unknown(&self, value: f64) -> f64 {
-        let above = (value - self.least).max(0.0) / self.scale;
-        (above * (above + 2.0)).sqrt()
-    }
-
-    /// dθ/du
-    fn derivative(&self, value: f64) -> f64 {
-        let u = self.unknown(value);
-        self.scale * u / u.hypot(1.0)
-    }
-}
-
-/// The least squares as the crate wants them: in u, residuals weighted.
+/// The least squares as the crate wants them: parameters over their scales, residuals times the roots of the weights.
 struct Problem<'a> {
     data: Weighted<'a>,
-    scaled: Vec<Scaled>,
-    values: Values,
+    free: &'a [Parameter],
+    scales: Vec<f64>,
+    /// As the search has them, beyond bounds or not.
+    unknown: Values,
     residuals: DVector<f64>,
     gradients: DMatrix<f64>,
     /// Why the law has no answer at these values.
@@ -174,36 +181,40 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type JacobianStorage = VecStorage<f64, Dyn, Dyn>;
     type ParameterStorage = VecStorage<f64, Dyn, U1>;
 
-    fn set_params(&mut self, unknowns: &DVector<f64>) {
-        for (scaled, &u) in self.scaled.iter().zip(unknowns) {
-            self.values[scaled.parameter.index()] = scaled.value(u);
+    fn set_params(&mut self, scaled: &DVector<f64>) {
+        for ((parameter, scale), value) in self.free.iter().zip(&self.scales).zip(scaled) {
+            self.unknown[parameter.index()] = value * scale;
         }
-        match evaluate(self.data.sets, &self.values) {
+        match evaluate(self.data.sets, &within(self.free, &self.unknown)) {
             Ok((residuals, gradients)) => {
                 (self.residuals, self.gradients) = (residuals, gradients);
                 self.refused = None;
             }
-            Err(reason) => self.refused = Some(reason),
+            // Large residuals: the search tries a shorter step.
+            Err(reason) => {
+                let largest = self.data.sets.iter().map(|set| set.largest()).fold(0.0, f64::max);
+                self.residuals.fill(REFUSED * largest);
+                self.refused = Some(reason);
+            }
         }
     }
 
     fn params(&self) -> DVector<f64> {
-        let unknowns = self.scaled.iter().map(|scaled| scaled.unknown(self.values[scaled.parameter.index()]));
-        DVector::from_iterator(self.scaled.len(), unknowns)
+        let scaled =
+            self.free.iter().zip(&self.scales).map(|(parameter, scale)| self.unknown[parameter.index()] / scale);
+        DVector::from_iterator(self.free.len(), scaled)
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
         let weighted = self.residuals.iter().zip(self.data.weights).map(|(r, weight)| weight.sqrt() * r);
-        self.refused.is_none().then(|| DVector::from_iterator(self.residuals.len(), weighted))
+        Some(DVector::from_iterator(self.residuals.len(), weighted))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let derivatives: Vec<f64> =
-            self.scaled.iter().map(|scaled| scaled.derivative(self.values[scaled.parameter.index()])).collect();
         let entry = |row: usize, column: usize| {
-            let gradient = self.gradients[(row, self.scaled[column].parameter.index())];
-            self.data.weights[row].sqrt() * gradient * derivatives[column]
+            let gradient = self.gradients[(row, self.free[column].index())];
+            self.data.weights[row].sqrt() * gradient * self.scales[column]
         };
-        self.refused.is_none().then(|| DMatrix::from_fn(self.residuals.len(), self.scaled.len(), entry))
+        self.refused.is_none().then(|| DMatrix::from_fn(self.residuals.len(), self.free.len(), entry))
     }
 }

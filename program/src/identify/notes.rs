@@ -3,9 +3,12 @@
 use super::data::DataSet;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
+use crate::material::fibre_wave::FibreWave;
 
 /// An interval that reaches this far to one side, over the value, tells little.
 const WIDE: f64 = 0.5;
+/// Beyond this correlation parameters move together.
+pub const STRONG: f64 = 0.9;
 /// Durbin and Watson's statistic of residuals without a pattern is near 2; below this it hardly ever is by chance.
 const PATTERN: f64 = 1.0;
 /// With fewer points it says nothing.
@@ -16,6 +19,7 @@ const EXACT: f64 = 1e-6;
 /// The sentences, the gravest first.
 pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
     let mut notes = Vec::new();
+    notes.extend(unit_warning(problem, fit));
     for (set, parameter) in &fit.untold {
         notes.push(format!("data set {set} says nothing of {}: {} would", parameter.name(), parameter.told_by()));
     }
@@ -24,7 +28,11 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
         let name = estimate.parameter.name();
         let reach = (estimate.high - estimate.value).max(estimate.value - estimate.low);
         if estimate.bounded {
-            notes.push(format!("{name} is at the least value that the law allows: the data want less"));
+            notes.push(format!(
+                "{name} is at the least value that the law allows: these data would have less, and cannot tell it; give it in [yarn] \
+                 properties or add data that tell it ({})",
+                estimate.parameter.told_by()
+            ));
         } else if reach > WIDE * estimate.value.abs() {
             notes.push(format!("the data hardly tell {name}: its interval is as wide as its value"));
         }
@@ -43,6 +51,12 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// A wave along the fibre that no fibre has: a density or a stiffness is in other units.
+fn unit_warning(problem: &Problem, fit: &Fit) -> Option<String> {
+    let k_el = fit.values[Parameter::KEl.index()]?;
+    FibreWave::hyperelastic(k_el, problem.density?, &problem.units)?.unit_warning(&problem.units)
 }
 
 /// Which parameters nothing tells, and what would.
@@ -80,7 +94,6 @@ fn has_pattern(residuals: &[f64]) -> bool {
 
 /// Pairs of parameters whose estimates move together, and how much.
 pub fn strong_correlations(fit: &Fit) -> Vec<(Parameter, Parameter, f64)> {
-    const STRONG: f64 = 0.9;
     let mut pairs = Vec::new();
     for (i, a) in fit.estimates.iter().enumerate() {
         for (j, b) in fit.estimates.iter().enumerate().skip(i + 1) {

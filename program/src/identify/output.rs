@@ -7,6 +7,7 @@ use super::data::DataSet;
 use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::ALL;
+use super::report::{base_name, interval};
 use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::material::preset::Preset;
@@ -25,10 +26,11 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
         if let Some(parameter) = parameter {
             preset.values[index] = fit.values[index];
             let estimate = fit.estimates.iter().find(|estimate| estimate.parameter == *parameter);
-            let interval = estimate.map(|e| format!("95 %: {} to {}", short(e.low), short(e.high)));
+            let interval = estimate.map(interval);
             let note = interval.unwrap_or_else(|| match job.fibre {
                 Some(_) if job.problem.known[index].is_some() => "from the fibre".to_string(),
-                _ => "not fitted".to_string(),
+                _ if job.problem.fallback[index].is_some() => format!("of {}: the data do not tell it", base_name(job)),
+                _ => "the default".to_string(),
             });
             comments.insert(property.name, note);
         } else if let (Some(value), Some(base)) = (of_base, &job.base) {
@@ -38,10 +40,6 @@ pub fn preset(job: &Job, fit: &Fit) -> String {
     }
     preset.density = preset.density.or_else(|| job.base.as_ref().and_then(|base| base.density_in(&job.units)));
     preset.to_toml(&comments)
-}
-
-fn short(value: f64) -> String {
-    format!("{:.5}", value).trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
 /// A line for each parameter that has an interval: value, unit, standard error, ends, correlations.

@@ -60,6 +60,25 @@ impl Parameter {
         if property.minimum_excluded { property.minimum.next_up() } else { property.minimum }
     }
 
+    /// Whether a value is on a bound of the property table, or beyond it.
+    pub fn on_bound(self, value: f64) -> bool {
+        value <= self.least() || value >= self.property().maximum
+    }
+
+    /// The sign of the direction from the bound that is nearer into what is allowed.
+    pub fn inwards(self, value: f64) -> f64 {
+        if value <= 0.5 * (self.least() + self.property().maximum) { 1.0 } else { -1.0 }
+    }
+
+    /// A step off the bound, from which a search finds its way.
+    pub fn trial_step(self) -> f64 {
+        match self {
+            EpsLim => 0.01,
+            P => 0.5,
+            _ => 1.0,
+        }
+    }
+
     /// Whether its estimate is distributed evenly on a logarithmic scale: ln W_tc = ln k_tc + p ln|I_tc| is linear in ln k_tc
     /// and p, and k_tc is an extrapolation to |I_tc| = 1.
     pub fn logarithmic(self) -> bool {

@@ -16,6 +16,8 @@ use crate::load_path::path::{LoadPath, Target};
 use crate::material::model::Law;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
 
+/// Data at the very ends of a step may be off by this, as a part of it.
+const ROUNDING: f64 = 1e-9;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// A column that drives the path: a component of F, or the displacement that belongs to one.
@@ -40,6 +42,9 @@ pub(super) fn set(
         .map_err(|error| source.error(path.span(), &format!("path {}: {error}", name.display())))?;
     let load_path = LoadPath::parse(&name.display().to_string(), &text)?;
     let refuse = |message: &str| Err(source.error(path.span(), &format!("path {}: {message}", name.display())));
+    if load_path.points.len() > 1 {
+        return refuse("it has several points; allowed: one material");
+    }
     if load_path.units != *reader.units {
         return refuse("it is in other units; allowed: those of the fit");
     }
@@ -54,7 +59,10 @@ pub(super) fn set(
     let [Some(abscissa), Some(ordinate)] = [&file.abscissa, &file.ordinate].map(|name| name.as_ref().map(plain)) else {
         return refuse("data along a path need abscissa and ordinate");
     };
-    let x = reader.column(file, table, abscissa, driver.dimension)?;
+    reader.require_known_columns(file, &[abscissa, ordinate])?;
+    reader.given("length", &file.length, false, file)?;
+    reader.given("area", &file.area, false, file)?;
+    let x = reader.abscissae(file, table, abscissa, driver.dimension)?;
     let y = reader.column(file, table, ordinate, dimension)?;
     let rows = reader.rows(file, table, &x.values)?;
     let Some([start, end]) = ramp(&load_path, driver.component) else {
@@ -67,19 +75,44 @@ pub(super) fn set(
     let mut fractions = Vec::new();
     for &row in &rows {
         let fraction = (driver.rest + driver.factor * x.values[row] - start) / (end - start);
-        if !(0.0..=1.0).contains(&fraction) {
+        if !(-ROUNDING..=1.0 + ROUNDING).contains(&fraction) {
             let component = COMPONENT_NAMES[driver.component];
             let allowed =
                 format!("what lies in the last step of {}, F{component} from {start} to {end}", name.display());
             return Err(wrong(table, &x.column, row, &allowed));
         }
-        fractions.push(fraction);
+        fractions.push(fraction.clamp(0.0, 1.0));
     }
     let deviations = reader.deviations(file, table, &rows, dimension)?;
     let rest = (start - driver.rest) / driver.factor;
     let loading = Loading::Path(Box::new(PathResponse::new(load_path, fractions, measured)));
-    let names = [(abscissa, driver.dimension), (ordinate, dimension)];
-    Ok(reader.assemble(loading, names, rest, [&x, &y], &rows, deviations))
+    let names = [(written(&file.abscissa), driver.dimension), (written(&file.ordinate), dimension)];
+    let set = reader.assemble(loading, names, rest, [&x, &y], &rows, deviations);
+    require_the_law_s_sign(reader, file, &set)?;
+    reader.check(&set, table, &y.column, &rows)?;
+    Ok(set)
+}
+
+/// The name as the file has it, with its sign.
+fn written(name: &Option<Spanned<String>>) -> &str {
+    name.as_ref().map_or("", |name| name.get_ref())
+}
+
+/// Data that count the other way than the law's answer would be fitted by nothing at all.
+fn require_the_law_s_sign(reader: &Reader, file: &DataFile, set: &DataSet) -> Result<(), Error> {
+    let Loading::Path(path) = &set.loading else { return Ok(()) };
+    let refused = |reason: String| Error::Evaluation(format!("{}: along its path {reason}", file.file.get_ref()));
+    let responses = set.loading.responses(&path.trial()).map_err(refused)?;
+    let product: f64 = responses.iter().zip(&set.ordinate.values).map(|(response, y)| response.value * y).sum();
+    if product >= 0.0 {
+        return Ok(());
+    }
+    let name = written(&file.ordinate);
+    let other = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_string);
+    let message = format!(
+        "the data have the other sign than the law's {name}; allowed: ordinate = \"{other}\", if they count that way"
+    );
+    Err(reader.source.error(file.ordinate.as_ref().map_or(0..0, Spanned::span), &message))
 }
 
 /// The name without its sign.

@@ -14,6 +14,8 @@ use crate::material::model::{Law, Material};
 
 /// A direction of stiffness below this fraction of the largest has none, and does not move.
 const NO_STIFFNESS: f64 = 1e-9;
+/// A transverse stiffness where the path's material has none, over its largest.
+const FIRST_GUESS: f64 = 0.01;
 
 /// A load path whose last step ends its increments where the data are.
 #[derive(Clone, Debug)]
@@ -41,9 +43,16 @@ impl PathResponse {
         &self.path.points[0].material
     }
 
-    /// The parameters of the path's own material, near which the answer is sought.
-    pub fn start(&self) -> Values {
-        std::array::from_fn(|i| self.material().values[i])
+    /// The parameters of the path's own material, near which the answer is sought. A stiffness of 0 that compaction or distortion
+    /// may have is replaced by a small one: with 0 nothing would depend on p, nor on what holds against it.
+    pub fn trial(&self) -> Values {
+        let mut values: Values = std::array::from_fn(|i| self.material().values[i]);
+        let largest = values[..4].iter().copied().fold(0.0, f64::max);
+        for stiffness in [Parameter::KTc, Parameter::KTd] {
+            let value = &mut values[stiffness.index()];
+            *value = if *value == 0.0 { FIRST_GUESS * largest } else { *value };
+        }
+        values
     }
 
     pub fn subset(&self, keep: &[usize]) -> PathResponse {
@@ -118,6 +127,7 @@ impl PathResponse {
             free.len(),
             free.iter().map(|&k| match self.measured.quantity {
                 Quantity::Energy => increment.p[COMPONENTS[k]],
+                // Data along a path have no Cauchy stress.
                 Quantity::Nominal(row, column) | Quantity::Cauchy(row, column) => {
                     let measured = COMPONENTS.iter().position(|&component| component == (row, column));
                     measured.map_or(0.0, |measured| stiffness(measured, k))

@@ -45,12 +45,17 @@ const fn abscissa(name: &'static str, rest: f64, allowed: &'static str, stretch:
 }
 
 static ELONGATION: [Abscissa; 4] = [
-    abscissa("strain", 0.0, "a number >= 0: the elongation over the length", |strain, _| 1.0 + strain),
-    abscissa("stretch", 1.0, "a number >= 1: the length over that at rest", |stretch, _| stretch),
-    abscissa("I_el", 0.0, "a number >= 0: the true strain", |i_el, _| i_el.exp()),
+    abscissa("strain", 0.0, "a number from 0 to 1: the elongation over the length", |strain, _| 1.0 + strain),
+    abscissa("stretch", 1.0, "a number from 1 to 2: the length over that at rest", |stretch, _| stretch),
+    abscissa("I_el", 0.0, "a number from 0 to 0.69: the true strain", |i_el, _| i_el.exp()),
     Abscissa {
         dimension: LENGTH,
-        ..abscissa("displacement", 0.0, "a length >= 0: the elongation", |elongation, length| 1.0 + elongation / length)
+        ..abscissa(
+            "displacement",
+            0.0,
+            "a length from 0 to that of the specimen: the elongation",
+            |elongation, length| 1.0 + elongation / length,
+        )
     },
 ];
 
@@ -128,7 +133,7 @@ impl Simple {
     /// Whether a stretch is on the side that the law answers to.
     pub fn allows(self, stretch: f64) -> bool {
         match self {
-            Simple::Elongation => stretch >= 1.0 && stretch.is_finite(),
+            Simple::Elongation => (1.0..=2.0).contains(&stretch),
             Simple::Compaction | Simple::Compression => stretch > 0.0 && stretch <= 1.0,
         }
     }
@@ -145,9 +150,9 @@ pub struct Invariant {
 
 /// I_el at failure.
 pub static FAILED_AT: [Invariant; 3] = [
-    Invariant { name: "strain", allowed: "a number > 0", of: f64::ln_1p },
-    Invariant { name: "stretch", allowed: "a number > 1", of: f64::ln },
-    Invariant { name: "I_el", allowed: "a number > 0", of: |i_el| i_el },
+    Invariant { name: "strain", allowed: "a number > 0, at most 1", of: f64::ln_1p },
+    Invariant { name: "stretch", allowed: "a number > 1, at most 2", of: f64::ln },
+    Invariant { name: "I_el", allowed: "a number > 0, at most 0.69", of: |i_el| i_el },
 ];
 
 /// ⟨−I_tc⟩ at failure.

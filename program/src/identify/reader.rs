@@ -1,6 +1,7 @@
 //! Data sets from their files: columns with units, the range that is fitted, and what is wrong with the data, by file, line and
 //! column.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use nalgebra::Matrix3;
@@ -18,6 +19,11 @@ use crate::common::toml_file::Source;
 use crate::common::units::unit;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, NUMBER};
+
+/// Weights beyond these leave nothing of the other sets, or of this one.
+const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;
+/// The size of ordinates, in the units of the fit, that the squares can take: that of the properties themselves.
+const ORDINATES: RangeInclusive<f64> = 1e-25..=1e25;
 
 /// What the data sets of a file have in common.
 pub struct Reader<'a> {
@@ -66,12 +72,17 @@ impl Reader<'_> {
 
     fn set(&self, number: usize, file: &Spanned<DataFile>) -> Result<DataSet, Error> {
         let (span, file) = (file.span(), file.get_ref());
-        let table = DataTable::read(&self.folder.join(file.file.get_ref()))?;
+        let path = self.folder.join(file.file.get_ref());
+        if !path.is_file() {
+            let message = format!("file {}: there is no such file", path.display());
+            return Err(self.source.error(file.file.span(), &message));
+        }
+        let table = DataTable::read(&path)?;
         let name = file.name.as_ref().map_or_else(|| format!("data-{number}"), |name| name.get_ref().clone());
         if !plain_name(&name) {
             let message =
                 format!("data set \"{name}\"; allowed: letters, digits and - _ ., since files are named by it");
-            return Err(self.source.error(file.name.as_ref().map_or(span, Spanned::span), &message));
+            return Err(self.source.error(file.name.as_ref().map_or(span.clone(), Spanned::span), &message));
         }
         let mut set = match (&file.loading, &file.path) {
             (Some(loading), None) => match loading.get_ref() {
@@ -83,13 +94,20 @@ impl Reader<'_> {
             (None, Some(path)) => path_file::set(self, path, file, &table)?,
             _ => {
                 let message = format!("data set \"{name}\": allowed: loading or path, one of the two");
-                return Err(self.source.error(span, &message));
+                return Err(self.source.error(span.clone(), &message));
             }
         };
         set.name = name;
         set.place = last_place(&table);
+        set.declared = format!("{}:{}", self.source.name, self.source.line(span));
         if let Some(weight) = &file.weight {
-            set.weight = self.source.positive("weight", *weight.get_ref(), weight.span())?;
+            let value = *weight.get_ref();
+            if !WEIGHTS.contains(&value) {
+                let message =
+                    format!("weight is {value}; allowed: a number from {} to {}", WEIGHTS.start(), WEIGHTS.end());
+                return Err(self.source.error(weight.span(), &message));
+            }
+            set.weight = value;
         }
         Ok(set)
     }
@@ -98,9 +116,10 @@ impl Reader<'_> {
     fn simple(&self, loading: Simple, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
         let abscissae: Vec<_> = loading.abscissae().iter().map(|known| known.name).collect();
         let ordinates: Vec<_> = loading.ordinates().iter().map(|known| known.name).collect();
+        self.require_known_columns(file, &[&abscissae[..], &ordinates[..]].concat())?;
         let abscissa = &loading.abscissae()[self.choice("abscissa", file, &file.abscissa, &abscissae, table)?];
         let ordinate = &loading.ordinates()[self.choice("ordinate", file, &file.ordinate, &ordinates, table)?];
-        let x = self.column(file, table, abscissa.name, abscissa.dimension)?;
+        let x = self.abscissae(file, table, abscissa.name, abscissa.dimension)?;
         let y = self.column(file, table, ordinate.name, ordinate.dimension)?;
         let length = self.given("length", &file.length, abscissa.dimension == crate::common::units::LENGTH, file)?;
         let area = self.given("area", &file.area, ordinate.dimension == crate::common::units::FORCE, file)?;
@@ -128,6 +147,16 @@ impl Reader<'_> {
 
     /// Strains at failure at some compactions and distortions.
     fn failure(&self, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
+        let unused = [("abscissa", &file.abscissa), ("ordinate", &file.ordinate)];
+        for (key, value) in unused.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))) {
+            let message =
+                format!("{key} has no use with failure points; allowed: columns, where theirs have other names");
+            return Err(self.source.error(value.span(), &message));
+        }
+        let names: Vec<&str> = FAILED_AT.iter().chain(&COMPACTED).chain(&DISTORTED).map(|known| known.name).collect();
+        self.require_known_columns(file, &names)?;
+        self.given("length", &file.length, false, file)?;
+        self.given("area", &file.area, false, file)?;
         let (y, at) = self.invariants(file, table, &FAILED_AT)?.ok_or_else(|| {
             let names: Vec<&str> = FAILED_AT.iter().map(|known| known.name).collect();
             self.source.error(
@@ -140,7 +169,9 @@ impl Reader<'_> {
         let distorted = self.invariants(file, table, &DISTORTED)?;
         let compaction = compacted.as_ref().map_or_else(|| none(table), |(_, values)| values.clone());
         let distortion = distorted.as_ref().map_or_else(|| none(table), |(_, values)| values.clone());
-        let rows = self.rows(file, table, &compaction)?;
+        // A range is one of the column that is the abscissa.
+        let over = compacted.as_ref().or(distorted.as_ref()).map(|(column, _)| column.values.values.as_slice());
+        let rows = self.rows(file, table, over.unwrap_or(&compaction))?;
         let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
         // The standard deviation of a strain is that of its logarithm times 1 + strain.
         let slope = |row: usize| match y.name {
@@ -151,7 +182,7 @@ impl Reader<'_> {
         let deviations = self.deviations(file, table, &rows, NUMBER)?;
         let deviations = deviations.map(|d| d.iter().zip(&rows).map(|(d, &row)| d * slope(row)).collect());
         let (name, over) = if compaction.iter().any(|&c| c != 0.0) || distorted.is_none() {
-            ("−I_tc", &compaction)
+            ("-I_tc", &compaction)
         } else {
             ("I_td", &distortion)
         };
@@ -159,6 +190,7 @@ impl Reader<'_> {
         Ok(DataSet {
             name: String::new(),
             place: String::new(),
+            declared: String::new(),
             abscissa: axis(name, pick(over)),
             ordinate: axis("I_el at failure", pick(&at)),
             rest: 0.0,
@@ -182,7 +214,7 @@ impl Reader<'_> {
         for (row, &value) in values.values.iter().enumerate() {
             let of = (invariant.of)(value);
             let strict = std::ptr::eq(known, &FAILED_AT[..]);
-            if !of.is_finite() || of < 0.0 || (strict && of == 0.0) {
+            if !of.is_finite() || of < 0.0 || (strict && !(of > 0.0 && of <= std::f64::consts::LN_2)) {
                 return Err(wrong(table, &values.column, row, invariant.allowed));
             }
             invariants.push(of);
@@ -220,6 +252,17 @@ impl Reader<'_> {
         })
     }
 
+    /// Whether `columns` names quantities that there are.
+    pub(super) fn require_known_columns(&self, file: &DataFile, known: &[&str]) -> Result<(), Error> {
+        match file.columns.iter().find(|(key, _)| !known.contains(&key.get_ref().as_str())) {
+            None => Ok(()),
+            Some((key, _)) => {
+                let message = format!("columns: \"{}\"; allowed: {}", key.get_ref(), known.join(", "));
+                Err(self.source.error(key.span(), &message))
+            }
+        }
+    }
+
     fn has(&self, file: &DataFile, table: &DataTable, quantity: &str) -> bool {
         file.columns.iter().any(|(key, _)| key.get_ref() == quantity)
             || table.columns.iter().any(|column| column.name == quantity)
@@ -239,9 +282,35 @@ impl Reader<'_> {
         Ok(Values { column: column.to_string(), values })
     }
 
+    /// The column of the abscissa, from where the specimen is at rest.
+    pub(super) fn abscissae(
+        &self,
+        file: &DataFile,
+        table: &DataTable,
+        quantity: &str,
+        dimension: Dimension,
+    ) -> Result<Values, Error> {
+        let mut column = self.column(file, table, quantity, dimension)?;
+        if let Some(zero) = &file.zero {
+            let zero = self.source.finite("zero", *zero.get_ref(), zero.span())?;
+            column.values.iter_mut().for_each(|value| *value -= zero);
+        }
+        Ok(column)
+    }
+
     /// A length or an area that a quantity needs.
-    fn given(&self, key: &str, value: &Option<Spanned<f64>>, needed: bool, file: &DataFile) -> Result<f64, Error> {
+    pub(super) fn given(
+        &self,
+        key: &str,
+        value: &Option<Spanned<f64>>,
+        needed: bool,
+        file: &DataFile,
+    ) -> Result<f64, Error> {
         match value {
+            Some(value) if !needed => {
+                let message = format!("{key} has no use with these quantities; allowed: without it");
+                Err(self.source.error(value.span(), &message))
+            }
             Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
             None if !needed => Ok(1.0),
             None => {
@@ -258,7 +327,12 @@ impl Reader<'_> {
         let [from, to] = range.get_ref().0;
         let rows: Vec<usize> = all.filter(|&row| from <= abscissae[row] && abscissae[row] <= to).collect();
         if rows.is_empty() {
-            let message = format!("range is [{from}, {to}]; no line of {} is in it", table.name);
+            let least = abscissae.iter().copied().fold(f64::INFINITY, f64::min);
+            let most = abscissae.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let message = format!(
+                "range is [{from}, {to}]; no line of {} is in it: in the units of this file they go from {least} to {most}",
+                table.name
+            );
             return Err(self.source.error(range.span(), &message));
         }
         Ok(rows)
@@ -307,6 +381,7 @@ impl Reader<'_> {
         DataSet {
             name: String::new(),
             place: String::new(),
+            declared: String::new(),
             loading,
             abscissa: axis(0),
             ordinate: axis(1),
@@ -318,16 +393,25 @@ impl Reader<'_> {
     }
 
     /// Whether the ordinates rise from rest.
-    fn check(&self, set: &DataSet, table: &DataTable, column: &str, rows: &[usize]) -> Result<(), Error> {
+    pub(super) fn check(&self, set: &DataSet, table: &DataTable, column: &str, rows: &[usize]) -> Result<(), Error> {
         let distances: Vec<f64> = (0..set.len()).map(|i| set.distance(i)).collect();
         let noise = set.deviations.as_ref().map(|deviations| deviations.iter().copied().fold(0.0, f64::max));
-        if set.largest() == 0.0 {
-            return Err(wrong(table, column, rows[0], "values that are not all 0"));
+        if !ORDINATES.contains(&set.largest()) {
+            let (least, most) = ORDINATES.into_inner();
+            let allowed = format!("values of which the largest is from {least:e} to {most:e} in the units of the fit");
+            return Err(wrong(table, column, rows[0], &allowed));
+        }
+        if distances.iter().all(|&distance| distance == 0.0) {
+            return Err(wrong(table, column, rows[0], "points away from rest: on the abscissa these are all at rest"));
         }
         match checks::flaw(&distances, &set.ordinate.values, noise) {
             None => Ok(()),
             Some(Flaw::Negative(point)) => {
                 Err(wrong(table, column, rows[point], "a value >= 0: tension, or pressure where it is pressed"))
+            }
+            Some(Flaw::Unloads(point)) => {
+                let allowed = "loading only: from here on the curve comes back below the way it went; leave that out";
+                Err(wrong(table, column, rows[point], allowed))
             }
             Some(Flaw::Falls(point, before)) => {
                 let line = cell(table, column, rows[before]).0;
@@ -350,6 +434,10 @@ impl Reader<'_> {
         for (file, set) in files.iter().zip(sets) {
             let file = file.get_ref();
             if let Some(names) = &file.fits {
+                if names.is_empty() {
+                    let message = format!("data set {}: fits is empty; allowed: a parameter at least", set.name);
+                    return Err(Error::Input(format!("{}: {message}", set.declared)));
+                }
                 set.fits = names.iter().map(|name| self.parameter(name)).collect::<Result<_, _>>()?;
                 continue;
             }
@@ -412,6 +500,7 @@ fn cell(table: &DataTable, column: &str, row: usize) -> (usize, usize, String) {
     let found = table.columns.iter().find(|known| known.name == column);
     found.map_or((0, 0, String::new()), |column| {
         let cell = column.values[row];
-        (cell.line, cell.column, format!("{} {}", cell.value, column.unit.text))
+        let unit = if column.unit.text == "-" { String::new() } else { format!(" {}", column.unit.text) };
+        (cell.line, cell.column, format!("{}{unit}", cell.value))
     })
 }

@@ -4,6 +4,7 @@
 //! bent like the data's own dependence, which an ellipse is not.
 
 use nalgebra::{Matrix2, Vector2};
+use rayon::prelude::*;
 
 use super::data::DataSet;
 use super::fit::{Fit, Group, Problem};
@@ -12,9 +13,9 @@ use super::parameter::{Parameter, Values};
 use super::uncertainty::LEVEL;
 
 /// So many points of the border.
-const POINTS: usize = 72;
+const POINTS: usize = 40;
 /// Halvings of the distance along a ray.
-const HALVINGS: usize = 30;
+const HALVINGS: usize = 11;
 /// The border is sought this much farther than where the ellipse has it.
 const FARTHEST: f64 = 8.0;
 /// So near, in standard deviations, the squares rise as a parabola does.
@@ -57,7 +58,7 @@ pub fn border(problem: &Problem, fit: &Fit) -> Option<Vec<[f64; 2]>> {
         }
         at(angle(i), inner)
     };
-    Some((0..=POINTS).map(border).collect())
+    Some((0..=POINTS).into_par_iter().map(border).collect())
 }
 
 /// The covariance of ln k_tc and p.

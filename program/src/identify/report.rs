@@ -72,11 +72,15 @@ fn value(job: &Job, fit: &Fit, parameter: Parameter) -> String {
     format!("{}{unit}{origin}", digits(value))
 }
 
-fn base_name(job: &Job) -> &str {
+pub fn base_name(job: &Job) -> &str {
     job.base.as_ref().map_or("", |base| base.name.as_str())
 }
 
-fn interval(estimate: &Estimate) -> String {
+/// The interval in words.
+pub fn interval(estimate: &Estimate) -> String {
+    if estimate.high >= estimate.parameter.property().maximum {
+        return format!("95 %: {} and more, without limit", digits(estimate.low));
+    }
     format!("95 %: {} to {}", digits(estimate.low), digits(estimate.high))
 }
 

@@ -77,18 +77,13 @@ impl Uncertainty {
     /// Adds the parameters that were fitted to some sets.
     pub fn add(&mut self, sets: &[usize], solution: &Solution, weights: &[f64], parameters: &[Parameter]) {
         let columns: Vec<usize> = sets.iter().flat_map(|&set| self.sources[set].0.clone()).collect();
-        let free: Vec<Parameter> = parameters.iter().copied().filter(|p| !solution.bounded.contains(p)).collect();
-        self.add_rows(&columns, solution, weights, &free, parameters);
-        // What lies on a bound is let go of here alone: its interval ends where the data would allow.
-        if !solution.bounded.is_empty() {
-            let mut open = self.clone();
-            open.add_rows(&columns, solution, weights, parameters, parameters);
-            for &parameter in &solution.bounded {
-                let row = open.factors.row(parameter.index());
-                let moved: f64 = columns.iter().enumerate().map(|(i, &c)| -row[c] * solution.residuals[i]).sum();
-                self.unbounded[parameter.index()] = Some(solution.values[parameter.index()] + moved);
-                self.factors.set_row(parameter.index(), &row);
-            }
+        // What lies on a bound is let go of here: where it might be makes the others less sure, and its interval ends where the
+        // data alone would have it.
+        self.add_rows(&columns, solution, weights, parameters, parameters);
+        for &parameter in &solution.bounded {
+            let row = self.factors.row(parameter.index());
+            let moved: f64 = columns.iter().enumerate().map(|(i, &c)| -row[c] * solution.residuals[i]).sum();
+            self.unbounded[parameter.index()] = Some(solution.values[parameter.index()] + moved);
         }
     }
 

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::file::Job;
 use super::fit::Fit;
+use super::notes::STRONG;
 use super::parameter::{ALL, PARAMETERS, Parameter};
 use super::report::{digits, line, table};
 use super::uncertainty::Estimate;
@@ -19,9 +20,6 @@ use crate::impact::scene::{Case, Scene, Zones};
 use crate::material::model::{Law, Material};
 use toron::law::parameters::{DENSITY, ENERGY_DENSITY, HYPERELASTIC};
 use toron::{Criterion, Rotation};
-
-/// Beyond this correlation the others go along.
-const STRONG: f64 = 0.9;
 
 /// A run of a case.
 #[derive(Clone, Debug)]
@@ -63,7 +61,7 @@ pub fn trials(job: &Job, fit: &Fit, scene: &Scene) -> Result<Vec<Trial>, Error> 
             return Err(Error::Input(message));
         }
     }
-    let sets = sets(fit);
+    let sets = sets(job, fit);
     let acts = |case: &Case, set: &Set| set.moved.is_none_or(|moved| !kept(case.zones.inner(), moved));
     let runs: Vec<(usize, &Set)> = (scene.cases.iter().enumerate())
         .flat_map(|(index, case)| sets.iter().filter(move |set| acts(case, set)).map(move |set| (index, set)))
@@ -79,15 +77,20 @@ struct Set {
     values: [Option<f64>; PARAMETERS],
 }
 
-fn sets(fit: &Fit) -> Vec<Set> {
-    let mut sets = vec![Set { moved: None, alone: true, name: "as fitted".to_string(), values: fit.values }];
+fn sets(job: &Job, fit: &Fit) -> Vec<Set> {
+    let own: [Option<f64>; PARAMETERS] = std::array::from_fn(|i| fit.values[i].or(job.problem.fallback[i]));
+    let mut sets = vec![Set { moved: None, alone: true, name: "as fitted".to_string(), values: own }];
     for (row, estimate) in fit.estimates.iter().enumerate() {
         let strong = |column: usize| column != row && fit.correlations[(row, column)].abs() > STRONG;
         let along: Vec<&Estimate> =
             fit.estimates.iter().enumerate().filter(|(column, _)| strong(*column)).map(|(_, other)| other).collect();
+        let parameter = estimate.parameter;
+        // A parameter that the data cannot tell has no ends that mean anything.
+        if estimate.bounded || estimate.high >= parameter.property().maximum {
+            continue;
+        }
         for end in [estimate.low, estimate.high] {
-            let parameter = estimate.parameter;
-            let mut values = fit.values;
+            let mut values = own;
             values[parameter.index()] = Some(end);
             let name = format!("{} {}", parameter.name(), digits(end));
             sets.push(Set { moved: Some(parameter), alone: true, name: name.clone(), values });
@@ -173,13 +176,18 @@ fn figures(trial: &Trial) -> [Option<f64>; FIGURES.len()] {
 }
 
 /// For each case a line for each trial, and which parameter moves which figure most.
-pub fn report(scene: &Scene, trials: &[Trial]) -> String {
+pub fn report(job: &Job, fit: &Fit, scene: &Scene, trials: &[Trial]) -> String {
     let [speed, density] = [SPEED, ENERGY_DENSITY].map(|dimension| unit(&scene.units, dimension));
     let heading = format!(
         "the projectile's speed at the end ({speed}), the largest energies up to the break ({density}), and how much wider the \
          section is when the transverse wave is at the clamp"
     );
+    let open = |p: &Parameter| fit.values[p.index()].or(job.problem.fallback[p.index()]).is_none();
+    let names: Vec<&str> = ALL.into_iter().filter(open).map(|parameter| parameter.name()).collect();
     let mut text = String::new();
+    if !names.is_empty() {
+        text += &line("of the scene", &format!("{}: the fit has none", names.join(", ")));
+    }
     for (index, case) in scene.cases.iter().enumerate() {
         let of_case: Vec<&Trial> = trials.iter().filter(|trial| trial.case == index).collect();
         text += &format!("\n{}", line(&case.name, &heading));

@@ -31,6 +31,13 @@ impl FibreWave {
         (speed > 0.0).then(|| FibreWave { formula, stiffness, speed: speed / units.from_si(1000.0, SPEED) })
     }
 
+    /// The wave in a yarn of this stiffness and density, which are in these units.
+    pub fn hyperelastic(k_el: f64, density: f64, units: &UnitSystem) -> Option<FibreWave> {
+        let speed = (k_el / density).sqrt();
+        let speed_in_km = speed / units.from_si(1000.0, SPEED);
+        (speed > 0.0).then_some(FibreWave { formula: "√(k_el/density)", stiffness: "k_el", speed: speed_in_km })
+    }
+
     /// A warning where no fibre has this speed: the units are likely wrong.
     pub fn unit_warning(&self, units: &UnitSystem) -> Option<String> {
         (!KNOWN.contains(&self.speed)).then(|| {

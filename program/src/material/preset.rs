@@ -15,7 +15,7 @@ use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, PRESETS, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
-const LONGEST_NAME: usize = 80;
+pub const LONGEST_NAME: usize = 80;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]

@@ -7,6 +7,7 @@ use approx::{assert_abs_diff_eq, assert_relative_eq};
 use nalgebra::Matrix3;
 
 use crate::library::ROOT;
+use toron::host::units::UnitSystem;
 use toron_program::identify::data::{Axis, DataSet, Loading};
 use toron_program::identify::file::Job;
 use toron_program::identify::fit::{Fit, Problem};
@@ -42,6 +43,7 @@ fn energies(name: &str, fits: &[Parameter], abscissae: Vec<f64>, state: impl Fn(
     DataSet {
         name: name.to_string(),
         place: name.to_string(),
+        declared: name.to_string(),
         loading,
         abscissa: axis("invariant", abscissae),
         ordinate: axis("energy", responses.iter().map(|response| response.value).collect()),
@@ -83,7 +85,17 @@ fn fit(sets: Vec<DataSet>) -> Fit {
     let start = [1.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0];
     let mut known = [None; PARAMETERS];
     known[Parameter::KEl.index()] = Some(TRUE[0]);
-    Problem { sets, known, fallback: [None; PARAMETERS], known_deviations: Vec::new(), start }.fit().expect("a fit")
+    Problem {
+        sets,
+        units: UnitSystem::SI,
+        density: None,
+        known,
+        fallback: [None; PARAMETERS],
+        known_deviations: Vec::new(),
+        start,
+    }
+    .fit()
+    .expect("a fit")
 }
 
 /// How often the interval of each parameter holds the true value.
@@ -143,6 +155,8 @@ fn one_stiffness_has_the_interval_of_a_line_through_rest() {
     }
     let fit = Problem {
         sets: vec![set],
+        units: UnitSystem::SI,
+        density: None,
         known: [None; PARAMETERS],
         fallback: [None; PARAMETERS],
         known_deviations: Vec::new(),
