@@ -202,6 +202,134 @@ fn a_path_s_derivatives_are_those_of_differences() {
     }
 }
 
+/// Where noise lets the data want a negative stiffness, it is 0 and the others are those of a fit with 0 given.
+#[test]
+fn at_a_bound_the_rest_is_as_good_as_with_the_bound_given() {
+    let mut normal = Normal(fastrand::Rng::with_seed(11));
+    let mut seen = 0;
+    for _ in 0..12 {
+        let mut sets = [compaction(), compression()];
+        let compaction: Vec<f64> = invariants().iter().map(|i| TRUE[1] * i.powf(TRUE[2])).collect();
+        sets[1].ordinate.values = compaction;
+        let mut sets = sets.map(|set| with_noise(&set, &mut normal));
+        for set in &mut sets {
+            set.deviations = Some(vec![NOISE * set.largest(); POINTS]);
+            set.fits = vec![Parameter::KTc, Parameter::P, Parameter::KTd];
+        }
+        let free = fit(sets.to_vec());
+        let k_td = *free.estimates.iter().find(|estimate| estimate.parameter == Parameter::KTd).expect("k_td");
+        if !k_td.bounded {
+            assert!(k_td.value > 0.0);
+            continue;
+        }
+        seen += 1;
+        assert_eq!((k_td.value, k_td.low), (0.0, 0.0));
+        for set in &mut sets {
+            set.fits.truncate(2);
+        }
+        let mut known = [None; PARAMETERS];
+        known[Parameter::KTd.index()] = Some(0.0);
+        let start = [1.0, 1.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let given = Problem {
+            sets: sets.to_vec(),
+            units: UnitSystem::SI,
+            density: None,
+            known,
+            fallback: [None; PARAMETERS],
+            known_deviations: Vec::new(),
+            start,
+        };
+        let given = given.fit().expect("a fit");
+        for parameter in [Parameter::KTc, Parameter::P] {
+            let [a, b] = [&free, &given].map(|fit| fit.values[parameter.index()].expect("a value"));
+            assert_relative_eq!(a, b, max_relative = 1e-5);
+            // Not knowing k_td makes the others less sure.
+            let error = |fit: &Fit| fit.estimates.iter().find(|e| e.parameter == parameter).expect("it").error;
+            assert!(error(&free) > error(&given));
+        }
+    }
+    assert!((2..=10).contains(&seen), "{seen} of 12 at the bound");
+}
+
+/// What a set depends on comes from the set that tells it, not from the base preset, whatever the order in the file.
+#[test]
+fn sets_are_fitted_after_those_that_tell_what_they_need() {
+    let mut compaction = compaction();
+    compaction.ordinate.values.iter_mut().for_each(|value| *value *= 2.0);
+    let mut compression = compression();
+    let extra: Vec<f64> = invariants().iter().map(|i| TRUE[1] * i.powf(TRUE[2])).collect();
+    compression.ordinate.values.iter_mut().zip(extra).for_each(|(value, extra)| *value += extra);
+    let problem = Problem {
+        sets: vec![compression, compaction],
+        units: UnitSystem::SI,
+        density: None,
+        known: [None; PARAMETERS],
+        fallback: TRUE.map(Some),
+        known_deviations: Vec::new(),
+        start: TRUE,
+    };
+    let fit = problem.fit().expect("a fit");
+    assert_relative_eq!(fit.values[Parameter::KTc.index()].expect("k_tc"), 2.0 * TRUE[1], max_relative = 1e-6);
+    assert_relative_eq!(fit.values[Parameter::KTd.index()].expect("k_td"), TRUE[3], max_relative = 1e-6);
+}
+
+/// The same data in other units give the same yarn, and values and intervals are those of an independent computation (NumPy and
+/// SciPy: least squares, covariances propagated, Student's t with Welch and Satterthwaite's degrees of freedom).
+#[test]
+fn the_energies_example_has_the_intervals_of_an_independent_computation() {
+    let expected = [
+        (Parameter::KTc, 992.633775, 94.8037287, 818.126898, 1204.36306),
+        (Parameter::P, 2.17718951, 0.0414811252, 2.09321536, 2.26116366),
+        (Parameter::KTd, 630.699604, 18.4880522, 593.802121, 667.597087),
+    ];
+    let text = std::fs::read_to_string(example("energies.toml")).expect("the example");
+    let folder = new_folder("units");
+    for file in ["compaction.csv", "compression.csv"] {
+        std::fs::copy(example(file), folder.join(file)).expect("a copy");
+    }
+    for (units, stress) in [("mm-tonne-s", 1.0), ("si", 1e6), ("mm-kg-ms", 1e-3)] {
+        std::fs::write(folder.join("fit.toml"), text.replace("mm-tonne-s", units)).expect("a file");
+        let fit = Job::read(&folder.join("fit.toml")).expect("valid").problem.fit().expect("a fit");
+        for (parameter, value, error, low, high) in expected {
+            let found = *fit.estimates.iter().find(|e| e.parameter == parameter).expect("an estimate");
+            let unit = if parameter == Parameter::P { 1.0 } else { stress };
+            for (found, expected) in [(found.value, value), (found.error, error), (found.low, low), (found.high, high)]
+            {
+                assert_relative_eq!(found, expected * unit, max_relative = 1e-5);
+            }
+        }
+    }
+}
+
+/// Slack shifts the strain, and `zero` takes it back.
+#[test]
+fn slack_is_taken_off() {
+    let folder = new_folder("slack");
+    let row = |i: usize| {
+        let strain = 0.001 * i as f64;
+        format!("{},{}\n", strain + 0.004, TRUE[0] * strain.ln_1p() / (1.0 + strain))
+    };
+    let rows: String = (0..40).map(row).collect();
+    std::fs::write(folder.join("data.csv"), format!("strain (-),stress (GPa)\n{rows}")).expect("a file");
+    let text = "units = \"mm-kg-ms\"\n[[data]]\nfile = \"data.csv\"\nloading = \"elongation\"\nzero = 0.004\n\
+                range = [0, 1]\n";
+    std::fs::write(folder.join("fit.toml"), text).expect("a file");
+    let fit = Job::read(&folder.join("fit.toml")).expect("valid").problem.fit().expect("a fit");
+    assert_relative_eq!(fit.values[0].expect("k_el"), TRUE[0], max_relative = 1e-9);
+}
+
+#[test]
+fn no_input_is_overwritten() {
+    let folder = new_folder("overwrite");
+    std::fs::copy(example("fibre.toml"), folder.join("kevlar-km2-fibre.toml")).expect("a copy");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let output =
+        program.args(["fit", "kevlar-km2-fibre.toml", "-o", "."]).current_dir(&folder).output().expect("it starts");
+    assert_eq!(output.status.code(), Some(2));
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(error.contains("would be overwritten"), "{error}");
+}
+
 fn example(name: &str) -> PathBuf {
     Path::new(ROOT).join("examples/identification").join(name)
 }
@@ -300,7 +428,7 @@ fn bad_data_are_named_by_file_line_and_column() {
         (table("-0.1,6\n"), "", "data.csv:2:1: 1 point for k_tc, p; allowed: 3 or more"),
         (table("-0.1,6\n-0.12,nan\n"), "", "data.csv:3:2: column \"energy\": the cell is \"nan\""),
         (table("-0.1,6\n-0.12,8 MPa\n"), "", "data.csv:3:2: column \"energy\": the cell is \"8 MPa\""),
-        (table("-0.1,6\n0.12,8\n"), "", "data.csv:3:1: column \"I_tc\": the value is 0.12 -; allowed: a number <= 0"),
+        (table("-0.1,6\n0.12,8\n"), "", "data.csv:3:1: column \"I_tc\": the value is 0.12; allowed: a number <= 0"),
         (
             table("-0.1,-6\n-0.12,-8\n"),
             "",
@@ -314,7 +442,7 @@ fn bad_data_are_named_by_file_line_and_column() {
         (
             table("-0.1,0\n-0.12,0\n-0.13,0\n"),
             "",
-            "data.csv:2:2: column \"energy\": the value is 0 MPa; allowed: values that",
+            "data.csv:2:2: column \"energy\": the value is 0 MPa; allowed: values of which",
         ),
         (
             "I_tc (mm),energy (MPa)\n-0.1,6\n".to_string(),
@@ -334,6 +462,18 @@ fn bad_data_are_named_by_file_line_and_column() {
         (table(rising), "fits = [\"k_xy\"]\n", "fit.toml:6: fits \"k_xy\"; allowed: k_el k_tc"),
         (table(rising), "deviation = -1\n", "fit.toml:6: deviation is -1; allowed: a finite number > 0"),
         (table(rising), "weight = 0\n", "fit.toml:6: weight is 0"),
+        (table(rising), "weight = 1e300\n", "fit.toml:6: weight is"),
+        (table(rising), "area = 2\n", "fit.toml:6: area has no use"),
+        (table(rising), "fits = []\n", "fit.toml:2: data set set: fits is empty"),
+        (table(rising), "fits = [\"alpha\"]\n", "fit.toml:2: data set set depends on k_tc"),
+        (table(rising), "columns = { enrgy = \"energy\" }\n", "fit.toml:6: columns: \"enrgy\"; allowed: I_tc"),
+        (table("-0.1,6e200\n-0.12,8e200\n-0.13,9e200\n"), "", "data.csv:2:2: column \"energy\": the value is 6"),
+        (table("0,6\n0,8\n0,9\n"), "", "data.csv:2:2: column \"energy\": the value is 6 MPa; allowed: points away"),
+        (
+            table(&format!("{rising}-0.06,1.4\n-0.05,0.8\n-0.04,0.4\n-0.03,0.1\n")),
+            "",
+            "data.csv:9:2: column \"energy\": the value is 1.4 MPa; allowed: loading only",
+        ),
     ] {
         let found = message("compaction", &table, more);
         assert!(found.starts_with(expected), "{table}{more}\nfound    {found}\nexpected {expected}");
