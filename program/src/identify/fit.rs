@@ -70,6 +70,9 @@ pub struct Group {
     pub values: Values,
 }
 
+/// Indices of sets that are fitted together, and the parameters that they tell.
+type Together = (Vec<usize>, Vec<Parameter>);
+
 /// How often the noise of sets is estimated anew, and how well it has to agree with the last time.
 const REWEIGHTINGS: usize = 200;
 const AGREED: f64 = 1e-6;
@@ -96,8 +99,8 @@ impl Problem {
     }
 
     /// Sets that share a parameter, in the order in which they are fitted: each after those that tell what it depends on.
-    fn groups(&self) -> Result<Vec<(Vec<usize>, Vec<Parameter>)>, Error> {
-        let mut groups: Vec<(Vec<usize>, Vec<Parameter>)> = Vec::new();
+    fn groups(&self) -> Result<Vec<Together>, Error> {
+        let mut groups: Vec<Together> = Vec::new();
         for (index, set) in self.sets.iter().enumerate() {
             let (mut sets, mut parameters) = (vec![index], set.fits.clone());
             let joined: Vec<_> =
@@ -116,7 +119,7 @@ impl Problem {
             let mut ready = None;
             for (index, (sets, _)) in groups.iter().enumerate() {
                 let needs = sensitive(&sets.iter().map(|&set| &self.sets[set]).collect::<Vec<_>>())?;
-                let told_later = |(other, (_, told)): (usize, &(Vec<usize>, Vec<Parameter>))| {
+                let told_later = |(other, (_, told)): (usize, &Together)| {
                     other != index && told.iter().any(|parameter| needs.contains(parameter))
                 };
                 if !groups.iter().enumerate().any(told_later) {

@@ -148,7 +148,7 @@ impl Reader<'_> {
     /// Strains at failure at some compactions and distortions.
     fn failure(&self, file: &DataFile, table: &DataTable) -> Result<DataSet, Error> {
         let unused = [("abscissa", &file.abscissa), ("ordinate", &file.ordinate)];
-        for (key, value) in unused.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))) {
+        if let Some((key, value)) = unused.into_iter().find_map(|(key, value)| Some((key, value.as_ref()?))) {
             let message =
                 format!("{key} has no use with failure points; allowed: columns, where theirs have other names");
             return Err(self.source.error(value.span(), &message));
