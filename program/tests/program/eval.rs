@@ -11,8 +11,18 @@ use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
-const ENTRIES: [&str; 9] =
-    ["law", "law-with-properties", "block", "block-f32", "umat", "vumat", "vumat-sp", "ls-dyna", "ls-dyna-vector"];
+const ENTRIES: [&str; 10] = [
+    "law",
+    "law-with-properties",
+    "block",
+    "block-f32",
+    "umat",
+    "vumat",
+    "vumat-sp",
+    "ls-dyna",
+    "ls-dyna-vector",
+    "mgis",
+];
 
 /// The lines that the program answers to this input; its exit code must be 0 and its complaints none.
 fn eval(via: &str, input: &[u8]) -> Vec<Value> {
@@ -107,7 +117,7 @@ fn meets_the_truth(via: &str, bounds: &Bounds) {
 
 #[test]
 fn entries_in_double_precision() {
-    for via in ["law", "block", "umat", "ls-dyna", "ls-dyna-vector"] {
+    for via in ["law", "block", "umat", "ls-dyna", "ls-dyna-vector", "mgis"] {
         meets_the_truth(via, &DOUBLE);
     }
     meets_the_truth("vumat", &POLAR);
@@ -289,7 +299,7 @@ fn a_tangent_of_a_vumat_is_refused() {
 
 fn refusal(via: &str) -> String {
     let others = "law, law-f32, law-with-properties, law-with-properties-f32, block, block-f32, umat, ls-dyna, \
-                  ls-dyna-vector";
+                  ls-dyna-vector, mgis";
     format!("toron: --tangent with --via {via}, which has no DDSDDE; allowed with {others}\n")
 }
 
