@@ -187,14 +187,17 @@ impl Step<'_> {
         let Some(operator) = self.options.operator else { return Rows::None };
         let entry = |place: usize| tangent.get(place).copied().unwrap_or_default();
         let rows: [[f64; 6]; 6] = core::array::from_fn(|row| core::array::from_fn(|column| entry(6 * row + column)));
+        let columns: [[f64; 6]; 6] = core::array::from_fn(|column| core::array::from_fn(|row| entry(6 * row + column)));
         let latched = !Failure::intact(self.old[LINEAR_FAILED]);
         match operator {
             Operator::Material => Rows::Six(material(rows)),
             Operator::Nominal => Rows::Nine(nominal(|row, column| entry(9 * row + column))),
             // A point that has failed before may have any F.
             _ if latched => Rows::SixByNine([[0.0; 9]; 6]),
-            Operator::CauchyByGradient => Rows::SixByNine(cauchy_by_gradient(&rows, cauchy, self.f1)),
-            Operator::KirchhoffByIncrement => Rows::SixByNine(kirchhoff_by_increment(&rows, cauchy, self.f0, self.f1)),
+            Operator::CauchyByGradient => Rows::SixByNine(cauchy_by_gradient(&columns, cauchy, self.f1)),
+            Operator::KirchhoffByIncrement => {
+                Rows::SixByNine(kirchhoff_by_increment(&columns, cauchy, self.f0, self.f1))
+            }
         }
     }
 }
