@@ -126,6 +126,7 @@ struct Outcome {
 }
 
 /// A tangent as it is written.
+#[allow(clippy::large_enum_variant)] // it stays on the stack, and nothing may be allocated
 enum Rows {
     None,
     Six([[f64; 6]; 6]),

@@ -7,7 +7,7 @@ use crate::law::wave_speed::wave_speed;
 use super::operator::{first_piola_kirchhoff, second_piola_kirchhoff, symmetric, unsymmetric};
 use super::view::{BehaviourDataView, Options, StressMeasure};
 
-/// The stress in the measure that is requested, before it is written: its first values count, see [`Stress::count`].
+/// The stress in the measure that is requested, before it is written.
 #[derive(Clone, Copy)]
 pub(super) enum Stress {
     Symmetric([f64; 6]),

@@ -70,6 +70,12 @@ pub(super) enum Operator {
     KirchhoffByIncrement,
 }
 
+/// The whole number from 0 to 3 that a value is nearest to: MFront's libraries, too, compare with numbers in between.
+#[inline(always)]
+fn whole(value: f64) -> Option<i32> {
+    (-0.5..3.5).contains(&value).then_some((value + 0.5) as i32)
+}
+
 /// What a call requests.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Options {
@@ -98,11 +104,14 @@ impl Options {
         let known = -3.5 < request && request < 4.5;
         let integrates = -0.25 <= request;
         let operates = !integrates || 0.5 < request;
-        let measure = match measure {
-            x if -0.5 < x && x < 0.5 => StressMeasure::Cauchy,
-            x if 0.5 <= x && x < 1.5 => StressMeasure::SecondPiolaKirchhoff,
-            x if 1.5 <= x && x < 2.5 => StressMeasure::FirstPiolaKirchhoff,
-            value => return Err(Error::Argument { name: "K[1]", value, wanted: "0 (Cauchy), 1 (PK2) or 2 (PK1)" }),
+        let measure = match whole(measure) {
+            Some(0) => StressMeasure::Cauchy,
+            Some(1) => StressMeasure::SecondPiolaKirchhoff,
+            Some(2) => StressMeasure::FirstPiolaKirchhoff,
+            _ => {
+                let wanted = "0 (Cauchy), 1 (PK2) or 2 (PK1)";
+                return Err(Error::Argument { name: "K[1]", value: measure, wanted });
+            }
         };
         if !known {
             let wanted = "-3 to 4, or 100 more for the speed of sound";
@@ -123,11 +132,11 @@ impl Operator {
     /// It stands for none.
     #[inline(always)]
     fn read(value: f64) -> Result<Operator, Error> {
-        match value {
-            x if -0.5 < x && x < 0.5 => Ok(Operator::CauchyByGradient),
-            x if 0.5 <= x && x < 1.5 => Ok(Operator::Material),
-            x if 1.5 <= x && x < 2.5 => Ok(Operator::Nominal),
-            x if 2.5 <= x && x < 3.5 => Ok(Operator::KirchhoffByIncrement),
+        match whole(value) {
+            Some(0) => Ok(Operator::CauchyByGradient),
+            Some(1) => Ok(Operator::Material),
+            Some(2) => Ok(Operator::Nominal),
+            Some(3) => Ok(Operator::KirchhoffByIncrement),
             _ => {
                 let wanted = "0 (dsig/dF), 1 (dPK2/dE), 2 (dPK1/dF) or 3 (dtau/ddF)";
                 Err(Error::Argument { name: "K[2]", value, wanted })
