@@ -9,6 +9,7 @@
 #define _GNU_SOURCE /* sigaction, fork, feenableexcept */
 #include "environment_hosts.h"
 #include "environment_laws.h"
+#include "environment_mgis.h"
 
 /* ---- All of them */
 
@@ -51,6 +52,12 @@ static const struct {
     {IN_BOTH(toron_lsdyna_umat_vector), lsdyna_umat_vector},
     {IN_BOTH(toron_lsdyna_utan_vector), lsdyna_utan_vector},
 #ifndef SINGLE
+    {"ToronHyperelastic_Tridimensional", mgis_hyperelastic},
+    {"ToronHyperelastic_PlaneStrain", mgis_hyperelastic_in_plane_strain},
+    {"ToronHyperelastic_Axisymmetrical", mgis_hyperelastic_of_revolution},
+    {"ToronLinearElastic_Tridimensional", mgis_linear_elastic},
+    {"ToronLinearElastic_PlaneStrain", mgis_linear_elastic_in_plane_strain},
+    {"ToronLinearElastic_Axisymmetrical", mgis_linear_elastic_of_revolution},
     {"HYPERELASTIC", calculix}, /* the last one, since it may end the process */
 #endif
 };

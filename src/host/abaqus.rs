@@ -35,7 +35,7 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status;
 use crate::law::voigt::Moduli;
 
-use super::border::{Message, check_pointers, entry, properties};
+use super::border::{Message, check_pointers, entry, fibre_of, out_of_plane, properties};
 use super::c::level;
 use super::structures::{read, structures};
 
@@ -113,7 +113,7 @@ where
                 let properties = properties(props, property_count(nprops)?, &parameters::HYPERELASTIC)?;
                 if nshr == 1 {
                     Hyperelastic::new(properties)?;
-                    if out_of_plane(properties) {
+                    if fibre_of(properties).is_some_and(out_of_plane) {
                         return Err(Error::Plain(status::FIBRE_OUT_OF_PLANE));
                     }
                 }
@@ -220,16 +220,6 @@ pub unsafe extern "C" fn umat_tangent_f64(
         let (message, tangent) = (Message { text: message, capacity }, JaumannModulus);
         umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
     }
-}
-
-/// Whether the fibre is neither in the plane of a plane-strain or axisymmetric element nor normal to it: its stress would have
-/// components that such an element does not have. False for a direction that is zero or not finite, which is refused elsewhere.
-fn out_of_plane(properties: &[f64]) -> bool {
-    /// A direction typed or computed to this many digits counts as in the plane.
-    const TOLERANCE: f64 = 1e-9;
-    let &[.., m_1, m_2, m_3] = properties else { return false };
-    let (across, along) = (m_1.abs().max(m_2.abs()), m_3.abs());
-    along > TOLERANCE * across && across > TOLERANCE * along
 }
 
 /// The sink of a UMAT: Abaqus's arrays, for which the caller answers.

@@ -8,7 +8,7 @@ use libc::{c_char, size_t};
 use super::environment::in_default_environment;
 use crate::law::bounds::wrong_number;
 use crate::law::error::Error;
-use crate::law::parameters::Property;
+use crate::law::parameters::{FIBRE, Property};
 use crate::law::status;
 
 /// The properties that a caller passes, read only if their number is right.
@@ -38,6 +38,21 @@ pub(super) fn check_pointers<T>(pointers: &[(*const T, &'static str)]) -> Result
         Some(&(_, name)) => Err(Error::Null { name }),
         None => Ok(()),
     }
+}
+
+/// The fibre direction among properties of the hyperelastic law; `None` if their number is wrong.
+pub(super) fn fibre_of(properties: &[f64]) -> Option<[f64; 3]> {
+    properties.get(FIBRE..)?.try_into().ok()
+}
+
+/// Whether a direction is neither in the plane of a plane-strain or axisymmetric element nor normal to it: the stress along it
+/// would have components that such an element does not have. False for a direction that is zero or not finite, which is refused
+/// elsewhere.
+pub(super) fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
+    /// A direction typed or computed to this many digits counts as in the plane.
+    const TOLERANCE: f64 = 1e-9;
+    let (across, along) = (m_1.abs().max(m_2.abs()), m_3.abs());
+    along > TOLERANCE * across && across > TOLERANCE * along
 }
 
 /// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error.

@@ -37,7 +37,7 @@ pub fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
 
 /// The sum of two tensors of six components.
 #[inline(always)]
-pub(super) fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
+pub(crate) fn sum<R: Real>(a: [R; 6], b: [R; 6]) -> [R; 6] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4], a[5] + b[5]]
 }
 

@@ -6,7 +6,8 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::Vumat;
 use toron::host::c::*;
-use toron::host::{abaqus, c, calculix, lsdyna};
+use toron::host::mgis::{BehaviourDataView, StateView};
+use toron::host::{abaqus, c, calculix, lsdyna, mgis};
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
 const L: usize = TORON_LINEAR_ELASTIC_PROPERTIES;
@@ -59,6 +60,7 @@ fn entries() -> Vec<String> {
         include_str!("../../c/src/abaqus.rs"),
         include_str!("../../c/src/lsdyna.rs"),
         include_str!("../../calculix/src/lib.rs"),
+        include_str!("../../mgis/src/lib.rs"),
     ];
     let calls = sources.into_iter().flat_map(|source| source.split("toron::host::").skip(1));
     let calls = calls.filter_map(|call| call.split_once('(')).map(|(name, _)| name);
@@ -382,6 +384,57 @@ fn calculix() {
         );
         assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
     }
+}
+
+/// Every request, measure and operator, and some that do not exist.
+#[test]
+fn mgis_behaviours() {
+    let (mut text, mut step, mut speed, density) = ([0 as c_char; ROOM], 1.0, 0.0, [1.0, -1.0]);
+    let (mut old, mut new, mut stress, mut energy) = ([0.0; S], [0.0; S], [0.0; 9], 0.0);
+    for (request, measure, operator) in
+        (-4..106).flat_map(|request| (0..4).flat_map(move |m| (0..5).map(move |o| (request, m, o))))
+    {
+        if (6..96).contains(&request) {
+            continue;
+        }
+        for (law, f) in (0..3).flat_map(|law| deformations().map(|f| (law, f))) {
+            let mut k = [0.0; 81];
+            k[..3].copy_from_slice(&[f64::from(request), f64::from(measure), f64::from(operator)]);
+            let s0 = StateView {
+                gradients: REST.as_ptr(),
+                thermodynamic_forces: stress.as_mut_ptr(),
+                mass_density: &density[law % 2],
+                material_properties: YARNS[law].as_ptr(),
+                internal_state_variables: old.as_mut_ptr(),
+                stored_energy: &mut energy,
+                dissipated_energy: null_mut(),
+                external_state_variables: null(),
+            };
+            let s1 = StateView { gradients: f.as_ptr(), internal_state_variables: new.as_mut_ptr(), ..s0 };
+            let mut view = BehaviourDataView {
+                error_message: text.as_mut_ptr(),
+                dt: 1.0,
+                k: k.as_mut_ptr(),
+                rdt: &mut step,
+                speed_of_sound: &mut speed,
+                s0,
+                s1,
+            };
+            let mut linear = view;
+            linear.s1.material_properties = LINEAR[law].as_ptr();
+            for view in [&mut view, &mut linear] {
+                k[..3].copy_from_slice(&[f64::from(request), f64::from(measure), f64::from(operator)]);
+                if std::ptr::eq(view.s1.material_properties, LINEAR[law].as_ptr()) {
+                    quiet!(mgis::linear_elastic, view);
+                    quiet!(mgis::linear_elastic_in_plane, view);
+                } else {
+                    quiet!(mgis::hyperelastic, view);
+                    quiet!(mgis::hyperelastic_in_plane, view);
+                }
+            }
+        }
+    }
+    assert_eq!(quiet!(mgis::hyperelastic, null_mut()), mgis::NOT_INTEGRATED);
 }
 
 /// The entries of the linear elastic law.

@@ -98,9 +98,10 @@ pub fn compile<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S]) -
     gcc.arg(format!("-I{ROOT}/include")).arg(format!("{ROOT}/ffi-tests/c/{name}.c"));
     gcc.args(libraries);
     if name == "environment" {
-        // It calls CalculiX's entry too.
+        // It calls the entries of CalculiX and MGIS too.
         let folder = LIBRARY.display();
-        gcc.args([format!("-L{folder}"), format!("-Wl,--enable-new-dtags,-rpath,{folder}"), "-ltoron_calculix".into()]);
+        gcc.args([format!("-L{folder}"), format!("-Wl,--enable-new-dtags,-rpath,{folder}"), "-ltoron_calculix".into()])
+            .arg("-ltoron_mgis");
     }
     run(gcc.args(SYSTEM).arg("-o").arg(&program), "gcc");
     program

@@ -1,5 +1,5 @@
-//! The package toron as it is published, under the functions that libtoron and libtoron_calculix export, without the standard
-//! library: a dependency that brought it in would clash with the panic handler below.
+//! The package toron as it is published, under the functions that libtoron and the libraries of CalculiX and MGIS export,
+//! without the standard library: a dependency that brought it in would clash with the panic handler below.
 //!
 //! That handler calls a function which does not exist. The linker drops code that nothing reaches before it looks, so that this
 //! library links if, and only if, no function here can panic.
@@ -18,6 +18,8 @@ pub mod hyperelastic;
 pub mod linear_elastic;
 #[path = "../../../c/src/lsdyna.rs"]
 pub mod lsdyna;
+#[path = "../../../mgis/src/lib.rs"]
+pub mod mgis;
 #[path = "../../../c/src/tables.rs"]
 pub mod tables;
 

@@ -7,9 +7,12 @@ use nalgebra::{Matrix3, Scalar};
 use super::entries::each_point;
 use super::scene::Scene;
 use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
-use crate::entries::hosts::{CalculixPoint, Given, LsdynaElement, LsdynaVector, OnePoint, Umat, VumatArrays};
+use crate::entries::hosts::{
+    CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, Umat, VumatArrays,
+};
 use crate::entries::precision::BlockPrecision;
 use toron::host::c::HyperelasticLaw;
+use toron::host::mgis::INTEGRATED;
 use toron::law::block::Precision;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
@@ -36,6 +39,10 @@ pub enum Host {
     LsdynaVector,
     /// With dS/dE, which it wants at every call.
     Calculix,
+    /// With dσ/dF or none.
+    Mgis {
+        tangent: bool,
+    },
 }
 
 impl Host {
@@ -50,7 +57,13 @@ impl Host {
         Host::LsdynaVector,
     ];
     /// Those in double precision alone.
-    pub const DOUBLE: [Host; 3] = [Host::Umat { tangent: false }, Host::Umat { tangent: true }, Host::Calculix];
+    pub const DOUBLE: [Host; 5] = [
+        Host::Umat { tangent: false },
+        Host::Umat { tangent: true },
+        Host::Calculix,
+        Host::Mgis { tangent: false },
+        Host::Mgis { tangent: true },
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
@@ -64,6 +77,8 @@ impl Host {
             Host::Lsdyna => "LS-DYNA scalar",
             Host::LsdynaVector => "LS-DYNA vectorised",
             Host::Calculix => "CalculiX with dS/dE",
+            Host::Mgis { tangent: false } => "MGIS",
+            Host::Mgis { tangent: true } => "MGIS with dsig/dF",
         }
     }
 }
@@ -153,13 +168,13 @@ pub fn call<T: Precision + BlockPrecision + Scalar>(
             });
         }
         Host::LsdynaVector => drop(arrays.lsdyna.call(properties)),
-        Host::Umat { .. } | Host::Calculix => double(host, &properties.map(Into::into), scene),
+        Host::Umat { .. } | Host::Calculix | Host::Mgis { .. } => double(host, &properties.map(Into::into), scene),
     }
 }
 
 /// The hosts in double precision alone.
 fn double<T: Precision + Scalar>(host: Host, properties: &[f64; HYPERELASTIC_PROPERTIES], scene: &mut Scene<T>) {
-    let (mut umat, mut calculix) = (Umat::FRESH, CalculixPoint::default());
+    let (mut umat, mut calculix, mut mgis) = (Umat::FRESH, CalculixPoint::default(), MgisPoint::FRESH);
     each_point(scene, |f, state| {
         let (columns, state): ([f64; 9], _) = (std::array::from_fn(|c| f[c].into()), state.map(Into::into));
         let (stress, state, status) = match host {
@@ -168,6 +183,14 @@ fn double<T: Precision + Scalar>(host: Host, properties: &[f64; HYPERELASTIC_PRO
                 let status = umat.call(properties, &columns, tangent);
                 black_box(&umat.ddsdde);
                 (umat.stress, umat.statev, status)
+            }
+            Host::Mgis { tangent } => {
+                mgis.gradients = [0, 4, 8, 3, 1, 6, 2, 7, 5].map(|c| columns[c]);
+                mgis.state_old = state;
+                let result =
+                    mgis.call(properties, if tangent { MgisTangent::CauchyByGradient } else { MgisTangent::None });
+                black_box(&mgis.k);
+                (mgis.stress, mgis.state, result - INTEGRATED)
             }
             _ => {
                 calculix.state_old = state;

@@ -1,13 +1,14 @@
 //! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for `eval`.
 
+use std::f64::consts::SQRT_2;
 use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
-use super::hosts::{Given, OnePoint, Umat, call_point};
+use super::hosts::{Given, MgisPoint, MgisTangent, OnePoint, Umat, call_point};
 use super::precision::BlockPrecision;
 use toron::host::c::{self, Block, Point};
-use toron::host::{abaqus, lsdyna};
+use toron::host::{abaqus, lsdyna, mgis};
 use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
@@ -164,6 +165,24 @@ pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: 
     }
 }
 
+/// The Cauchy stress through MGIS; with `tangent` dS/dE too, as MGIS gets it: by rows, 11 22 33 √2·12 √2·13 √2·23.
+pub fn mgis(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> (Answer, Option<[f64; 36]>) {
+    let &[f11, f21, f31, f12, f22, f32, f13, f23, f33] = f;
+    let gradients = [f11, f22, f33, f12, f21, f13, f31, f23, f32];
+    let mut host = MgisPoint { gradients, ..MgisPoint::FRESH };
+    let request = if tangent { MgisTangent::Material } else { MgisTangent::None };
+    if host.call(properties, request) != mgis::INTEGRATED {
+        // MGIS gets a text and no code: it is the point entry's.
+        let code = point(properties, f, tangent).status;
+        let status = if code == status::OK { status::BAD_ARGUMENT } else { code };
+        return (Answer { status, ..Answer::default() }, None);
+    }
+    let [s11, s22, s33, s12, s13, s23] = host.stress;
+    let stress = [s11, s22, s33, s12 / SQRT_2, s23 / SQRT_2, s13 / SQRT_2];
+    let material = tangent.then(|| std::array::from_fn(|entry| host.k[entry]));
+    (Answer { stress, state: host.state, ..Answer::default() }, material)
+}
+
 /// A VUMAT of one point at the stretch U, 11 22 33 12 23 31; the stress is the corotational one.
 pub fn vumat<T: BlockPrecision>(
     properties: &[f64; HYPERELASTIC_PROPERTIES],
@@ -214,8 +233,8 @@ fn lsdyna_constants(properties: &[f64; HYPERELASTIC_PROPERTIES]) -> [f64; 48] {
     cm
 }
 
-/// DDSDDE of LS-DYNA's tangent.
-fn jaumann(truesdell: &[[f64; 6]; 6], stress: &[f64; 6]) -> [[f64; 6]; 6] {
+/// DDSDDE of a Truesdell modulus.
+pub fn jaumann(truesdell: &[[f64; 6]; 6], stress: &[f64; 6]) -> [[f64; 6]; 6] {
     truesdell_of_jaumann(truesdell, &stress.map(|s| -s))
 }
 

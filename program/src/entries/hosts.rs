@@ -7,6 +7,7 @@ use nalgebra::Matrix3;
 
 use super::precision::BlockPrecision;
 use toron::host::c::{self, HyperelasticLaw, Point};
+use toron::host::mgis::{self, BehaviourDataView, StateView};
 use toron::host::{abaqus, calculix};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
@@ -259,5 +260,79 @@ impl Umat {
                 0,
             )
         }
+    }
+}
+
+/// The tangent that a call through MGIS requests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MgisTangent {
+    None,
+    /// dσ/dF, 6×9: what MGIS and MTest request if they are not told otherwise.
+    CauchyByGradient,
+    /// dS/dE, 6×6.
+    Material,
+}
+
+/// One integration point in three dimensions as MGIS hands it over, in MFront's orders.
+#[derive(Clone, Copy, Debug)]
+pub struct MgisPoint {
+    /// 11 22 33 12 21 13 31 23 32.
+    pub gradients: [f64; 9],
+    pub state_old: [f64; HYPERELASTIC_STATE],
+    pub state: [f64; HYPERELASTIC_STATE],
+    /// Cauchy stress 11 22 33 √2·12 √2·13 √2·23.
+    pub stress: [f64; 6],
+    pub stored_energy: f64,
+    /// The request, and the tangent by rows.
+    pub k: [f64; 54],
+}
+
+impl MgisPoint {
+    /// A point at the start of an analysis.
+    pub const FRESH: MgisPoint = MgisPoint {
+        gradients: [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        state_old: [0.0; HYPERELASTIC_STATE],
+        state: [0.0; HYPERELASTIC_STATE],
+        stress: [0.0; 6],
+        stored_energy: 0.0,
+        k: [0.0; 54],
+    };
+
+    /// Calls the behaviour; returns what it returns: 1, or −1 if the point is not integrated.
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
+        self.k[..3].copy_from_slice(match tangent {
+            MgisTangent::None => &[0.0, 0.0, 0.0],
+            MgisTangent::CauchyByGradient => &[4.0, 0.0, 0.0],
+            MgisTangent::Material => &[4.0, 0.0, 1.0],
+        });
+        // Neither the old stress nor the external state variables are read, nor the first gradients for these tangents.
+        let (rest, nothing, mut rdt) = (MgisPoint::FRESH.gradients, null_mut::<f64>(), 1.0);
+        let state = StateView {
+            gradients: rest.as_ptr(),
+            thermodynamic_forces: nothing,
+            mass_density: nothing,
+            material_properties: properties.as_ptr(),
+            internal_state_variables: self.state_old.as_mut_ptr(),
+            stored_energy: nothing,
+            dissipated_energy: nothing,
+            external_state_variables: nothing,
+        };
+        let mut view = BehaviourDataView {
+            error_message: null_mut(),
+            dt: 0.0,
+            k: self.k.as_mut_ptr(),
+            rdt: &mut rdt,
+            speed_of_sound: nothing,
+            s0: state,
+            s1: StateView {
+                gradients: self.gradients.as_ptr(),
+                thermodynamic_forces: self.stress.as_mut_ptr(),
+                internal_state_variables: self.state.as_mut_ptr(),
+                stored_energy: &mut self.stored_energy,
+                ..state
+            },
+        };
+        // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.
+        unsafe { mgis::hyperelastic(&mut view) }
     }
 }

@@ -9,6 +9,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::polar::polar_decomposition;
+use super::push_forward::truesdell_of_material;
 use crate::common::error::Error;
 use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
@@ -41,6 +42,8 @@ pub enum Entry {
     LsDyna,
     /// `toron_lsdyna_umat_vector_f64`, the element amid others.
     LsDynaVector,
+    /// `ToronHyperelastic_Tridimensional`, as MGIS calls it; the tangent is pushed forward from dS/dE.
+    Mgis,
 }
 
 impl Entry {
@@ -217,6 +220,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         }
         Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
         Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
+        Entry::Mgis => via_mgis(&f, evaluation::mgis(&properties, &columns, tangent)),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;
@@ -245,6 +249,15 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
 /// 11 22 33 12 23 31 to 11 22 33 12 13 23.
 fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
     [s[0], s[1], s[2], s[3], s[5], s[4]]
+}
+
+/// The answer of MGIS, with dS/dE pushed forward.
+fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[f64; 36]>)) -> Answer {
+    let ddsdde = material.map(|material| {
+        let truesdell = truesdell_of_material(&material, f);
+        evaluation::jaumann(&order(truesdell.map(order)), &answer.stress)
+    });
+    Answer { ddsdde, ..answer }
 }
 
 /// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.

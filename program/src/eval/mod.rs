@@ -2,3 +2,4 @@
 
 pub mod command;
 pub mod polar;
+pub mod push_forward;

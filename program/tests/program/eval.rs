@@ -11,14 +11,28 @@ use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
-const ENTRIES: [&str; 9] =
-    ["law", "law-with-properties", "block", "block-f32", "umat", "vumat", "vumat-sp", "ls-dyna", "ls-dyna-vector"];
+const ENTRIES: [&str; 10] = [
+    "law",
+    "law-with-properties",
+    "block",
+    "block-f32",
+    "umat",
+    "vumat",
+    "vumat-sp",
+    "ls-dyna",
+    "ls-dyna-vector",
+    "mgis",
+];
 
 /// The lines that the program answers to this input; its exit code must be 0 and its complaints none.
 fn eval(via: &str, input: &[u8]) -> Vec<Value> {
+    evaluated(&["--via", via], input)
+}
+
+fn evaluated(options: &[&str], input: &[u8]) -> Vec<Value> {
+    let via = options.join(" ");
     let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
-    let program =
-        program.args(["eval", "--via", via]).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let program = program.arg("eval").args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = program.spawn().expect("the program starts");
     let mut stdin = child.stdin.take().expect("a pipe");
     let output = std::thread::scope(|scope| {
@@ -107,10 +121,28 @@ fn meets_the_truth(via: &str, bounds: &Bounds) {
 
 #[test]
 fn entries_in_double_precision() {
-    for via in ["law", "block", "umat", "ls-dyna", "ls-dyna-vector"] {
+    for via in ["law", "block", "umat", "ls-dyna", "ls-dyna-vector", "mgis"] {
         meets_the_truth(via, &DOUBLE);
     }
     meets_the_truth("vumat", &POLAR);
+}
+
+/// DDSDDE of the entries that return another tangent, which is pushed forward: beside the kinks of `distortion` the strong shears
+/// magnify the rounding of dS/dE most.
+#[test]
+fn the_tangent_through_mgis() {
+    let lines = evaluated(&["--via", "mgis", "--tangent"], include_bytes!("../../../tests/truth/points.jsonl"));
+    let mut worst = 0.0_f64;
+    for (case, line) in cases().iter().zip(&lines) {
+        let order = [0, 1, 2, 3, 5, 4];
+        let rows = order.map(|i| order.map(|j| number(&line["ddsdde"][i][j])));
+        if let (Some(error), false) = (case.tangent_error(&rows), case.category == "distortion") {
+            assert!(error <= 1e-12, "case {}, {}: {error:e}", case.id, case.category);
+            worst = worst.max(error);
+        }
+    }
+    println!("tangent through mgis: {worst:.1e}");
+    assert!(worst > 0.0);
 }
 
 #[test]
@@ -289,7 +321,7 @@ fn a_tangent_of_a_vumat_is_refused() {
 
 fn refusal(via: &str) -> String {
     let others = "law, law-f32, law-with-properties, law-with-properties-f32, block, block-f32, umat, ls-dyna, \
-                  ls-dyna-vector";
+                  ls-dyna-vector, mgis";
     format!("toron: --tangent with --via {via}, which has no DDSDDE; allowed with {others}\n")
 }
 

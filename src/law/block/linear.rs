@@ -333,7 +333,9 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
     let results = answer.stress.iter().chain(&answer.state).chain(&entries);
     if answer.taken && !(results.into_iter().all(|&x| fits(x)) && (!wanted.wave_modulus || fits(speed(&answer)))) {
         law.overflow(&mut answer, &state);
-        entries = [0.0; 81];
+    }
+    if !answer.taken {
+        entries = [0.0; 81]; // a tangent of 0 that is converted with an F which is not finite is not 0
     }
     // SAFETY: the caller's promise.
     let store = |x: f64, array: *mut T, at: usize| unsafe { *array.add(at) = T::splat(x) };

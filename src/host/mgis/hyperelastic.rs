@@ -1,0 +1,178 @@
+//! The hyperelastic law as the behaviour `ToronHyperelastic`.
+
+use core::cell::Cell;
+use core::slice;
+
+use crate::host::border::{fibre_of, out_of_plane};
+use crate::law::derivative::{JaumannModulus, NineByNine, NoTangent, SixBySix, StressAndState};
+use crate::law::error::Error;
+use crate::law::failure::Failure;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::level::Level;
+use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
+use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::response::{Request, nan_unless_finite};
+use crate::law::state::{FAILED, HYPERELASTIC_STATE};
+use crate::law::status;
+use crate::law::tangent::Measure;
+use crate::law::voigt::{Moduli, sum};
+
+use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
+use super::results::{Results, Stress, status_of};
+use super::view::{BehaviourDataView, Operator, Options, StressMeasure, columns, integrate};
+
+/// `ToronHyperelastic_Tridimensional`.
+///
+/// # Safety
+/// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+#[inline(never)]
+pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { integrate(view, |view, options| evaluate(view, options, false)) }
+}
+
+/// `ToronHyperelastic_PlaneStrain` and `ToronHyperelastic_Axisymmetrical`.
+///
+/// # Safety
+/// As for [`hyperelastic`].
+#[inline(never)]
+pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { integrate(view, |view, options| evaluate(view, options, true)) }
+}
+
+/// Evaluates the law and writes what is requested. Returns the status of the point.
+///
+/// # Errors
+/// The first property that is wrong.
+///
+/// # Safety
+/// As for [`hyperelastic`]; no pointer that is needed is null.
+#[inline(always)]
+unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
+    // SAFETY: the caller's promise.
+    let (source, state, f) = unsafe {
+        (
+            slice::from_raw_parts(view.s1.material_properties, HYPERELASTIC_PROPERTIES),
+            &*view.s0.internal_state_variables.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
+            columns(if options.integrates { view.s1.gradients } else { view.s0.gradients }, plane),
+        )
+    };
+    if plane {
+        check_plane(source)?;
+    }
+    let latched = !Failure::intact(state[FAILED].get());
+    let mut code = status::OK;
+    let to = ToHost { results: Results { view, options, plane }, f: &f, latched, code: &mut code };
+    let request = Request {
+        modes: options.measure == StressMeasure::SecondPiolaKirchhoff,
+        wave_modulus: options.density.is_some(),
+        ..Request::STRESS_AND_STATE
+    };
+    // The request that a solver repeats for all points is known to the compiler.
+    let usual = request == Request::STRESS_AND_STATE;
+    macro_rules! evaluate_with {
+        ($tangent:expr) => {
+            evaluate_call(Call { source, f: &f, fibre: None, state, tangent: $tangent, sink: to }, Level::Avx512)
+        };
+    }
+    match options.operator {
+        None if usual => evaluate_with!(StressAndState),
+        None => evaluate_with!(NoTangent(request)),
+        Some(Operator::CauchyByGradient) if usual => evaluate_with!(JaumannModulus),
+        Some(Operator::CauchyByGradient | Operator::KirchhoffByIncrement) => {
+            evaluate_with!(SixBySix(request, Measure::Jaumann))
+        }
+        Some(Operator::Material) => evaluate_with!(SixBySix(request, Measure::Material)),
+        Some(Operator::Nominal) => evaluate_with!(NineByNine(request)),
+    }?;
+    Ok(code)
+}
+
+/// Checks the properties for a plane hypothesis.
+///
+/// # Errors
+/// The first property that is wrong, or a fibre direction that is neither in the plane nor normal to it.
+#[inline(never)]
+fn check_plane(properties: &[f64]) -> Result<(), Error> {
+    Hyperelastic::new(properties)?;
+    match fibre_of(properties) {
+        Some(value) if out_of_plane(value) => Err(super::oblique(FIBRE, "fibre direction", value)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes the results of a point to MGIS's arrays.
+struct ToHost<'a> {
+    results: Results<'a>,
+    f: &'a [[f64; 3]; 3],
+    /// Whether the point has failed before.
+    latched: bool,
+    code: &'a mut i32,
+}
+
+impl ToHost<'_> {
+    /// Writes the results, given whether the operator is finite, and the operator by `operator`; nothing if there is an error.
+    #[inline(always)]
+    fn put(self, point: &Point<f64>, finite: bool, operator: impl FnOnce(&Results<'_>)) {
+        let results = self.results;
+        let stress = Stress::new(results.options.measure, &point.stress, self.f, || {
+            let [el, tc, td, ld] = point.modes;
+            sum(sum(el, tc), sum(td, ld))
+        });
+        let converted = results.options.measure == StressMeasure::Cauchy || stress.is_finite();
+        *self.code = status_of(point.status, finite & converted);
+        if *self.code != status::OK {
+            return;
+        }
+        operator(&results);
+        // SAFETY: MGIS's promise.
+        unsafe {
+            results.store_speed(point.wave_modulus);
+            if results.options.integrates {
+                let [w_el, w_tc, w_td, w_ld, ..] = point.state;
+                results.store_step(&stress, &point.state, ((w_el + w_tc) + w_td) + w_ld);
+            }
+        }
+    }
+}
+
+impl Sink<f64, 0> for ToHost<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, _: [f64; 0]) {
+        self.put(&point, true, |_| ());
+    }
+}
+
+impl Sink<f64, 21> for ToHost<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+        let rows = Moduli(moduli).matrix();
+        if self.results.options.operator == Some(Operator::Material) {
+            // SAFETY: MGIS's promise.
+            return self.put(&point, true, |to| unsafe { to.store_operator(&material(rows)) });
+        }
+        let operator = if self.latched || point.status != status::OK {
+            [[0.0; 9]; 6]
+        } else if self.results.options.operator == Some(Operator::KirchhoffByIncrement) {
+            let Results { view, options, plane } = self.results;
+            // SAFETY: MGIS's promise; the first F is read for this operator, and if the step is not integrated.
+            let f0 = if options.integrates { unsafe { columns(view.s0.gradients, plane) } } else { *self.f };
+            kirchhoff_by_increment(&rows, &point.stress, &f0, self.f)
+        } else {
+            cauchy_by_gradient(&rows, &point.stress, self.f)
+        };
+        let finite = nan_unless_finite(operator.as_flattened()) == 0.0;
+        // SAFETY: MGIS's promise.
+        self.put(&point, finite, |to| unsafe { to.store_operator(&operator) });
+    }
+}
+
+impl Sink<f64, 81> for ToHost<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, entries: [f64; 81]) {
+        let rows = nominal(|row, column| entries.get(row + 9 * column).copied().unwrap_or_default());
+        // SAFETY: MGIS's promise.
+        self.put(&point, true, |to| unsafe { to.store_operator(&rows) });
+    }
+}

@@ -1,0 +1,204 @@
+//! The linear elastic law as the behaviour `ToronLinearElastic`.
+
+use core::slice;
+
+use crate::host::border::out_of_plane;
+use crate::law::block::linear::LinearPointers;
+use crate::law::block::{components, components_mut};
+use crate::law::error::Error;
+use crate::law::failure::Failure;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::parameters::{LINEAR_ELASTIC_PROPERTIES, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
+use crate::law::response::nan_unless_finite;
+use crate::law::state::{LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_WORK};
+use crate::law::status;
+use crate::law::tangent::Measure;
+
+use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
+use super::results::{Results, Stress, second_of_cauchy};
+use super::view::{BehaviourDataView, Operator, Options, columns, integrate};
+
+/// `ToronLinearElastic_Tridimensional`.
+///
+/// # Safety
+/// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+#[inline(never)]
+pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { integrate(view, |view, options| evaluate(view, options, false)) }
+}
+
+/// `ToronLinearElastic_PlaneStrain` and `ToronLinearElastic_Axisymmetrical`.
+///
+/// # Safety
+/// As for [`linear_elastic`].
+#[inline(never)]
+pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { integrate(view, |view, options| evaluate(view, options, true)) }
+}
+
+/// Evaluates the law and writes what is requested. Returns the status of the point.
+///
+/// # Errors
+/// The first property that is wrong.
+///
+/// # Safety
+/// As for [`linear_elastic`]; no pointer that is needed is null.
+#[inline(never)]
+unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
+    // SAFETY: the caller's promise; the state may be replaced in place.
+    let (properties, old, f0) = unsafe {
+        (
+            slice::from_raw_parts(view.s1.material_properties, LINEAR_ELASTIC_PROPERTIES),
+            *view.s0.internal_state_variables.cast::<[f64; LINEAR_ELASTIC_STATE]>(),
+            columns(view.s0.gradients, plane),
+        )
+    };
+    // SAFETY: as above. A step that is not integrated ends where it starts.
+    let f1 = if options.integrates { unsafe { columns(view.s1.gradients, plane) } } else { f0 };
+    let law = LinearElastic::new(properties)?;
+    if plane {
+        check_plane(&law, properties)?;
+    }
+    let step = Step { law: &law, f0: &f0, f1: &f1, old: &old, options };
+    let Outcome { stress: cauchy, state, speed, tangent, code } = step.evaluate()?;
+    if code != status::OK {
+        return Ok(code);
+    }
+    let stress = Stress::new(options.measure, &cauchy, &f1, || second_of_cauchy(&cauchy, &f1));
+    let rows = step.operator(&tangent, &cauchy);
+    if !stress.is_finite() || !rows.is_finite() {
+        return Ok(status::OVERFLOW);
+    }
+    let results = Results { view, options, plane };
+    // SAFETY: the caller's promise.
+    unsafe {
+        match &rows {
+            Rows::None => (),
+            Rows::Six(rows) => results.store_operator(rows),
+            Rows::SixByNine(rows) => results.store_operator(rows),
+            Rows::Nine(rows) => results.store_operator(rows),
+        }
+        if options.density.is_some() {
+            *view.speed_of_sound = speed;
+        }
+        if options.integrates {
+            results.store_step(&stress, &state, state[LINEAR_WORK]);
+        }
+    }
+    Ok(status::OK)
+}
+
+/// Checks that the material axes lie in the plane or normal to it.
+///
+/// # Errors
+/// The direction among the properties that does not.
+fn check_plane(law: &LinearElastic, properties: &[f64]) -> Result<(), Error> {
+    let &[.., m_1, m_2, m_3, n_1, n_2, n_3] = properties else { return Ok(()) }; // their number has been checked
+    let axes: [[f64; 3]; 3] = law.reference_axes().into();
+    if out_of_plane([m_1, m_2, m_3]) {
+        return Err(super::oblique(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3]));
+    }
+    // Another axis may be oblique only because of the second one.
+    if axes.into_iter().any(out_of_plane) {
+        return Err(super::oblique(LINEAR_SECOND_AXIS, "second axis", [n_1, n_2, n_3]));
+    }
+    Ok(())
+}
+
+/// A step of the law.
+struct Step<'a> {
+    law: &'a LinearElastic,
+    f0: &'a [[f64; 3]; 3],
+    f1: &'a [[f64; 3]; 3],
+    old: &'a [f64; LINEAR_ELASTIC_STATE],
+    options: Options,
+}
+
+/// Its results: stress 11 22 33 12 23 31, and a tangent of the measure that [`Step::measure`] says, row by row.
+struct Outcome {
+    stress: [f64; 6],
+    state: [f64; LINEAR_ELASTIC_STATE],
+    speed: f64,
+    tangent: [f64; 81],
+    code: i32,
+}
+
+/// A tangent as it is written.
+#[allow(clippy::large_enum_variant)] // it stays on the stack, and nothing may be allocated
+enum Rows {
+    None,
+    Six([[f64; 6]; 6]),
+    SixByNine([[f64; 9]; 6]),
+    Nine([[f64; 9]; 9]),
+}
+
+impl Rows {
+    fn is_finite(&self) -> bool {
+        let sum = match self {
+            Rows::None => 0.0,
+            Rows::Six(rows) => nan_unless_finite(rows.as_flattened()),
+            Rows::SixByNine(rows) => nan_unless_finite(rows.as_flattened()),
+            Rows::Nine(rows) => nan_unless_finite(rows.as_flattened()),
+        };
+        sum == 0.0
+    }
+}
+
+impl Step<'_> {
+    /// The measure from which the operator is computed.
+    fn measure(&self) -> Measure {
+        match self.options.operator {
+            Some(Operator::Material) => Measure::Material,
+            Some(Operator::Nominal) => Measure::Nominal,
+            _ => Measure::Jaumann,
+        }
+    }
+
+    /// Evaluates the law.
+    ///
+    /// # Errors
+    /// None: the density has been checked.
+    fn evaluate(&self) -> Result<Outcome, Error> {
+        let Step { law, f0, f1, old, options } = self;
+        let (mut stress, mut state, mut speed, mut tangent) = ([0.0; 6], **old, 0.0, [0.0; 81]);
+        let mut pointers = LinearPointers {
+            f_old: components(f0.as_flattened().as_ptr(), 1),
+            f_new: components(f1.as_flattened().as_ptr(), 1),
+            state_old: old.as_ptr(),
+            state_new: state.as_mut_ptr(),
+            stress: components_mut(stress.as_mut_ptr(), 1),
+            measure: self.measure(),
+            ..LinearPointers::without_arrays(1, 1)
+        };
+        if let Some(density) = options.density {
+            (pointers.density, pointers.wave_speed) = (density, &mut speed);
+        }
+        if options.operator.is_some() {
+            pointers.tangent = tangent.as_mut_ptr();
+        }
+        // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
+        let code = unsafe { law.raw_block(&pointers) }?;
+        Ok(Outcome { stress, state, speed, tangent, code })
+    }
+
+    /// The operator, if there is one.
+    fn operator(&self, tangent: &[f64; 81], cauchy: &[f64; 6]) -> Rows {
+        let Some(operator) = self.options.operator else { return Rows::None };
+        let entry = |place: usize| tangent.get(place).copied().unwrap_or_default();
+        let rows: [[f64; 6]; 6] = core::array::from_fn(|row| core::array::from_fn(|column| entry(6 * row + column)));
+        let columns: [[f64; 6]; 6] = core::array::from_fn(|column| core::array::from_fn(|row| entry(6 * row + column)));
+        let latched = !Failure::intact(self.old[LINEAR_FAILED]);
+        match operator {
+            Operator::Material => Rows::Six(material(rows)),
+            Operator::Nominal => Rows::Nine(nominal(|row, column| entry(9 * row + column))),
+            // A point that has failed before may have any F.
+            _ if latched => Rows::SixByNine([[0.0; 9]; 6]),
+            Operator::CauchyByGradient => Rows::SixByNine(cauchy_by_gradient(&columns, cauchy, self.f1)),
+            Operator::KirchhoffByIncrement => {
+                Rows::SixByNine(kirchhoff_by_increment(&columns, cauchy, self.f0, self.f1))
+            }
+        }
+    }
+}
