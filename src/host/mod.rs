@@ -6,5 +6,6 @@ pub mod c;
 pub mod calculix;
 pub mod environment;
 pub mod lsdyna;
+pub mod openradioss;
 mod structures;
 pub mod units;
