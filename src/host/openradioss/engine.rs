@@ -13,6 +13,7 @@ use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
 use crate::host::border::check_pointers;
+use crate::host::environment::in_default_environment;
 
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
 const CHUNK: usize = 128;
@@ -96,12 +97,15 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
 /// # Safety
 /// As for [`evaluate`].
 pub unsafe fn needs_nodes<T: Precision>(group: &Group<T>) -> bool {
-    if group.time.into() != 0.0 || group.uparam.is_null() || !(1..=MOST_PARAMETERS as i32).contains(&group.parameters) {
-        return false;
-    }
-    // SAFETY: the caller's promise; the count has just been checked.
-    let parameters = unsafe { slice::from_raw_parts(group.uparam, group.parameters as usize) };
-    Card::of(parameters).is_ok_and(|card| card.fibre_from == FibreFrom::Nodes)
+    in_default_environment(|| {
+        if group.time.into() != 0.0 || group.uparam.is_null() {
+            return false;
+        }
+        let Ok(count) = usize::try_from(group.parameters) else { return false };
+        // SAFETY: the caller's promise.
+        let parameters = unsafe { slice::from_raw_parts(group.uparam, count.min(MOST_PARAMETERS)) };
+        Card::of(parameters).is_ok_and(|card| card.fibre_from == FibreFrom::Nodes)
+    })
 }
 
 /// What the run stops with if the engine passes no F, see [`super::card::NEEDS`].
