@@ -14,4 +14,5 @@ mod installed;
 mod instruction_counts;
 mod instrumented;
 mod machine_code;
+mod openradioss;
 mod structures;

@@ -41,12 +41,15 @@ pub enum Entry {
     LsDyna,
     /// `toron_lsdyna_umat_vector_f64`, the element amid others.
     LsDynaVector,
+    /// `toron_openradioss_luser_f64`, the element amid others.
+    #[value(name = "openradioss")]
+    OpenRadioss,
 }
 
 impl Entry {
     /// Whether the entry can answer with DDSDDE.
     fn has_tangent(self) -> bool {
-        !matches!(self, Entry::Vumat | Entry::VumatSp)
+        !matches!(self, Entry::Vumat | Entry::VumatSp | Entry::OpenRadioss)
     }
 
     /// The name on the command line.
@@ -217,6 +220,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         }
         Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
         Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
+        Entry::OpenRadioss => evaluation::openradioss(&properties, &columns, line),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;

@@ -9,6 +9,7 @@ use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::status;
 
+use super::card::MOST_PARAMETERS;
 use super::engine::{Group, evaluate};
 use super::starter::{listing, read};
 
@@ -44,14 +45,13 @@ unsafe fn starter<T: Precision>(
 ) -> Result<i32, Error> {
     check_pointers(&[(values, "values"), (uparam, "UPARAM"), (parmat, "PARMAT")])?;
     check_pointers(&[(nuparam.cast_const(), "NUPARAM"), (nuvar, "NUVAR")])?;
-    let room = usize::try_from(maxuparam).unwrap_or(0);
-    // SAFETY: the caller's promise, here and below. Only what `read` writes is looked at.
-    let material = unsafe {
-        uparam.write_bytes(0, room.min(super::card::MOST_PARAMETERS));
-        let uparam = slice::from_raw_parts_mut(uparam, room.min(super::card::MOST_PARAMETERS));
-        read(number, slice::from_raw_parts(values, count), uparam)
-    }?;
+    let mut own = [T::splat(0.0); MOST_PARAMETERS];
+    let room = usize::try_from(maxuparam).unwrap_or(0).min(MOST_PARAMETERS);
+    // SAFETY: the caller's promise, here and below.
+    let values = unsafe { slice::from_raw_parts(values, count) };
+    let material = read(number, values, own.get_mut(..room).unwrap_or_default())?;
     unsafe {
+        uparam.copy_from_nonoverlapping(own.as_ptr(), material.parameters);
         *nuparam = material.parameters as i32;
         *nuvar = material.variables as i32;
         *parmat = material.modulus;
@@ -67,11 +67,11 @@ unsafe fn line_of_listing<T: Precision>(
     line: i32,
     text: Message,
 ) -> Result<i32, Error> {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's promise, here and below. Where there is no line, the text is empty.
+    unsafe { text.write(|_| ()) };
     let uparam = unsafe { array(uparam, nuparam, "UPARAM") }?;
     let line = usize::try_from(line).unwrap_or(usize::MAX);
     let mut found = Ok(false);
-    // SAFETY: the caller's promise.
     unsafe { text.write(|sink| found = listing(uparam, line, sink)) };
     if found? { Ok(status::OK) } else { Err(Error::Plain(status::UNKNOWN_NAME)) }
 }
