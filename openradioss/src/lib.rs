@@ -10,6 +10,9 @@
 //! Routines of the solver are looked up when they are needed: not all of them are in the starter, so that a library which demanded
 //! them could not be loaded there.
 
+// The solver's routines are looked up as Unix has it.
+#![cfg(unix)]
+
 mod engine;
 mod solver;
 mod starter;

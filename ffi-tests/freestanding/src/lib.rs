@@ -18,6 +18,8 @@ pub mod hyperelastic;
 pub mod linear_elastic;
 #[path = "../../../c/src/lsdyna.rs"]
 pub mod lsdyna;
+#[path = "../../../c/src/openradioss.rs"]
+pub mod openradioss;
 #[path = "../../../c/src/tables.rs"]
 pub mod tables;
 

@@ -18,9 +18,6 @@ use crate::host::environment::in_default_environment;
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
 const CHUNK: usize = 128;
 
-/// Where the columns of F, F11 F21 F31 F12 …, are among the solver's XX YY ZZ XY YZ ZX YX ZY XZ.
-const COLUMNS: [usize; 9] = [0, 6, 5, 3, 1, 7, 8, 4, 2];
-
 /// A group of elements as the engine passes it to a material, one integration point of each.
 #[derive(Clone, Copy, Debug)]
 pub struct Group<T> {
@@ -238,7 +235,8 @@ impl<T: Precision> Group<T> {
 
     /// The columns of F, from element `first` on.
     fn columns(&self, first: usize) -> [*const T; 9] {
-        COLUMNS.map(|c| self.deformation_gradient[c].wrapping_add(first))
+        let [xx, yy, zz, xy, yz, zx, yx, zy, xz] = self.deformation_gradient;
+        [xx, yx, zx, xy, yy, zy, xz, yz, zz].map(|component| component.wrapping_add(first))
     }
 
     unsafe fn evaluate_hyperelastic(&self, card: &Card<'_, T>) -> Result<(), Error> {

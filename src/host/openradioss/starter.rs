@@ -44,10 +44,7 @@ pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result
             wanted: "nothing",
         });
     }
-    if uparam.len() < wanted {
-        return count("MAXUPARAM", uparam.len(), wanted);
-    }
-    let (own, _) = uparam.split_at_mut(wanted);
+    let Some(own) = uparam.get_mut(..wanted) else { return count("MAXUPARAM", uparam.len(), wanted) };
     own.fill(T::splat(0.0));
     if let Some((first, rest)) = own.split_first_mut() {
         *first = T::splat(f64::from(layout.number));
