@@ -131,11 +131,23 @@ impl<T: Precision> Group<T> {
                 return Err(Error::Range { code: status::BAD_COUNT, name, value, least: 0, greatest });
             }
         }
-        let (uvar, off, sound) = (self.uvar.cast_const(), self.off.cast_const(), self.sound_speed.cast_const());
-        check_pointers(&[(self.uparam, "UPARAM"), (self.density, "RHO0"), (uvar, "UVAR"), (off, "OFF")])?;
-        check_pointers(&[(sound, "SOUNDSP")])?;
-        check_pointers(&self.deformation_gradient.map(|f| (f, "FPSXX, FPSYY, ... of the deformation gradient")))?;
-        check_pointers(&self.stress.map(|s| (s.cast_const(), "SIGNXX, SIGNYY, ... of the stress")))
+        // Each pointer is looked at only if one of them is null.
+        let null = |missing: bool, array: *const T| missing | array.is_null();
+        let [uvar, off, sound] = [self.uvar, self.off, self.sound_speed].map(<*mut T>::cast_const);
+        let own = [self.uparam, self.density, uvar, off, sound];
+        let stress = self.stress.map(<*mut T>::cast_const);
+        if own.into_iter().chain(self.deformation_gradient).chain(stress).fold(false, null) {
+            check_pointers(&[
+                (self.uparam, "UPARAM"),
+                (self.density, "RHO0"),
+                (uvar, "UVAR"),
+                (off, "OFF"),
+                (sound, "SOUNDSP"),
+            ])?;
+            check_pointers(&self.deformation_gradient.map(|f| (f, "FPSXX, FPSYY, ... of the deformation gradient")))?;
+            check_pointers(&stress.map(|s| (s, "SIGNXX, SIGNYY, ... of the stress")))?;
+        }
+        Ok(())
     }
 
     /// The error of element `i`: its number, or its place in the group from 1 where that is not known.
