@@ -193,19 +193,6 @@ static void lsdyna_utan_vector(void)
     }
 }
 
-#ifndef SINGLE
-static void lsdyna_bulk_and_shear(void)
-{
-    for (size_t y = 0; y < COUNT(yarns); y++) {
-        real *yarn = given(yarns[y], PROPERTIES), *moduli = reals(2);
-        ARGUMENTS("yarn %zu", y);
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, moduli + 1, MESSAGE));
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, 3, moduli, moduli + 1, MESSAGE));
-        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, NULL, MESSAGE));
-        release();
-    }
-}
-
 /* ---- OpenRadioss */
 
 enum { RADIOSS_PARAMETERS = 14, RADIOSS_VARIABLES = 23 };
@@ -296,6 +283,19 @@ static void openradioss_luser(void)
                 f[c] = zero;
             LUSER_WITH(variables, 1, density, zero, s + 5 * n, NULL);
         }
+}
+
+#ifndef SINGLE
+static void lsdyna_bulk_and_shear(void)
+{
+    for (size_t y = 0; y < COUNT(yarns); y++) {
+        real *yarn = given(yarns[y], PROPERTIES), *moduli = reals(2);
+        ARGUMENTS("yarn %zu", y);
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, moduli + 1, MESSAGE));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, 3, moduli, moduli + 1, MESSAGE));
+        CALL(toron_lsdyna_bulk_and_shear_f64(yarn, PROPERTIES, moduli, NULL, MESSAGE));
+        release();
+    }
 }
 
 /* ---- CalculiX, which finds its entry by name. An error in the deck ends the process. */

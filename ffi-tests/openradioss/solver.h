@@ -156,10 +156,10 @@ static inline group new_group(const material *m, int number, int nel, size_t len
     }
     for (int c = 0; c < 6; c++) {
         g.sign[c] = at_page_end(length, -7.5);
-        g.sigv[c] = at_page_end(length, -7.5);
+        g.sigv[c] = at_page_end(length, 0); /* as the solver does */
     }
     g.ssp = at_page_end(nel, 0);
-    g.vis = at_page_end(nel, -7.5);
+    g.vis = at_page_end(nel, 0);
     g.off = at_page_end(nel, 1);
     g.uvar = at_page_end((size_t)nel * (size_t)m->nuvar, 0);
     g.unread = at_page_end(MVSIZ, NAN);

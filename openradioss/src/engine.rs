@@ -165,7 +165,7 @@ pub unsafe extern "C" fn eng_sigeps99_(
     _eint: *const Real,
     ngl: *const i32,
     soundsp: *mut Real,
-    viscmax: *mut Real,
+    _viscmax: *mut Real,
     uvar: *mut Real,
     off: *mut Real,
 ) {
@@ -181,7 +181,6 @@ pub unsafe extern "C" fn eng_sigeps99_(
             uparam,
             numbers: ngl,
             sound_speed: soundsp,
-            viscosity: viscmax,
             uvar,
             off,
             ..call.group
@@ -189,12 +188,12 @@ pub unsafe extern "C" fn eng_sigeps99_(
     });
 }
 
-/// The fourth call: the arrays for the stress, and for the viscous one. Evaluates the law.
+/// The fourth call: the arrays for the stress. Evaluates the law. The viscous stress comes behind it; the solver has set that and
+/// VISCMAX to 0, as they are to be.
 ///
 /// # Safety
 /// The solver's promise: the arrays have the solver's vector length, and those of the calls before are still valid.
 #[unsafe(no_mangle)]
-#[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn eng_set_law_user_var_(
     signxx: *mut Real,
     signyy: *mut Real,
@@ -202,12 +201,6 @@ pub unsafe extern "C" fn eng_set_law_user_var_(
     signxy: *mut Real,
     signyz: *mut Real,
     signzx: *mut Real,
-    sigvxx: *mut Real,
-    sigvyy: *mut Real,
-    sigvzz: *mut Real,
-    sigvxy: *mut Real,
-    sigvyz: *mut Real,
-    sigvzx: *mut Real,
 ) {
     let Remembered { group, material, number } = REMEMBERED.replace(NOTHING);
     let elements = usize::try_from(group.elements).unwrap_or(0);
@@ -215,7 +208,6 @@ pub unsafe extern "C" fn eng_set_law_user_var_(
     let coordinates = if unsafe { needs_nodes(&group) } { nodes(elements) } else { Vec::new() };
     let group = Group {
         stress: [signxx, signyy, signzz, signxy, signyz, signzx],
-        viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
         nodes: if coordinates.is_empty() { null() } else { coordinates.as_ptr() },
         ..group
     };

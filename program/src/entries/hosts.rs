@@ -273,7 +273,6 @@ pub struct OpenradiossGroup<T> {
     pub uvar: Vec<T>,
     pub off: Vec<T>,
     sound_speed: Vec<T>,
-    viscous: Vec<T>,
     uparam: Vec<T>,
     density: T,
 }
@@ -300,7 +299,6 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             uvar: array(layout.variables, n),
             off: vec![T::from_f64(1.0); n],
             sound_speed: array(1, n),
-            viscous: array(6, Self::LENGTH),
             uparam,
             density: T::from_f64(1.0),
         })
@@ -310,10 +308,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
     pub fn call(&mut self) -> i32 {
         let f = |row: usize, column: usize| self.gradient[(3 * column + row) * Self::LENGTH..].as_ptr();
         let deformation_gradient = [f(0, 0), f(1, 1), f(2, 2), f(0, 1), f(1, 2), f(2, 0), f(1, 0), f(2, 1), f(0, 2)];
-        let mut components = |array: fn(&mut Self) -> &mut Vec<T>| {
-            [0, 1, 2, 3, 4, 5].map(|c| array(self)[c * Self::LENGTH..].as_mut_ptr())
-        };
-        let (stress, viscous) = (components(|group| &mut group.stress), components(|group| &mut group.viscous));
+        let stress = [0, 1, 2, 3, 4, 5].map(|c| self.stress[c * Self::LENGTH..].as_mut_ptr());
         let group = openradioss::Group {
             elements: self.n as i32,
             parameters: self.uparam.len() as i32,
@@ -324,7 +319,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             density: &self.density,
             deformation_gradient,
             stress,
-            viscous,
+            viscous: [null_mut(); 6],
             sound_speed: self.sound_speed.as_mut_ptr(),
             viscosity: null_mut(),
             uvar: self.uvar.as_mut_ptr(),
