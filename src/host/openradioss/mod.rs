@@ -7,7 +7,7 @@
 //! | card | after the line of the density, fields of 20 columns, five a line: the law's properties, then the options of [`card`] |
 //! | UPARAM | number of the law, properties, options |
 //! | deformation | FPSXX YY ZZ XY YZ ZX **YX ZY XZ**, an array for each; 0 unless Ismstr = 10 |
-//! | stress | SIGNXX YY ZZ XY YZ ZX: Cauchy, global; SIGVXX … are set to 0 |
+//! | stress | SIGNXX YY ZZ XY YZ ZX: Cauchy, global; SIGVXX … are set to 0 where the solver has not done so |
 //! | arrays | F and stress have the solver's vector length; UVAR is (NEL, NUVAR), SOUNDSP and OFF are (NEL) |
 //! | UVAR | the law's state, fibre direction, `deleted`; for the linear elastic law the old F too, see [`card::Layout`] |
 //! | failure | OFF = 0, `deleted` = 1; a point that cannot be evaluated: OFF = 0, `deleted` = its status code |
