@@ -455,6 +455,18 @@ module toron
     procedure toron_lsdyna_bulk_and_shear_f64
   end interface
 
+  interface toron_openradioss_lecm
+    procedure toron_openradioss_lecm_f64, toron_openradioss_lecm_f32
+  end interface
+
+  interface toron_openradioss_listing
+    procedure toron_openradioss_listing_f64, toron_openradioss_listing_f32
+  end interface
+
+  interface toron_openradioss_luser
+    procedure toron_openradioss_luser_f64, toron_openradioss_luser_f32
+  end interface
+
 contains
 
   function toron_abi_version() result(status)
@@ -1456,6 +1468,186 @@ contains
       end function
     end interface
     status = c_lsdyna_bulk_and_shear_f64(values, size(values, kind=c_size_t), bulk, shear, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_openradioss_lecm_f64(number, values, uparam, maxuparam, nuparam, nuvar, parmat, &
+    message) result(status)
+    integer(c_int32_t), intent(in) :: number
+    real(c_double), intent(in), contiguous :: values(:)
+    real(c_double), intent(inout) :: uparam(*)
+    integer(c_int32_t), intent(in) :: maxuparam
+    integer(c_int32_t), intent(inout) :: nuparam, nuvar
+    real(c_double), intent(inout) :: parmat(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_lecm_f64(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, &
+        capacity) bind(c, name='toron_openradioss_lecm_f64') result(status)
+        import
+        integer(c_int32_t), value :: number
+        real(c_double), intent(in) :: values(*)
+        integer(c_size_t), value :: count
+        real(c_double), intent(inout) :: uparam(*)
+        integer(c_int32_t), value :: maxuparam
+        integer(c_int32_t), intent(inout) :: nuparam, nuvar
+        real(c_double), intent(inout) :: parmat(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_lecm_f64(number, values, size(values, kind=c_size_t), uparam, maxuparam, nuparam, nuvar, &
+      parmat, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_openradioss_listing_f64(uparam, nuparam, line, text) result(status)
+    real(c_double), intent(in) :: uparam(*)
+    integer(c_int32_t), intent(in) :: nuparam, line
+    character(*), intent(out) :: text
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_listing_f64(uparam, nuparam, line, text, &
+        capacity) bind(c, name='toron_openradioss_listing_f64') result(status)
+        import
+        real(c_double), intent(in) :: uparam(*)
+        integer(c_int32_t), value :: nuparam, line
+        character(kind=c_char), intent(inout) :: text(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_listing_f64(uparam, nuparam, line, text, room(text))
+    call end_message(-1_c_int32_t, text)
+  end function
+
+  function toron_openradioss_luser_f64(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+    fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+    sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message) result(status)
+    integer(c_int32_t), intent(in) :: nel, nuparam, nuvar
+    real(c_double), intent(in) :: time, uparam(*)
+    integer(c_int32_t), intent(in), optional :: ngl(*)
+    real(c_double), intent(in) :: rho0(*), fpsxx(*), fpsyy(*), fpszz(*), fpsxy(*), fpsyz(*), fpszx(*), fpsyx(*), &
+      fpszy(*), fpsxz(*)
+    real(c_double), intent(inout) :: signxx(*), signyy(*), signzz(*), signxy(*), signyz(*), signzx(*), sigvxx(*), &
+      sigvyy(*), sigvzz(*), sigvxy(*), sigvyz(*), sigvzx(*), soundsp(*), viscmax(*), uvar(*), off(*)
+    real(c_double), intent(in), optional :: nodes(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_luser_f64(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+        fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+        sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message, &
+        capacity) bind(c, name='toron_openradioss_luser_f64') result(status)
+        import
+        integer(c_int32_t), value :: nel, nuparam, nuvar
+        real(c_double), value :: time
+        real(c_double), intent(in) :: uparam(*)
+        integer(c_int32_t), intent(in), optional :: ngl(*)
+        real(c_double), intent(in) :: rho0(*), fpsxx(*), fpsyy(*), fpszz(*), fpsxy(*), fpsyz(*), fpszx(*), &
+          fpsyx(*), fpszy(*), fpsxz(*)
+        real(c_double), intent(inout) :: signxx(*), signyy(*), signzz(*), signxy(*), signyz(*), signzx(*), &
+          sigvxx(*), sigvyy(*), sigvzz(*), sigvxy(*), sigvyz(*), sigvzx(*), soundsp(*), viscmax(*), uvar(*), off(*)
+        real(c_double), intent(in), optional :: nodes(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_luser_f64(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+      fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+      sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_openradioss_lecm_f32(number, values, uparam, maxuparam, nuparam, nuvar, parmat, &
+    message) result(status)
+    integer(c_int32_t), intent(in) :: number
+    real(c_float), intent(in), contiguous :: values(:)
+    real(c_float), intent(inout) :: uparam(*)
+    integer(c_int32_t), intent(in) :: maxuparam
+    integer(c_int32_t), intent(inout) :: nuparam, nuvar
+    real(c_float), intent(inout) :: parmat(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_lecm_f32(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, &
+        capacity) bind(c, name='toron_openradioss_lecm_f32') result(status)
+        import
+        integer(c_int32_t), value :: number
+        real(c_float), intent(in) :: values(*)
+        integer(c_size_t), value :: count
+        real(c_float), intent(inout) :: uparam(*)
+        integer(c_int32_t), value :: maxuparam
+        integer(c_int32_t), intent(inout) :: nuparam, nuvar
+        real(c_float), intent(inout) :: parmat(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_lecm_f32(number, values, size(values, kind=c_size_t), uparam, maxuparam, nuparam, nuvar, &
+      parmat, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_openradioss_listing_f32(uparam, nuparam, line, text) result(status)
+    real(c_float), intent(in) :: uparam(*)
+    integer(c_int32_t), intent(in) :: nuparam, line
+    character(*), intent(out) :: text
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_listing_f32(uparam, nuparam, line, text, &
+        capacity) bind(c, name='toron_openradioss_listing_f32') result(status)
+        import
+        real(c_float), intent(in) :: uparam(*)
+        integer(c_int32_t), value :: nuparam, line
+        character(kind=c_char), intent(inout) :: text(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_listing_f32(uparam, nuparam, line, text, room(text))
+    call end_message(-1_c_int32_t, text)
+  end function
+
+  function toron_openradioss_luser_f32(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+    fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+    sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message) result(status)
+    integer(c_int32_t), intent(in) :: nel, nuparam, nuvar
+    real(c_float), intent(in) :: time, uparam(*)
+    integer(c_int32_t), intent(in), optional :: ngl(*)
+    real(c_float), intent(in) :: rho0(*), fpsxx(*), fpsyy(*), fpszz(*), fpsxy(*), fpsyz(*), fpszx(*), fpsyx(*), &
+      fpszy(*), fpsxz(*)
+    real(c_float), intent(inout) :: signxx(*), signyy(*), signzz(*), signxy(*), signyz(*), signzx(*), sigvxx(*), &
+      sigvyy(*), sigvzz(*), sigvxy(*), sigvyz(*), sigvzx(*), soundsp(*), viscmax(*), uvar(*), off(*)
+    real(c_float), intent(in), optional :: nodes(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_openradioss_luser_f32(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+        fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+        sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message, &
+        capacity) bind(c, name='toron_openradioss_luser_f32') result(status)
+        import
+        integer(c_int32_t), value :: nel, nuparam, nuvar
+        real(c_float), value :: time
+        real(c_float), intent(in) :: uparam(*)
+        integer(c_int32_t), intent(in), optional :: ngl(*)
+        real(c_float), intent(in) :: rho0(*), fpsxx(*), fpsyy(*), fpszz(*), fpsxy(*), fpsyz(*), fpszx(*), fpsyx(*), &
+          fpszy(*), fpsxz(*)
+        real(c_float), intent(inout) :: signxx(*), signyy(*), signzz(*), signxy(*), signyz(*), signzx(*), &
+          sigvxx(*), sigvyy(*), sigvzz(*), sigvxy(*), sigvyz(*), sigvzx(*), soundsp(*), viscmax(*), uvar(*), off(*)
+        real(c_float), intent(in), optional :: nodes(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_openradioss_luser_f32(nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, &
+      fpsyz, fpszx, fpsyx, fpszy, fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, &
+      sigvxy, sigvyz, sigvzx, soundsp, viscmax, uvar, off, nodes, message, room(message))
     call end_message(status, message)
   end function
 

@@ -2,9 +2,10 @@
 //! ENSAM, 2019), and the linear elastic law that it is compared with.
 //!
 //! [`law`] is the laws themselves: from a deformation gradient to a stress. [`host`] is what solvers call: the C interface, Abaqus,
-//! LS-DYNA, CalculiX, MGIS. Neither needs a standard library, allocates or panics. What is made of them are packages of their own:
-//! `toron-c` exports the C interface as libtoron, `toron-calculix` is the library that CalculiX loads, `toron-mgis` that of MGIS
-//! and MTest, `toron-program` the program `toron`: load paths on one element, a yarn under impact, tables, plots and decks.
+//! LS-DYNA, CalculiX, OpenRadioss, MGIS. Neither needs a standard library, allocates or panics. What is made of them are packages
+//! of their own: `toron-c` exports the C interface as libtoron, `toron-calculix` and `toron-openradioss` are libraries that these
+//! solvers load, `toron-mgis` that of MGIS and MTest, `toron-program` the program `toron`: load paths on one element, a yarn under
+//! impact, tables, plots and decks.
 //!
 //! One point of a Kevlar KM2 yarn, in N, mm and MPa, pulled by 2 % and pressed to 80 % across:
 //!

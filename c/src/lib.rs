@@ -11,4 +11,5 @@ pub mod about;
 pub mod hyperelastic;
 pub mod linear_elastic;
 pub mod lsdyna;
+pub mod openradioss;
 pub mod tables;

@@ -1720,6 +1720,150 @@ int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
                                         char *message,
                                         size_t capacity);
 
+/*
+ The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
+
+ `number`: nn, 1 for the hyperelastic law and 2 for the linear elastic one; `values`: `count` numbers of the card behind the
+ density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
+ value, the modulus of the fastest wave at rest. None may be null.
+
+ Returns 0, or a code with which the starter is to be stopped: `TORON_NULL_ARGUMENT`, `TORON_BAD_ARGUMENT` (number, option) or a
+ −2xx code.
+ */
+int32_t toron_openradioss_lecm_f64(int32_t number,
+                                   const double *values,
+                                   size_t count,
+                                   double *uparam,
+                                   int32_t maxuparam,
+                                   int32_t *nuparam,
+                                   int32_t *nuvar,
+                                   double *parmat,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the card, and
+ the names of the user variables.
+
+ `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at most `capacity`
+ bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or another code if `uparam` is not
+ such an array.
+ */
+int32_t toron_openradioss_listing_f64(const double *uparam,
+                                      int32_t nuparam,
+                                      int32_t line,
+                                      char *text,
+                                      size_t capacity);
+
+/*
+ The engine's routine of a user material of OpenRadioss, `LUSERnn`, for solids, in double precision.
+
+ `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for messages, or null;
+ `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient; `signxx` … `signzx`: `nel` each,
+ out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null; `soundsp`: `nel`, out, a bound of the wave speed;
+ `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
+ (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
+
+ A point with `off` below 1 has no stress and keeps its state. The variable `deleted` says why it is out: 1 failed, 2 by the
+ solver, or the −3xx code of the reason why it could not be evaluated.
+
+ Returns 0, or a code with which the run is to be stopped: `TORON_NO_DEFORMATION_GRADIENT` (Ismstr is not 10),
+ `TORON_FIBRE_DIRECTION`, another −1xx or a −2xx code.
+ */
+int32_t toron_openradioss_luser_f64(int32_t nel,
+                                    int32_t nuparam,
+                                    int32_t nuvar,
+                                    double time,
+                                    const double *uparam,
+                                    const int32_t *ngl,
+                                    const double *rho0,
+                                    const double *fpsxx,
+                                    const double *fpsyy,
+                                    const double *fpszz,
+                                    const double *fpsxy,
+                                    const double *fpsyz,
+                                    const double *fpszx,
+                                    const double *fpsyx,
+                                    const double *fpszy,
+                                    const double *fpsxz,
+                                    double *signxx,
+                                    double *signyy,
+                                    double *signzz,
+                                    double *signxy,
+                                    double *signyz,
+                                    double *signzx,
+                                    double *sigvxx,
+                                    double *sigvyy,
+                                    double *sigvzz,
+                                    double *sigvxy,
+                                    double *sigvyz,
+                                    double *sigvzx,
+                                    double *soundsp,
+                                    double *viscmax,
+                                    double *uvar,
+                                    double *off,
+                                    const double *nodes,
+                                    char *message,
+                                    size_t capacity);
+
+/*
+ As `toron_openradioss_lecm_f64`, in single precision.
+ */
+int32_t toron_openradioss_lecm_f32(int32_t number,
+                                   const float *values,
+                                   size_t count,
+                                   float *uparam,
+                                   int32_t maxuparam,
+                                   int32_t *nuparam,
+                                   int32_t *nuvar,
+                                   float *parmat,
+                                   char *message,
+                                   size_t capacity);
+
+/*
+ As `toron_openradioss_listing_f64`, in single precision.
+ */
+int32_t toron_openradioss_listing_f32(const float *uparam, int32_t nuparam, int32_t line, char *text, size_t capacity);
+
+/*
+ As `toron_openradioss_luser_f64`, in single precision.
+ */
+int32_t toron_openradioss_luser_f32(int32_t nel,
+                                    int32_t nuparam,
+                                    int32_t nuvar,
+                                    float time,
+                                    const float *uparam,
+                                    const int32_t *ngl,
+                                    const float *rho0,
+                                    const float *fpsxx,
+                                    const float *fpsyy,
+                                    const float *fpszz,
+                                    const float *fpsxy,
+                                    const float *fpsyz,
+                                    const float *fpszx,
+                                    const float *fpsyx,
+                                    const float *fpszy,
+                                    const float *fpsxz,
+                                    float *signxx,
+                                    float *signyy,
+                                    float *signzz,
+                                    float *signxy,
+                                    float *signyz,
+                                    float *signzx,
+                                    float *sigvxx,
+                                    float *sigvyy,
+                                    float *sigvzz,
+                                    float *sigvxy,
+                                    float *sigvyz,
+                                    float *sigvzx,
+                                    float *soundsp,
+                                    float *viscmax,
+                                    float *uvar,
+                                    float *off,
+                                    const float *nodes,
+                                    char *message,
+                                    size_t capacity);
+
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

@@ -51,6 +51,9 @@ static const struct {
     {IN_BOTH(toron_lsdyna_utan), lsdyna_utan},
     {IN_BOTH(toron_lsdyna_umat_vector), lsdyna_umat_vector},
     {IN_BOTH(toron_lsdyna_utan_vector), lsdyna_utan_vector},
+    {IN_BOTH(toron_openradioss_lecm), openradioss_lecm},
+    {IN_BOTH(toron_openradioss_listing), openradioss_listing},
+    {IN_BOTH(toron_openradioss_luser), openradioss_luser},
 #ifndef SINGLE
     {"ToronHyperelastic_Tridimensional", mgis_hyperelastic},
     {"ToronHyperelastic_PlaneStrain", mgis_hyperelastic_in_plane_strain},

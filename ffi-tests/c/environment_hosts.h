@@ -193,6 +193,98 @@ static void lsdyna_utan_vector(void)
     }
 }
 
+/* ---- OpenRadioss */
+
+enum { RADIOSS_PARAMETERS = 14, RADIOSS_VARIABLES = 23 };
+
+/* UPARAM of the hyperelastic law (1) or the linear elastic one (2), with one of its yarns. */
+static real *radioss_parameters(int law, size_t yarn, double fibre_from)
+{
+    const size_t count = law == 1 ? PROPERTIES : LINEAR;
+    const double number = law;
+    real *uparam = filled(0, RADIOSS_PARAMETERS);
+    put(uparam, number);
+    memcpy(uparam + 1, law == 1 ? given(yarns[yarn], count) : given(linear_yarns[yarn], count), count * sizeof(real));
+    put(uparam + 1 + count, fibre_from);
+    return uparam;
+}
+
+static void openradioss_lecm(void)
+{
+#define LECM ENTRY(toron_openradioss_lecm)
+    for (int law = 1; law < 4; law++)
+        for (size_t y = 0; y < (law == 1 ? COUNT(yarns) : COUNT(linear_yarns)); y++) {
+            real *card = radioss_parameters(law, y, 0) + 1, *uparam = reals(RADIOSS_PARAMETERS), *parmat = reals(1);
+            int32_t *counts = guarded(2 * sizeof *counts);
+            ARGUMENTS("law %d, yarn %zu", law, y);
+            CALL(LECM(law, card, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            CALL(LECM(law, card, 9, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            CALL(LECM(law, card, 12, uparam, 5, counts, counts + 1, parmat, MESSAGE));
+            CALL(LECM(law, NULL, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            put(&card[law == 1 ? 11 : 10], 0.5); /* the option */
+            CALL(LECM(law, card, 12, uparam, RADIOSS_PARAMETERS, counts, counts + 1, parmat, MESSAGE));
+            release();
+        }
+}
+
+static void openradioss_listing(void)
+{
+#define LISTING ENTRY(toron_openradioss_listing)
+    for (int law = 1; law < 3; law++) {
+        real *uparam = radioss_parameters(law, 0, 0), *wrong = radioss_parameters(law, 0, 0.25);
+        for (int32_t line = -1; line < 45; line++)
+            CALL(LISTING(uparam, law + 12, line, MESSAGE));
+        CALL(LISTING(uparam, 3, 0, MESSAGE));
+        CALL(LISTING(wrong, law + 12, 0, MESSAGE));
+        CALL(LISTING(NULL, 13, 0, MESSAGE));
+        release();
+    }
+}
+
+static void openradioss_luser(void)
+{
+#define LUSER ENTRY(toron_openradioss_luser)
+#define LUSER_WITH(nuvar, time, density, f0, stress, nodes)                                                                          \
+    CALL(LUSER(n, law + 12, nuvar, times[time], uparam, ngl, density, f0, f[4], f[8], f[3], f[7], f[2], f[1], f[5], f[6], s, s + n,   \
+               s + 2 * n, s + 3 * n, s + 4 * n, stress, v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, v + 5 * n, sound, v + 6 * n, uvar, \
+               off, nodes, MESSAGE))
+    static const real times[] = {0, 1, (real)SUBNORMAL, NAN};
+    block_case b;
+    for (int law = 1; law < 3; law++)
+        for (size_t next = 0; next_block(&next, law == 1 ? GOOD_YARNS : GOOD_LINEAR_YARNS,
+                                         law == 1 ? COUNT(yarns) : COUNT(linear_yarns), &b);) {
+            const int32_t n = (int32_t)b.size, variables = law == 1 ? 15 : 23;
+            const size_t rows = b.points == 0 ? (law == 1 ? COUNT(states) : COUNT(linear_states)) : 3;
+            real *f[9], *all = by_component(deformations[0], 9, points_of[b.points], next, b.size), *density = filled(2, 1);
+            real *s = reals(6 * b.size), *v = reals(7 * b.size), *sound = reals(b.size), *off = filled(1, b.size);
+            real *uvar = filled(0, (size_t)variables * b.size), *nodes = by_component(deformations[0], 24, 3, next, b.size);
+            int32_t *ngl = guarded(b.size * sizeof *ngl);
+            for (int c = 0; c < 9; c++)
+                f[c] = all + (size_t)c * b.size;
+            memcpy(uvar, law == 1 ? by_component(states[0], STATE, rows, next, b.size)
+                                  : by_component(linear_states[0], LINEAR_STATE, rows, next, b.size),
+                   (law == 1 ? STATE : LINEAR_STATE) * b.size * sizeof(real));
+            memset(ngl, 0, b.size * sizeof *ngl);
+            put(&off[b.size - 1], next % 3 == 0 ? 0.5 : 1);
+            for (int fibre_from = 0; fibre_from < 3; fibre_from++) {
+                real *uparam = radioss_parameters(law, b.yarn, fibre_from);
+                LUSER_WITH(variables, 0, density, f[0], s + 5 * n, nodes);
+                LUSER_WITH(variables, 1, density, f[0], s + 5 * n, NULL);
+                LUSER_WITH(variables, 2, density, f[0], s + 5 * n, NULL);
+                LUSER_WITH(variables, 3, density, f[0], s + 5 * n, nodes);
+                LUSER_WITH(variables, 0, density, f[0], s + 5 * n, NULL);
+            }
+            real *uparam = radioss_parameters(law, b.yarn, 0), *zero = filled(0, b.size), *no_density = filled(0, 1);
+            LUSER_WITH(variables - 1, 1, density, f[0], s + 5 * n, NULL);
+            LUSER_WITH(variables, 1, no_density, f[0], s + 5 * n, NULL);
+            LUSER_WITH(variables, 1, density, NULL, s + 5 * n, NULL);
+            LUSER_WITH(variables, 1, density, f[0], NULL, NULL);
+            for (int c = 1; c < 9; c++)
+                f[c] = zero;
+            LUSER_WITH(variables, 1, density, zero, s + 5 * n, NULL);
+        }
+}
+
 #ifndef SINGLE
 static void lsdyna_bulk_and_shear(void)
 {

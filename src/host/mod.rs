@@ -7,5 +7,6 @@ pub mod calculix;
 pub mod environment;
 pub mod lsdyna;
 pub mod mgis;
+pub mod openradioss;
 mod structures;
 pub mod units;

@@ -28,6 +28,10 @@ pub enum Error {
     Size { structure: &'static str, size: usize, known: usize },
     /// What is wrong at a point of a block, counted from 0.
     Point { code: i32, index: usize },
+    /// What is wrong at an element, by its number in the host's model.
+    Element { code: i32, number: i64 },
+    /// A setting of the host's model is wrong; the text says what is to be set.
+    Setting { code: i32, text: &'static str },
     /// A structure that is longer than this version of the library knows, and not 0 there.
     UnknownField { structure: &'static str, offset: usize, known: usize },
     /// An error that its status code describes completely.
@@ -41,6 +45,8 @@ impl Error {
             Error::Count { code, .. }
             | Error::Property { code, .. }
             | Error::Point { code, .. }
+            | Error::Element { code, .. }
+            | Error::Setting { code, .. }
             | Error::Range { code, .. }
             | Error::Plain(code) => code,
             Error::Size { .. } => BAD_SIZE,
@@ -145,6 +151,13 @@ impl Error {
                 sink(", counted from 0: ");
                 Error::Plain(code).describe(sink);
             }
+            Error::Element { code, number } => {
+                sink("element ");
+                describe_integer(number, sink);
+                sink(": ");
+                Error::Plain(code).describe(sink);
+            }
+            Error::Setting { text, .. } => sink(text),
             Error::UnknownField { structure, offset, known } => {
                 sink("byte ");
                 describe_integer(offset as i64, sink);
@@ -166,7 +179,7 @@ impl Error {
 }
 
 /// Passes the digits to `sink` one by one. The crate `itoa` is not used: its bounds checks would leave a panic in the program.
-fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
+pub(crate) fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
     const DIGITS: [&str; 10] = ["0", "1", "2", "3", "4", "5", "6", "7", "8", "9"];
     if value < 0 {
         sink("-");
@@ -182,7 +195,7 @@ fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
 }
 
 /// The shortest decimal number that is read back as `value`.
-fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
+pub(crate) fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
     if value.is_nan() {
         sink("NaN");
     } else if value == f64::INFINITY {

@@ -11,8 +11,8 @@ pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
-/// The library as a user installs it, from today's source, but for the names of functions inside; the libraries of CalculiX and MGIS are
-/// with it.
+/// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that solvers load
+/// by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     let (build, installed) = (Path::new(BUILD).join("library"), Path::new(BUILD).join("installed"));
     // Names that tell what a kernel is built for.
@@ -25,10 +25,12 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     run(install.arg(format!("--prefix={}", installed.display())), "cargo");
     let mut cargo = Command::new(env!("CARGO"));
     environment(&mut cargo);
-    cargo.args(["build", "--release", "--package=toron-calculix", "--package=toron-mgis", "--manifest-path"]);
-    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")), "cargo");
-    for host in ["libtoron_calculix.so", "libtoron_mgis.so"] {
-        std::fs::copy(build.join("release").join(host), installed.join("lib").join(host)).expect("a copy");
+    cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
+    let packages = ["toron-calculix", "toron-mgis", "toron-openradioss", "toron-openradioss-sp"];
+    run(cargo.args(packages.map(|package| format!("--package={package}"))), "cargo");
+    for package in packages {
+        let library = format!("lib{}.so", package.replace('-', "_"));
+        std::fs::copy(build.join("release").join(&library), installed.join("lib").join(&library)).expect("a copy");
     }
     installed
 });

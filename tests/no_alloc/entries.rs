@@ -7,7 +7,7 @@ use allocation_counter::measure;
 use toron::host::abaqus::Vumat;
 use toron::host::c::*;
 use toron::host::mgis::{BehaviourDataView, StateView};
-use toron::host::{abaqus, c, calculix, lsdyna, mgis};
+use toron::host::{abaqus, c, calculix, lsdyna, mgis, openradioss};
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
 const L: usize = TORON_LINEAR_ELASTIC_PROPERTIES;
@@ -59,6 +59,7 @@ fn entries() -> Vec<String> {
         include_str!("../../c/src/linear_elastic.rs"),
         include_str!("../../c/src/abaqus.rs"),
         include_str!("../../c/src/lsdyna.rs"),
+        include_str!("../../c/src/openradioss.rs"),
         include_str!("../../calculix/src/lib.rs"),
         include_str!("../../mgis/src/lib.rs"),
     ];
@@ -544,4 +545,111 @@ linear_elastic!(
     c::linear_elastic_increment_f32,
     c::linear_elastic_block_f32,
     c::linear_elastic_block_with_properties_f32
+);
+
+/// The starter and cycles of both laws, with fibre directions from the card, the nodes and initial values; points that fail and that
+/// cannot be evaluated; no deformation gradient.
+macro_rules! openradioss {
+    ($test:ident, $t:ty, $lecm:path, $listing:path, $luser:path) => {
+        #[test]
+        fn $test() {
+            const ROOM_OF_PARAMETERS: i32 = 14;
+            let mut text = [0 as c_char; ROOM];
+            let t = text.as_mut_ptr();
+            let cards: Vec<(i32, Vec<f64>)> = [(1, YARNS.map(Vec::from)), (2, LINEAR.map(Vec::from))]
+                .into_iter()
+                .flat_map(|(law, cards)| {
+                    cards.into_iter().flat_map(move |card| {
+                        (0..4).map(move |fibre_from| (law, [&card[..], &[f64::from(fibre_from)]].concat()))
+                    })
+                })
+                .collect();
+            let nodes: [$t; 24] = std::array::from_fn(|k| (k * k % 7) as $t);
+            for (law, card) in cards {
+                let card: Vec<$t> = card.into_iter().map(|x| x as $t).collect();
+                let (values, count) = (card.as_ptr(), card.len());
+                let (mut parameters, mut modulus) = ([0.0 as $t; ROOM_OF_PARAMETERS as usize], 0.0 as $t);
+                let (u, mut nuparam, mut nuvar) = (parameters.as_mut_ptr(), 0, 0);
+                let m = &mut modulus;
+                let (i, v) = (&mut nuparam, &mut nuvar);
+                quiet!($lecm, 3, values, count, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
+                quiet!($lecm, law, values, 4, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
+                quiet!($lecm, law, null(), count, u, ROOM_OF_PARAMETERS, i, v, null_mut(), null_mut(), 0);
+                let read = quiet!($lecm, law, values, count, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
+                for line in -1..45 {
+                    quiet!($listing, u, nuparam, line, t, ROOM);
+                }
+                if read != 0 {
+                    continue;
+                }
+                for f in deformations().into_iter().chain([[0.0; 9]]) {
+                    let f = f.map(|x| x as $t);
+                    let [xx, yx, zx, xy, yy, zy, xz, yz, zz] = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|c| &raw const f[c]);
+                    let (mut s, mut v, mut uvar) = ([0.0 as $t; 6], [0.0 as $t; 8], [0.0 as $t; 23]);
+                    let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| &raw mut s[c]);
+                    let [v1, v2, v3, v4, v5, v6, viscosity, speed] = [0, 1, 2, 3, 4, 5, 6, 7].map(|c| &raw mut v[c]);
+                    let (h, mut off, number, density) = (uvar.as_mut_ptr(), 1.0 as $t, 7, 1.0 as $t);
+                    for (time, x) in [(0.0, nodes.as_ptr()), (1e-6, null()), (2e-6, null()), (0.0, null())] {
+                        quiet!(
+                            $luser, 1, nuparam, nuvar, time, u, &number, &density, xx, yy, zz, xy, yz, zx, yx, zy, xz,
+                            s1, s2, s3, s4, s5, s6, v1, v2, v3, v4, v5, v6, speed, viscosity, h, &mut off, x, t, ROOM,
+                        );
+                    }
+                    quiet!(
+                        $luser,
+                        1,
+                        nuparam,
+                        3,
+                        0.0,
+                        u,
+                        null(),
+                        null(),
+                        xx,
+                        yy,
+                        zz,
+                        xy,
+                        yz,
+                        zx,
+                        yx,
+                        zy,
+                        xz,
+                        s1,
+                        s2,
+                        s3,
+                        s4,
+                        s5,
+                        s6,
+                        v1,
+                        v2,
+                        v3,
+                        v4,
+                        v5,
+                        v6,
+                        speed,
+                        null_mut(),
+                        h,
+                        &mut off,
+                        null(),
+                        null_mut(),
+                        0,
+                    );
+                }
+            }
+        }
+    };
+}
+
+openradioss!(
+    openradioss_in_double_precision,
+    f64,
+    openradioss::lecm_f64,
+    openradioss::listing_f64,
+    openradioss::luser_f64
+);
+openradioss!(
+    openradioss_in_single_precision,
+    f32,
+    openradioss::lecm_f32,
+    openradioss::listing_f32,
+    openradioss::luser_f32
 );

@@ -141,12 +141,29 @@ fn shims_of_lsdyna() {
     }
 }
 
-/// All seven.
+/// In the solver's own kinds of reals; integers have 4 bytes.
+#[test]
+fn shims_of_openradioss() {
+    let sources = [MODULES_OF_OPENRADIOSS.into(), shim("openradioss_lecmuser.f"), shim("openradioss_luser.f")];
+    for kinds in [&[][..], &["-DSINGLE"], &[TRAPS], &["-DSINGLE", TRAPS]] {
+        fortran_program("openradioss.F90", kinds, &sources);
+    }
+}
+
+/// The modules of its SDK, as far as the shims see them.
+const MODULES_OF_OPENRADIOSS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../ffi-tests/fortran/openradioss_sdk.F90");
+
+/// Those that use modules of a solver, which has to be compiled first, with its kinds of integers.
+fn needs_modules(shim: &Path) -> bool {
+    shim.file_name().is_some_and(|name| name.to_string_lossy().starts_with("openradioss"))
+}
+
+/// All nine.
 fn shims() -> Vec<PathBuf> {
     let folder = std::fs::read_dir(Path::new(ROOT).join("fortran-shim")).expect("fortran-shim");
     let files = folder.map(|entry| entry.expect("a file").path());
     let shims: Vec<_> = files.filter(|path| path.extension() == Some("f".as_ref())).collect();
-    assert_eq!(shims.len(), 7);
+    assert_eq!(shims.len(), 9);
     shims
 }
 
@@ -187,7 +204,7 @@ fn copies_of_refuse_are_the_same() {
         let solver = name.split_once('_').expect("solver_routine").0.to_string();
         copies.entry(solver).or_default().insert(copy);
     }
-    assert_eq!(copies.len(), 2, "{:?}", copies.keys());
+    assert_eq!(copies.len(), 3, "{:?}", copies.keys());
     for (solver, copies) in copies {
         assert_eq!(copies.len(), 1, "{solver}: {copies:#?}");
     }
@@ -199,7 +216,14 @@ fn shims_compile_at_both_line_lengths_with_all_kinds() {
         for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
             let mut gfortran = Command::new("gfortran");
             gfortran.args(["-std=f2008", "-fsyntax-only"]).arg(format!("-ffixed-line-length-{length}"));
-            run(gfortran.args(SHIM_WARNINGS).args(kinds).args(shims()), "gfortran");
+            let shims = shims().into_iter().filter(|shim| !needs_modules(shim));
+            run(gfortran.args(SHIM_WARNINGS).args(kinds).args(shims), "gfortran");
+        }
+        for kinds in ["-DDOUBLE", "-DSINGLE"] {
+            let mut gfortran = Command::new("gfortran");
+            gfortran.args(["-std=f2008", "-fsyntax-only", "-J"]).arg(folder("fortran-openradioss"));
+            gfortran.arg(format!("-ffixed-line-length-{length}")).arg(kinds).arg(MODULES_OF_OPENRADIOSS);
+            run(gfortran.args(SHIM_WARNINGS).args(shims().into_iter().filter(|shim| needs_modules(shim))), "gfortran");
         }
     }
 }
@@ -222,7 +246,7 @@ fn shims_compile_with_flang() {
     let folder = folder("fortran-flang");
     for length in LINE_LENGTHS {
         for kinds in [&[][..], &[INTEGERS_64], &[INTEGERS_64, REALS_64]] {
-            for shim in shims() {
+            for shim in shims().into_iter().filter(|shim| !needs_modules(shim)) {
                 let mut command = Command::new(&flang);
                 command.args(["-c", "-pedantic"]).arg(format!("-ffixed-line-length={length}")).args(kinds);
                 let output = run(command.arg(&shim).arg("-o").arg(folder.join("shim.o")), "flang-16");

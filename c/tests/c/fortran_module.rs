@@ -183,7 +183,7 @@ impl<'a> Variable<'a> {
 
     /// Whether a pointer may be null.
     fn optional(&self) -> &'static str {
-        let may_be_null = ["ddsdde", "density", "direction", "fibre", "message", "second_axis"];
+        let may_be_null = ["ddsdde", "density", "direction", "fibre", "message", "ngl", "nodes", "second_axis"];
         if may_be_null.contains(&self.name) { ", optional" } else { "" }
     }
 
@@ -198,6 +198,7 @@ impl<'a> Variable<'a> {
     fn shape(&self) -> &'static str {
         match self.name {
             "density" | "sse" | "pnewdt" | "failel" | "bulk" | "shear" | "least" => "",
+            "nuparam" | "nuvar" if self.pointer => "",
             "direction" | "fibre" | "second_axis" => "(3)",
             "axes" => "(9)",
             _ if self.kind.starts_with("toron_") => "",
@@ -329,7 +330,7 @@ fn generic_names(names: &[&str]) -> String {
 
 /// A function with the arguments that Fortran has, which calls the one in C.
 fn function(name: &str, arguments: &[Variable]) -> String {
-    let host = name.starts_with("toron_abaqus") || name.starts_with("toron_lsdyna");
+    let host = ["toron_abaqus", "toron_lsdyna", "toron_openradioss"].iter().any(|start| name.starts_with(start));
     let (mut dummies, mut actuals) = (Vec::new(), Vec::new());
     for (i, argument) in arguments.iter().enumerate() {
         let before = if i > 0 { arguments[i - 1].name } else { "" };
@@ -337,7 +338,7 @@ fn function(name: &str, arguments: &[Variable]) -> String {
             ("size_t", "capacity") => format!("room({before})"),
             ("size_t", "count") => format!("size({before}, kind=c_size_t)"),
             ("size_t", "size") => format!("c_sizeof({before})"),
-            ("char", name) if name != "message" => format!("trim({name}) // c_null_char"),
+            ("char", name) if !["message", "text"].contains(&name) => format!("trim({name}) // c_null_char"),
             (_, name) => name.into(),
         });
         if argument.kind != "size_t" {
@@ -348,6 +349,7 @@ fn function(name: &str, arguments: &[Variable]) -> String {
     let c = name.replacen("toron", "c", 1);
     let c_names: Vec<_> = arguments.iter().map(|argument| argument.name.to_string()).collect();
     let names: Vec<_> = dummies.iter().map(|dummy| dummy.0.to_string()).collect();
+    let has_text = names.iter().any(|name| name == "text");
     let has_message = names.iter().any(|name| name == "message");
     let [result, bound] = [") result(status)".into(), format!(") bind(c, name='{name}') result(status)")];
     let lines = [
@@ -361,6 +363,8 @@ fn function(name: &str, arguments: &[Variable]) -> String {
         "        integer(c_int32_t) :: status\n      end function\n    end interface\n".into(),
         listed(4, &format!("status = {c}("), &actuals, ")"),
         if has_message { "    call end_message(status, message)\n" } else { "" }.into(),
+        // A text is there whatever the status.
+        if has_text { "    call end_message(-1_c_int32_t, text)\n" } else { "" }.into(),
         "  end function\n".into(),
     ];
     lines.concat()
@@ -401,6 +405,7 @@ fn every_exported_function_is_in_the_module() {
         include_str!("../../src/linear_elastic.rs"),
         include_str!("../../src/abaqus.rs"),
         include_str!("../../src/lsdyna.rs"),
+        include_str!("../../src/openradioss.rs"),
     ];
     let exported = sources.iter().flat_map(|source| source.split("extern \"C\" fn ").skip(1));
     let mut count = 0;

@@ -8,7 +8,7 @@ use crate::library::ROOT;
 use toron::law::status;
 
 /// Constants and structures, then what is exported.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "src/law/status.rs",
     "src/host/c/constants.rs",
     "src/host/c/tables.rs",
@@ -24,6 +24,7 @@ const SOURCES: [&str; 15] = [
     "c/src/linear_elastic.rs",
     "c/src/abaqus.rs",
     "c/src/lsdyna.rs",
+    "c/src/openradioss.rs",
 ];
 
 fn generated() -> String {

@@ -15,4 +15,5 @@ mod instruction_counts;
 mod instrumented;
 mod machine_code;
 mod mgis;
+mod openradioss;
 mod structures;

@@ -20,6 +20,8 @@ pub mod linear_elastic;
 pub mod lsdyna;
 #[path = "../../../mgis/src/lib.rs"]
 pub mod mgis;
+#[path = "../../../c/src/openradioss.rs"]
+pub mod openradioss;
 #[path = "../../../c/src/tables.rs"]
 pub mod tables;
 

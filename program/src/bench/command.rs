@@ -167,6 +167,7 @@ fn table(report: &Report) -> String {
     let ratios = [
         ("DDSDDE or not, ratio", Host::Umat { tangent: true }, Host::Umat { tangent: false }),
         ("C block / C point, ratio", Host::Block, Host::Point { tangent: false }),
+        ("OpenRadioss / C blocks, ratio", Host::OpenRadioss, Host::BlockOfGroup),
     ];
     for (name, above, below) in ratios {
         let Some((above, below)) = row(above).zip(row(below)) else { continue };

@@ -8,7 +8,8 @@ use super::entries::each_point;
 use super::scene::Scene;
 use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
 use crate::entries::hosts::{
-    CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, Umat, VumatArrays,
+    CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat,
+    VumatArrays,
 };
 use crate::entries::precision::BlockPrecision;
 use toron::host::c::HyperelasticLaw;
@@ -37,6 +38,10 @@ pub enum Host {
     Vumat,
     Lsdyna,
     LsdynaVector,
+    /// `toron_hyperelastic_block` in parts of a group of OpenRadioss, asked for the wave speed too.
+    BlockOfGroup,
+    /// The same in OpenRadioss's arrays.
+    OpenRadioss,
     /// With dS/dE, which it wants at every call.
     Calculix,
     /// With dσ/dF or none.
@@ -47,7 +52,7 @@ pub enum Host {
 
 impl Host {
     /// Those in either precision.
-    pub const BOTH: [Host; 7] = [
+    pub const BOTH: [Host; 9] = [
         Host::Point { tangent: false },
         Host::Point { tangent: true },
         Host::PointWithProperties,
@@ -55,6 +60,8 @@ impl Host {
         Host::Vumat,
         Host::Lsdyna,
         Host::LsdynaVector,
+        Host::BlockOfGroup,
+        Host::OpenRadioss,
     ];
     /// Those in double precision alone.
     pub const DOUBLE: [Host; 5] = [
@@ -76,6 +83,8 @@ impl Host {
             Host::Vumat => "VUMAT",
             Host::Lsdyna => "LS-DYNA scalar",
             Host::LsdynaVector => "LS-DYNA vectorised",
+            Host::BlockOfGroup => "C blocks of 128, wave speed",
+            Host::OpenRadioss => "OpenRadioss, groups of 128",
             Host::Calculix => "CalculiX with dS/dE",
             Host::Mgis { tangent: false } => "MGIS",
             Host::Mgis { tangent: true } => "MGIS with dsig/dF",
@@ -89,7 +98,12 @@ pub struct HostArrays<T> {
     state: Vec<T>,
     vumat: VumatArrays<T>,
     lsdyna: LsdynaVector<T>,
+    groups: Vec<OpenradiossGroup<T>>,
+    wave_speed: Vec<T>,
 }
+
+/// The elements of a full group of OpenRadioss.
+const GROUP: usize = 128;
 
 impl<T: Precision + BlockPrecision> HostArrays<T> {
     /// With the law of these properties and the scene's deformations, or their symmetric parts for a host that passes a
@@ -102,6 +116,11 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
         let (n, stride) = (scene.n, scene.leading_dimension);
         let (mut vumat, mut lsdyna) = (VumatArrays::new(n), LsdynaVector::new(n));
         let half = T::splat(0.5);
+        let mut groups = (0..n)
+            .step_by(GROUP)
+            .map(|first| OpenradiossGroup::new(GROUP.min(n - first), properties, false))
+            .collect::<Result<Vec<_>, i32>>()
+            .map_err(|status| format!("OpenRadioss: status {status}"))?;
         for i in 0..n {
             let f = |row: usize, column: usize| scene.deformation_gradient[(3 * column + row) * stride + i];
             for (c, (row, column)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
@@ -109,9 +128,12 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
             }
             for c in 0..9 {
                 lsdyna.history[(HYPERELASTIC_STATE + c) * n + i] = f(c % 3, c / 3);
+                groups[i / GROUP].gradient[c * OpenradiossGroup::<T>::LENGTH + i % GROUP] = f(c % 3, c / 3);
             }
         }
-        Ok(HostArrays { law, state: vec![T::splat(0.0); HYPERELASTIC_STATE * stride], vumat, lsdyna })
+        let zeros = |components: usize| vec![T::splat(0.0); components * stride];
+        let (state, wave_speed) = (zeros(HYPERELASTIC_STATE), zeros(1));
+        Ok(HostArrays { law, state, vumat, lsdyna, groups, wave_speed })
     }
 }
 
@@ -168,7 +190,31 @@ pub fn call<T: Precision + BlockPrecision + Scalar>(
             });
         }
         Host::LsdynaVector => drop(arrays.lsdyna.call(properties)),
+        Host::BlockOfGroup => blocks_of_groups(scene, arrays),
+        Host::OpenRadioss => {
+            for group in &mut arrays.groups {
+                group.call();
+            }
+        }
         Host::Umat { .. } | Host::Calculix | Host::Mgis { .. } => double(host, &properties.map(Into::into), scene),
+    }
+}
+
+/// The C entry for parts of the scene that are as long as a group of OpenRadioss, with what that asks for.
+fn blocks_of_groups<T: Precision + BlockPrecision + Scalar>(scene: &mut Scene<T>, arrays: &mut HostArrays<T>) {
+    for first in (0..scene.n).step_by(GROUP) {
+        let block = SolverBlock {
+            n: GROUP.min(scene.n - first),
+            leading_dimension: scene.leading_dimension,
+            deformation_gradient: &scene.deformation_gradient[first..],
+            state: &mut arrays.state[first..],
+            energies: true,
+            failure: true,
+            stress: &mut scene.stress[first..],
+            wave_speed: Some((T::splat(1.0), &mut arrays.wave_speed[first..])),
+            status: &mut scene.status[first..],
+        };
+        hyperelastic_block(&arrays.law, block);
     }
 }
 

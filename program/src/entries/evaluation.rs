@@ -5,9 +5,10 @@ use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
-use super::hosts::{Given, MgisPoint, MgisTangent, OnePoint, Umat, call_point};
+use super::hosts::{Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, call_point};
 use super::precision::BlockPrecision;
 use toron::host::c::{self, Block, Point};
+use toron::host::openradioss::card;
 use toron::host::{abaqus, lsdyna, mgis};
 use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
@@ -343,4 +344,38 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
         answer.ddsdde = Some(jaumann(&truesdell, &answer.stress));
     }
     answer
+}
+
+/// The point as an element amid others of a group.
+pub fn openradioss(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], line: usize) -> Answer {
+    let refused = |status| Answer { status, ..Answer::default() };
+    let (n, at, _) = place(line);
+    // Every other line has the direction in UVAR. That of the properties is checked first.
+    let mut group = match OpenradiossGroup::new(n, properties, false) {
+        Ok(group) => group,
+        Err(status) => return refused(status),
+    };
+    if line.is_multiple_of(2) {
+        group = OpenradiossGroup::new(n, properties, true).unwrap_or(group);
+        for c in 0..3 {
+            group.uvar[(card::HYPERELASTIC.fibre + c) * n..][..n].fill(properties[FIBRE + c]);
+        }
+    }
+    for i in 0..n {
+        for c in 0..9 {
+            group.gradient[c * OpenradiossGroup::<f64>::LENGTH + i] =
+                if i == at { f[c] } else { NEIGHBOURS[(line + i) % 5][c] };
+        }
+    }
+    let status = group.call();
+    if status != status::OK {
+        return refused(status);
+    }
+    let variable = |number: usize| group.uvar[number * n + at];
+    Answer {
+        status: variable(card::HYPERELASTIC.deleted).min(0.0) as i32,
+        stress: std::array::from_fn(|c| group.stress[c * OpenradiossGroup::<f64>::LENGTH + at]),
+        state: std::array::from_fn(variable),
+        ..Answer::default()
+    }
 }

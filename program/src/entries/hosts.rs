@@ -1,13 +1,14 @@
 //! Points and arrays as their hosts keep them, and the calls of the C entries on them.
 
 use std::ffi::{c_char, c_int};
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
 use nalgebra::Matrix3;
 
 use super::precision::BlockPrecision;
 use toron::host::c::{self, HyperelasticLaw, Point};
 use toron::host::mgis::{self, BehaviourDataView, StateView};
+use toron::host::openradioss::{self, card};
 use toron::host::{abaqus, calculix};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
@@ -334,5 +335,73 @@ impl MgisPoint {
         };
         // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.
         unsafe { mgis::hyperelastic(&mut view) }
+    }
+}
+
+/// A group of elements as OpenRadioss keeps it: F, by columns, and the stress in arrays of the solver's vector length, the others of
+/// the group's.
+#[derive(Debug)]
+pub struct OpenradiossGroup<T> {
+    pub n: usize,
+    pub gradient: Vec<T>,
+    pub stress: Vec<T>,
+    pub uvar: Vec<T>,
+    pub off: Vec<T>,
+    sound_speed: Vec<T>,
+    uparam: Vec<T>,
+    density: T,
+}
+
+impl<T: BlockPrecision> OpenradiossGroup<T> {
+    /// The solver's vector length: no group has more elements.
+    pub const LENGTH: usize = 129;
+
+    /// `n` elements at the start, of the hyperelastic law. Their fibre direction is that of the properties, or that of UVAR.
+    ///
+    /// # Errors
+    /// The properties are wrong: the status code.
+    pub fn new(n: usize, properties: &[T; HYPERELASTIC_PROPERTIES], fibre_in_uvar: bool) -> Result<Self, i32> {
+        let (array, layout) =
+            (|components: usize, length: usize| vec![T::default(); components * length], &card::HYPERELASTIC);
+        let mut uparam = array(1, layout.parameters());
+        let option = [T::from_f64(if fibre_in_uvar { 2.0 } else { 0.0 })];
+        let values = [&properties[..], &option].concat();
+        openradioss::read(layout.number, &values, &mut uparam).map_err(|error| error.code())?;
+        Ok(OpenradiossGroup {
+            n,
+            gradient: array(9, Self::LENGTH),
+            stress: array(6, Self::LENGTH),
+            uvar: array(layout.variables, n),
+            off: vec![T::from_f64(1.0); n],
+            sound_speed: array(1, n),
+            uparam,
+            density: T::from_f64(1.0),
+        })
+    }
+
+    /// Calls the entry, as in a later cycle than the first; returns its status.
+    pub fn call(&mut self) -> i32 {
+        let f = |row: usize, column: usize| self.gradient[(3 * column + row) * Self::LENGTH..].as_ptr();
+        let deformation_gradient = [f(0, 0), f(1, 1), f(2, 2), f(0, 1), f(1, 2), f(2, 0), f(1, 0), f(2, 1), f(0, 2)];
+        let stress = [0, 1, 2, 3, 4, 5].map(|c| self.stress[c * Self::LENGTH..].as_mut_ptr());
+        let group = openradioss::Group {
+            elements: self.n as i32,
+            parameters: self.uparam.len() as i32,
+            variables: card::HYPERELASTIC.variables as i32,
+            time: T::from_f64(1e-6),
+            uparam: self.uparam.as_ptr(),
+            numbers: null(),
+            density: &self.density,
+            deformation_gradient,
+            stress,
+            viscous: [null_mut(); 6],
+            sound_speed: self.sound_speed.as_mut_ptr(),
+            viscosity: null_mut(),
+            uvar: self.uvar.as_mut_ptr(),
+            off: self.off.as_mut_ptr(),
+            nodes: null(),
+        };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { T::OPENRADIOSS(&group, null_mut(), 0) }
     }
 }

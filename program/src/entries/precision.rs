@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_int};
 
 use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
-use toron::host::{abaqus, lsdyna};
+use toron::host::{abaqus, lsdyna, openradioss};
 use toron::law::block::Precision;
 
 /// Rounding to the precision of an entry.
@@ -36,12 +36,14 @@ pub trait BlockPrecision: Precision + Default + FromF64 + Send + Sync + 'static 
     const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<Self>, *mut c_char, usize) -> i32;
     const LSDYNA: LsdynaEntry<Self>;
     const LSDYNA_VECTOR: LsdynaVectorEntry<Self>;
+    const OPENRADIOSS: OpenradiossEntry<Self>;
 }
 
 /// An entry that prepares a law, one that takes it, and one that takes the properties; the last two arguments are for a message.
 pub type PrepareEntry<L, T> = unsafe extern "C" fn(*mut L, usize, *const T, usize, *mut c_char, usize) -> i32;
 pub type PreparedEntry<L, S> = unsafe extern "C" fn(*const L, *const S, *mut c_char, usize) -> i32;
 pub type PropertiesEntry<T, S> = unsafe extern "C" fn(*const T, usize, *const S, *mut c_char, usize) -> i32;
+pub type OpenradiossEntry<T> = unsafe fn(&openradioss::Group<T>, *mut c_char, usize) -> i32;
 pub type LsdynaEntry<T> = unsafe extern "C" fn(*const T, *mut T, *mut T, i32, *mut c_int, *mut c_char, usize) -> i32;
 pub type LsdynaVectorEntry<T> = unsafe extern "C" fn(
     *const T,
@@ -71,6 +73,7 @@ impl BlockPrecision for f64 {
     const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f64>, *mut c_char, usize) -> i32 = abaqus::vumat_f64;
     const LSDYNA: LsdynaEntry<f64> = lsdyna::umat_f64;
     const LSDYNA_VECTOR: LsdynaVectorEntry<f64> = lsdyna::umat_vector_f64;
+    const OPENRADIOSS: OpenradiossEntry<f64> = openradioss::entries::group_f64;
 }
 
 impl BlockPrecision for f32 {
@@ -83,4 +86,5 @@ impl BlockPrecision for f32 {
     const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f32>, *mut c_char, usize) -> i32 = abaqus::vumat_f32;
     const LSDYNA: LsdynaEntry<f32> = lsdyna::umat_f32;
     const LSDYNA_VECTOR: LsdynaVectorEntry<f32> = lsdyna::umat_vector_f32;
+    const OPENRADIOSS: OpenradiossEntry<f32> = openradioss::entries::group_f32;
 }

@@ -44,12 +44,15 @@ pub enum Entry {
     LsDynaVector,
     /// `ToronHyperelastic_Tridimensional`, as MGIS calls it; the tangent is pushed forward from dS/dE.
     Mgis,
+    /// `toron_openradioss_luser_f64`, the element amid others.
+    #[value(name = "openradioss")]
+    OpenRadioss,
 }
 
 impl Entry {
     /// Whether the entry can answer with DDSDDE.
     fn has_tangent(self) -> bool {
-        !matches!(self, Entry::Vumat | Entry::VumatSp)
+        !matches!(self, Entry::Vumat | Entry::VumatSp | Entry::OpenRadioss)
     }
 
     /// The name on the command line.
@@ -221,6 +224,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
         Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
         Entry::Mgis => via_mgis(&f, evaluation::mgis(&properties, &columns, tangent)),
+        Entry::OpenRadioss => evaluation::openradioss(&properties, &columns, line),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
     let state = answer.state;

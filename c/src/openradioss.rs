@@ -1,0 +1,199 @@
+//! OpenRadioss: user materials of solids, for the solver's SDK.
+
+use libc::{c_char, size_t};
+
+/// The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
+///
+/// `number`: nn, 1 for the hyperelastic law and 2 for the linear elastic one; `values`: `count` numbers of the card behind the
+/// density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
+/// value, the modulus of the fastest wave at rest. None may be null.
+///
+/// Returns 0, or a code with which the starter is to be stopped: `TORON_NULL_ARGUMENT`, `TORON_BAD_ARGUMENT` (number, option) or a
+/// −2xx code.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_openradioss_lecm_f64(
+    number: i32,
+    values: *const f64,
+    count: size_t,
+    uparam: *mut f64,
+    maxuparam: i32,
+    nuparam: *mut i32,
+    nuvar: *mut i32,
+    parmat: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::openradioss::lecm_f64(
+            number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
+        )
+    }
+}
+
+/// A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the card, and
+/// the names of the user variables.
+///
+/// `uparam`: `nuparam` values, as `toron_openradioss_lecm_f64` has written them; `line`: counted from 0; `text`: at most `capacity`
+/// bytes, out, with the terminating null. Returns 0, `TORON_UNKNOWN_NAME` behind the last line, or another code if `uparam` is not
+/// such an array.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_openradioss_listing_f64(
+    uparam: *const f64,
+    nuparam: i32,
+    line: i32,
+    text: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::openradioss::listing_f64(uparam, nuparam, line, text, capacity) }
+}
+
+/// The engine's routine of a user material of OpenRadioss, `LUSERnn`, for solids, in double precision.
+///
+/// `nel` elements; `uparam`: `nuparam` values; `time`: 0 in the first cycle; `ngl`: `nel` numbers of elements for messages, or null;
+/// `rho0`: the reference density, 1 value; `fpsxx` … `fpsxz`: `nel` each, the deformation gradient; `signxx` … `signzx`: `nel` each,
+/// out, the Cauchy stress; `sigvxx` … `sigvzx` and `viscmax`: out, 0, or null; `soundsp`: `nel`, out, a bound of the wave speed;
+/// `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
+/// (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
+///
+/// A point with `off` below 1 has no stress and keeps its state. The variable `deleted` says why it is out: 1 failed, 2 by the
+/// solver, or the −3xx code of the reason why it could not be evaluated.
+///
+/// Returns 0, or a code with which the run is to be stopped: `TORON_NO_DEFORMATION_GRADIENT` (Ismstr is not 10),
+/// `TORON_FIBRE_DIRECTION`, another −1xx or a −2xx code.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_openradioss_luser_f64(
+    nel: i32,
+    nuparam: i32,
+    nuvar: i32,
+    time: f64,
+    uparam: *const f64,
+    ngl: *const i32,
+    rho0: *const f64,
+    fpsxx: *const f64,
+    fpsyy: *const f64,
+    fpszz: *const f64,
+    fpsxy: *const f64,
+    fpsyz: *const f64,
+    fpszx: *const f64,
+    fpsyx: *const f64,
+    fpszy: *const f64,
+    fpsxz: *const f64,
+    signxx: *mut f64,
+    signyy: *mut f64,
+    signzz: *mut f64,
+    signxy: *mut f64,
+    signyz: *mut f64,
+    signzx: *mut f64,
+    sigvxx: *mut f64,
+    sigvyy: *mut f64,
+    sigvzz: *mut f64,
+    sigvxy: *mut f64,
+    sigvyz: *mut f64,
+    sigvzx: *mut f64,
+    soundsp: *mut f64,
+    viscmax: *mut f64,
+    uvar: *mut f64,
+    off: *mut f64,
+    nodes: *const f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::openradioss::luser_f64(
+            nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,
+            fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx,
+            soundsp, viscmax, uvar, off, nodes, message, capacity,
+        )
+    }
+}
+
+/// As `toron_openradioss_lecm_f64`, in single precision.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_openradioss_lecm_f32(
+    number: i32,
+    values: *const f32,
+    count: size_t,
+    uparam: *mut f32,
+    maxuparam: i32,
+    nuparam: *mut i32,
+    nuvar: *mut i32,
+    parmat: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::openradioss::lecm_f32(
+            number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
+        )
+    }
+}
+
+/// As `toron_openradioss_listing_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_openradioss_listing_f32(
+    uparam: *const f32,
+    nuparam: i32,
+    line: i32,
+    text: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::openradioss::listing_f32(uparam, nuparam, line, text, capacity) }
+}
+
+/// As `toron_openradioss_luser_f64`, in single precision.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_openradioss_luser_f32(
+    nel: i32,
+    nuparam: i32,
+    nuvar: i32,
+    time: f32,
+    uparam: *const f32,
+    ngl: *const i32,
+    rho0: *const f32,
+    fpsxx: *const f32,
+    fpsyy: *const f32,
+    fpszz: *const f32,
+    fpsxy: *const f32,
+    fpsyz: *const f32,
+    fpszx: *const f32,
+    fpsyx: *const f32,
+    fpszy: *const f32,
+    fpsxz: *const f32,
+    signxx: *mut f32,
+    signyy: *mut f32,
+    signzz: *mut f32,
+    signxy: *mut f32,
+    signyz: *mut f32,
+    signzx: *mut f32,
+    sigvxx: *mut f32,
+    sigvyy: *mut f32,
+    sigvzz: *mut f32,
+    sigvxy: *mut f32,
+    sigvyz: *mut f32,
+    sigvzx: *mut f32,
+    soundsp: *mut f32,
+    viscmax: *mut f32,
+    uvar: *mut f32,
+    off: *mut f32,
+    nodes: *const f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::openradioss::luser_f32(
+            nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,
+            fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx,
+            soundsp, viscmax, uvar, off, nodes, message, capacity,
+        )
+    }
+}

@@ -1,0 +1,48 @@
+//! Routines of the solver, looked up by name in the running program.
+
+use std::ffi::{CStr, c_char, c_void};
+
+use crate::Real;
+
+/// The exit code of the solver's routine that ends a run after an error in the model.
+const INPUT_ERROR: i32 = 2;
+
+/// The routine of this name; `None` if the program has none.
+fn routine(name: &CStr) -> Option<*mut c_void> {
+    // SAFETY: a null-terminated name.
+    let found = unsafe { libc::dlsym(libc::RTLD_DEFAULT, name.as_ptr()) };
+    (!found.is_null()).then_some(found)
+}
+
+/// Writes a message to the standard output and, in the engine, to its listing, and ends the run as the solver itself does.
+pub fn stop(message: &str) {
+    println!(" toron: {message}");
+    if let Some(write) = routine(c"write_iout_") {
+        // SAFETY: `WRITE_IOUT(LINE, LEN)` of the engine, with the hidden length of its character argument.
+        unsafe {
+            let write: unsafe extern "C" fn(*const c_char, *const i32, usize) = std::mem::transmute(write);
+            let length = message.len().min(200); // the line's length in the solver is limited
+            write(message.as_ptr().cast(), &(length as i32), length);
+        }
+    }
+    match routine(c"arret_") {
+        // SAFETY: `ARRET(NN)` of starter and engine.
+        Some(arret) => unsafe {
+            let arret: unsafe extern "C" fn(*const i32) = std::mem::transmute(arret);
+            arret(&INPUT_ERROR);
+        },
+        None => std::process::exit(INPUT_ERROR),
+    }
+}
+
+/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no such routine.
+pub fn nodes(elements: usize) -> Vec<Real> {
+    let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
+    let mut coordinates = vec![0.0; elements * 8 * 3];
+    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls it.
+    unsafe {
+        let get: unsafe extern "C" fn(*mut Real) = std::mem::transmute(get);
+        get(coordinates.as_mut_ptr());
+    }
+    coordinates
+}

@@ -1,0 +1,143 @@
+//! The starter: the numbers of a material's card are checked and become UPARAM.
+
+use crate::law::block::Precision;
+use crate::law::error::{Error, describe_integer, describe_number};
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::response::Request;
+use crate::law::state::HYPERELASTIC_STATE;
+use crate::law::status;
+
+use super::card::{Card, FibreFrom, HYPERELASTIC, Layout, NEEDS, OPTIONS};
+
+/// What the starter wants to know of a material besides UPARAM.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Read<T> {
+    /// NUPARAM and NUVAR.
+    pub parameters: usize,
+    pub variables: usize,
+    /// PARMAT(1): the modulus of the fastest wave at rest, from which the first time step and contact stiffnesses are computed.
+    pub modulus: T,
+}
+
+/// Writes UPARAM from the values of a card: the properties, then the options, of which the last ones may be left out.
+///
+/// Where each element has a fibre direction of its own, that of the card may be 0 0 0.
+///
+/// # Errors
+/// There is no such law, too few or too many values, a wrong property or option, too little room in UPARAM.
+pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result<Read<T>, Error> {
+    let layout = Layout::of(number)?;
+    let (needed, wanted) = (layout.properties.len(), layout.parameters());
+    let count = |what, found: usize, wanted: usize| {
+        Err(Error::Count { code: status::PROPERTY_COUNT, what, found: found as i64, wanted: wanted as i64 })
+    };
+    if values.len() < needed {
+        return count("number of values on the card, five a line", values.len(), needed);
+    }
+    // The rest of the last line is blank, which reads as 0.
+    let most = wanted - 1;
+    if let Some(&value) = values.iter().skip(most).find(|&&value| value.into() != 0.0) {
+        return Err(Error::Argument {
+            name: "behind the last value of the card",
+            value: value.into(),
+            wanted: "nothing",
+        });
+    }
+    let Some(own) = uparam.get_mut(..wanted) else { return count("MAXUPARAM", uparam.len(), wanted) };
+    own.fill(T::splat(0.0));
+    if let Some((first, rest)) = own.split_first_mut() {
+        *first = T::splat(f64::from(layout.number));
+        rest.iter_mut().zip(values).for_each(|(to, &value)| *to = value);
+    }
+    let from = Card::of(own)?.fibre_from;
+    if from != FibreFrom::Card {
+        give_a_direction(layout, own);
+    }
+    let modulus = modulus_at_rest(&Card::of(own)?)?;
+    Ok(Read { parameters: wanted, variables: layout.variables, modulus })
+}
+
+/// Sets a fibre direction that is 0 0 0 to an axis that is not along the second axis: elements have their own.
+fn give_a_direction<T: Precision>(layout: &Layout, uparam: &mut [T]) {
+    let Some([m_1, m_2, m_3, rest @ ..]) = uparam.get_mut(1 + layout.fibre_property..) else { return };
+    if [*m_1, *m_2, *m_3].iter().any(|&m| m.into() != 0.0) {
+        return;
+    }
+    let second: [f64; 3] = match rest {
+        [n_1, n_2, n_3, ..] if layout.number != HYPERELASTIC.number => [(*n_1).into(), (*n_2).into(), (*n_3).into()],
+        _ => [0.0; 3],
+    };
+    let along_x = second[0].abs() > second[1].abs() + second[2].abs();
+    *(if along_x { m_2 } else { m_1 }) = T::splat(1.0);
+}
+
+/// ρ0 c² of the fastest wave in the unstressed material.
+///
+/// # Errors
+/// A wrong property.
+fn modulus_at_rest<T: Precision>(card: &Card<'_, T>) -> Result<T, Error> {
+    if card.layout.number != HYPERELASTIC.number {
+        return Ok(T::splat(LinearElastic::new(card.properties)?.lanes::<f64>().wave_modulus()));
+    }
+    Hyperelastic::new(card.properties)?; // an error names the value of the card, not its copy in double precision
+    let mut values = [0.0; crate::law::parameters::HYPERELASTIC_PROPERTIES];
+    values.iter_mut().zip(card.properties).for_each(|(to, &from)| *to = from.into());
+    let rest = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let wanted = Request { wave_modulus: true, ..Request::default() };
+    let point = Hyperelastic::new(&values)?.point_along(&rest, None, &[0.0; HYPERELASTIC_STATE], wanted);
+    Ok(T::splat(point.wave_modulus))
+}
+
+/// A line, from 0, of what the starter's listing says of a material: passed to `sink` piece by piece. False behind the last line.
+///
+/// # Errors
+/// UPARAM is not what [`read`] has written.
+pub fn listing<T: Precision>(uparam: &[T], line: usize, sink: &mut dyn FnMut(&str)) -> Result<bool, Error> {
+    let layout = Card::of(uparam)?.layout;
+    let (values, variables) = (layout.parameters() - 1, layout.variables);
+    const HEAD: usize = 3;
+    if line < HEAD {
+        match line {
+            0 => {
+                sink("     toron: ");
+                sink(layout.name);
+            }
+            1 => {
+                sink("     the elements need ");
+                sink(NEEDS);
+            }
+            _ => sink("     values of the card:"),
+        }
+    } else if let Some(i) = line.checked_sub(HEAD).filter(|&i| i < values) {
+        value_line(layout, uparam, i, sink);
+    } else if line == HEAD + values {
+        sink("     user variables:");
+    } else if let Some(i) = line.checked_sub(HEAD + values + 1).filter(|&i| i < variables) {
+        sink("       ");
+        describe_integer(i as i64 + 1, sink);
+        sink(" ");
+        let others = layout.other_variables();
+        let name = layout.state.get(i).map(|row| row.name).or_else(|| others.get(i - layout.state.len()).copied());
+        sink(name.unwrap_or_default());
+    } else {
+        return Ok(false);
+    }
+    Ok(true)
+}
+
+/// The line of value `i` of the card.
+fn value_line<T: Precision>(layout: &Layout, uparam: &[T], i: usize, sink: &mut dyn FnMut(&str)) {
+    sink("       ");
+    match layout.properties.get(i) {
+        Some(property) => {
+            sink(property.name);
+            sink(" (");
+            sink(property.meaning);
+            sink(")");
+        }
+        None => sink(OPTIONS.get(i - layout.properties.len()).map_or("", |option| option.name)),
+    }
+    sink(" = ");
+    describe_number(uparam.get(i + 1).map_or(0.0, |&value| value.into()), sink);
+}
