@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
-use super::hosts::{Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, call_point};
+use super::hosts::{CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, call_point};
 use super::precision::BlockPrecision;
 use toron::host::c::{self, Block, Point};
 use toron::host::openradioss::card;
@@ -166,8 +166,12 @@ pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: 
     }
 }
 
-/// The Cauchy stress through MGIS; with `tangent` dS/dE too, as MGIS gets it: by rows, 11 22 33 √2·12 √2·13 √2·23.
-pub fn mgis(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> (Answer, Option<[f64; 36]>) {
+/// The Cauchy stress through MGIS; with `tangent` dS/dE too, tensor components 11 22 33 12 13 23.
+pub fn mgis(
+    properties: &[f64; HYPERELASTIC_PROPERTIES],
+    f: &[f64; 9],
+    tangent: bool,
+) -> (Answer, Option<[[f64; 6]; 6]>) {
     let &[f11, f21, f31, f12, f22, f32, f13, f23, f33] = f;
     let gradients = [f11, f22, f33, f12, f21, f13, f31, f23, f32];
     let mut host = MgisPoint { gradients, ..MgisPoint::FRESH };
@@ -180,8 +184,32 @@ pub fn mgis(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: 
     }
     let [s11, s22, s33, s12, s13, s23] = host.stress;
     let stress = [s11, s22, s33, s12 / SQRT_2, s23 / SQRT_2, s13 / SQRT_2];
-    let material = tangent.then(|| std::array::from_fn(|entry| host.k[entry]));
+    // MGIS gets √2 times the components 12, 13 and 23, on both sides. The quotient, rounded, is mostly the number that has been
+    // multiplied.
+    let without_factors = |i: usize, j: usize| {
+        let entry = host.k[6 * i + j];
+        match (i < 3, j < 3) {
+            (true, true) => entry,
+            (false, false) => entry / 2.0,
+            _ => entry / SQRT_2,
+        }
+    };
+    let material = tangent.then(|| std::array::from_fn(|i| std::array::from_fn(|j| without_factors(i, j))));
     (Answer { stress, state: host.state, ..Answer::default() }, material)
+}
+
+/// The second Piola–Kirchhoff stress through CalculiX, in place of the Cauchy stress, and dS/dE, tensor components; both
+/// 11 22 33 12 13 23.
+pub fn calculix(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> (Answer, [[f64; 6]; 6]) {
+    // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would end the process.
+    let status = point(properties, f, true).status;
+    let mut host = CalculixPoint::default();
+    if status == status::OK || status <= status::INVERTED {
+        host.call(properties, f);
+    }
+    let entry = |i: usize, j: usize| host.stiffness[if i <= j { i + j * (j + 1) / 2 } else { j + i * (i + 1) / 2 }];
+    let material = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+    (Answer { status, stress: host.stress, state: host.state, ..Answer::default() }, material)
 }
 
 /// A VUMAT of one point at the stretch U, 11 22 33 12 23 31; the stress is the corotational one.

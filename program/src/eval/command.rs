@@ -9,7 +9,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use super::polar::polar_decomposition;
-use super::push_forward::truesdell_of_material;
+use super::push_forward::{cauchy_of_second, truesdell_of_material};
 use crate::common::error::Error;
 use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
@@ -44,6 +44,9 @@ pub enum Entry {
     LsDynaVector,
     /// `ToronHyperelastic_Tridimensional`, as MGIS calls it; the tangent is pushed forward from dS/dE.
     Mgis,
+    /// `HYPERELASTIC`, as CalculiX calls it; stress and tangent are pushed forward from S and dS/dE.
+    #[value(name = "calculix")]
+    CalculiX,
     /// `toron_openradioss_luser_f64`, the element amid others.
     #[value(name = "openradioss")]
     OpenRadioss,
@@ -224,6 +227,7 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
         Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
         Entry::Mgis => via_mgis(&f, evaluation::mgis(&properties, &columns, tangent)),
+        Entry::CalculiX => via_calculix(&f, evaluation::calculix(&properties, &columns), tangent),
         Entry::OpenRadioss => evaluation::openradioss(&properties, &columns, line),
     };
     let mode = |i: usize| answer.modes.map(|modes| order(modes[i]));
@@ -256,12 +260,22 @@ fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
 }
 
 /// The answer of MGIS, with dS/dE pushed forward.
-fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[f64; 36]>)) -> Answer {
-    let ddsdde = material.map(|material| {
-        let truesdell = truesdell_of_material(&material, f);
-        evaluation::jaumann(&order(truesdell.map(order)), &answer.stress)
-    });
-    Answer { ddsdde, ..answer }
+fn via_mgis(f: &Matrix3<f64>, (answer, material): (Answer, Option<[[f64; 6]; 6]>)) -> Answer {
+    Answer { ddsdde: material.map(|material| pushed_forward(&material, f, &answer.stress)), ..answer }
+}
+
+/// The answer of CalculiX, with S and dS/dE pushed forward. Where there is no stress, CalculiX gets a stiffness that is none of the
+/// law's.
+fn via_calculix(f: &Matrix3<f64>, (answer, material): (Answer, [[f64; 6]; 6]), tangent: bool) -> Answer {
+    let intact = answer.status == status::OK;
+    let stress = if intact { order(cauchy_of_second(&answer.stress, f)) } else { [0.0; 6] };
+    let ddsdde = || if intact { pushed_forward(&material, f, &stress) } else { [[0.0; 6]; 6] };
+    Answer { stress, ddsdde: tangent.then(ddsdde), ..answer }
+}
+
+/// DDSDDE, in the library's order, of dS/dE, 11 22 33 12 13 23, and the Cauchy stress.
+fn pushed_forward(material: &[[f64; 6]; 6], f: &Matrix3<f64>, stress: &[f64; 6]) -> [[f64; 6]; 6] {
+    evaluation::jaumann(&order(truesdell_of_material(material, f).map(order)), stress)
 }
 
 /// Calls a VUMAT as Abaqus/Explicit does: with U; its corotational stress is rotated by R.

@@ -11,7 +11,7 @@ use toron::law::state::{ENERGIES, HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
-const ENTRIES: [&str; 11] = [
+const ENTRIES: [&str; 12] = [
     "law",
     "law-with-properties",
     "block",
@@ -22,6 +22,7 @@ const ENTRIES: [&str; 11] = [
     "ls-dyna",
     "ls-dyna-vector",
     "mgis",
+    "calculix",
     "openradioss",
 ];
 
@@ -72,19 +73,39 @@ struct Bounds {
     epsilon: f64,
     flag_margin: f64,
     back: f64,
+    /// In place of `back` where the section is distorted most.
+    distorted: f64,
     invariants: f64,
     energies: f64,
     /// Near the reference.
     forward: f64,
 }
 
-const DOUBLE: Bounds =
-    Bounds { epsilon: f64::EPSILON / 2.0, flag_margin: 0.0, back: 5.0, invariants: 5.0, energies: 5.0, forward: 2e-15 };
+const DOUBLE: Bounds = Bounds {
+    epsilon: f64::EPSILON / 2.0,
+    flag_margin: 0.0,
+    back: 5.0,
+    distorted: 5.0,
+    invariants: 5.0,
+    energies: 5.0,
+    forward: 2e-15,
+};
+/// CalculiX takes S, whose largest components cancel in F S Fᵀ where the section is distorted to an aspect ratio of 2·10⁵: the exact
+/// S, rounded and pushed forward exactly, has an error of 8400 there.
+const SECOND_PIOLA_KIRCHHOFF: Bounds = Bounds { distorted: 1e4, ..DOUBLE };
 /// The polar decomposition comes between: U instead of F, whose roundings are not small against small strains.
 const POLAR: Bounds = Bounds { forward: f64::INFINITY, ..DOUBLE };
-const SINGLE: Bounds =
-    Bounds { epsilon: 6e-8, flag_margin: 1e-6, back: 8.0, invariants: 8.0, energies: 8.0, forward: f64::INFINITY };
-const SINGLE_POLAR: Bounds = Bounds { back: 16.0, invariants: f64::INFINITY, energies: 16.0, ..SINGLE };
+const SINGLE: Bounds = Bounds {
+    epsilon: 6e-8,
+    flag_margin: 1e-6,
+    back: 8.0,
+    distorted: 8.0,
+    invariants: 8.0,
+    energies: 8.0,
+    forward: f64::INFINITY,
+};
+const SINGLE_POLAR: Bounds =
+    Bounds { back: 16.0, distorted: 16.0, invariants: f64::INFINITY, energies: 16.0, ..SINGLE };
 
 fn meets_the_truth(via: &str, bounds: &Bounds) {
     let cases = cases();
@@ -98,7 +119,8 @@ fn meets_the_truth(via: &str, bounds: &Bounds) {
     }
     println!("{via}\n{score}");
     for (category, worst) in &score.worst {
-        assert!(worst.back <= bounds.back, "{via}, {category}: stress {}", worst.back);
+        let back = if category == "distortion" { bounds.distorted } else { bounds.back };
+        assert!(worst.back <= back, "{via}, {category}: stress {}", worst.back);
         assert!(worst.invariants <= bounds.invariants, "{via}, {category}: invariants {}", worst.invariants);
         assert!(worst.energies <= bounds.energies, "{via}, {category}: energies {}", worst.energies);
         assert_eq!(worst.wrong, 0, "{via}, {category}: failure flags");
@@ -125,24 +147,31 @@ fn entries_in_double_precision() {
     for via in ["law", "block", "umat", "ls-dyna", "ls-dyna-vector", "mgis", "openradioss"] {
         meets_the_truth(via, &DOUBLE);
     }
+    meets_the_truth("calculix", &SECOND_PIOLA_KIRCHHOFF);
     meets_the_truth("vumat", &POLAR);
 }
 
 /// DDSDDE of the entries that return another tangent, which is pushed forward: beside the kinks of `distortion` the strong shears
-/// magnify the rounding of dS/dE most.
+/// magnify the rounding of dS/dE most. The exact dS/dE, rounded and pushed forward exactly, has an error of 1.05e-12 in the worst
+/// case; MFront's factors √2 round it otherwise.
 #[test]
-fn the_tangent_through_mgis() {
-    let lines = evaluated(&["--via", "mgis", "--tangent"], include_bytes!("../../../tests/truth/points.jsonl"));
+fn tangents_that_are_pushed_forward() {
+    tangent_through("mgis", 1e-12);
+    tangent_through("calculix", 1.2e-12);
+}
+
+fn tangent_through(via: &str, bound: f64) {
+    let lines = evaluated(&["--via", via, "--tangent"], include_bytes!("../../../tests/truth/points.jsonl"));
     let mut worst = 0.0_f64;
     for (case, line) in cases().iter().zip(&lines) {
         let order = [0, 1, 2, 3, 5, 4];
         let rows = order.map(|i| order.map(|j| number(&line["ddsdde"][i][j])));
         if let (Some(error), false) = (case.tangent_error(&rows), case.category == "distortion") {
-            assert!(error <= 1e-12, "case {}, {}: {error:e}", case.id, case.category);
+            assert!(error <= bound, "{via}, case {}, {}: {error:e}", case.id, case.category);
             worst = worst.max(error);
         }
     }
-    println!("tangent through mgis: {worst:.1e}");
+    println!("tangent through {via}: {worst:.1e}");
     assert!(worst > 0.0);
 }
 
@@ -322,7 +351,7 @@ fn a_tangent_of_an_explicit_host_is_refused() {
 
 fn refusal(via: &str) -> String {
     let others = "law, law-f32, law-with-properties, law-with-properties-f32, block, block-f32, umat, ls-dyna, \
-                  ls-dyna-vector, mgis";
+                  ls-dyna-vector, mgis, calculix";
     format!("toron: --tangent with --via {via}, which has no DDSDDE; allowed with {others}\n")
 }
 
