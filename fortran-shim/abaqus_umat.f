@@ -1,8 +1,12 @@
-! UMAT of Abaqus/Standard for the hyperelastic yarn law of libtoron.
+! UMAT of Abaqus/Standard for the laws of libtoron.
+!
+! A material with 10 properties and 10 state variables has the linear
+! elastic law, every other one the hyperelastic yarn law: 11 properties
+! and 11 or more state variables. One job may have both.
 !
 ! Solids (NDI = 3; NSHR = 3, or 1 for plane strain and axisymmetric
-! ones) with NLGEOM=YES and no *ORIENTATION; 11 or more state variables,
-! 11 properties: see docs. DDSDDE is symmetric.
+! ones) with NLGEOM=YES and no *ORIENTATION: see docs. DDSDDE is
+! symmetric for the hyperelastic law alone.
 !
 ! Fixed form: statements in columns 7 to 72, continued in column 6, and
 ! nothing beyond. Compile it as .f; free form is not supported.
@@ -43,16 +47,37 @@
           integer(c_size_t), value :: capacity
           integer(c_int32_t) :: status
         end function
+        function toron_abaqus_linear_umat_f64(stress, statev, ddsdde,
+     &    sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi,
+     &    nshr, nlgeom, message, capacity) bind(c) result(status)
+          import :: c_char, c_double, c_int32_t, c_size_t
+          real(c_double), intent(inout) :: stress(*), statev(*)
+          real(c_double), intent(inout) :: ddsdde(*), sse, pnewdt
+          real(c_double), intent(in) :: dfgrd0(*), dfgrd1(*), props(*)
+          integer(c_int32_t), value :: nprops, nstatv, ndi, nshr
+          integer(c_int32_t), value :: nlgeom
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
+          integer(c_int32_t) :: status
+        end function
       end interface
 
 !     JSTEP(3) is 1 with NLGEOM=YES. Releases that pass a scalar KSTEP
 !     in its place have no such flag: pass 1 there, and see to
 !     NLGEOM=YES yourself.
-      status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
-     &  sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),
-     &  int(nstatv, c_int32_t), int(ndi, c_int32_t),
-     &  int(nshr, c_int32_t), int(jstep(3), c_int32_t), message,
-     &  capacity)
+      if (nprops == 10 .and. nstatv == 10) then
+        status = toron_abaqus_linear_umat_f64(stress, statev, ddsdde,
+     &    sse, pnewdt, dfgrd0, dfgrd1, props, int(nprops, c_int32_t),
+     &    int(nstatv, c_int32_t), int(ndi, c_int32_t),
+     &    int(nshr, c_int32_t), int(jstep(3), c_int32_t), message,
+     &    capacity)
+      else
+        status = toron_abaqus_umat_tangent_f64(stress, statev, ddsdde,
+     &    sse, pnewdt, dfgrd1, props, int(nprops, c_int32_t),
+     &    int(nstatv, c_int32_t), int(ndi, c_int32_t),
+     &    int(nshr, c_int32_t), int(jstep(3), c_int32_t), message,
+     &    capacity)
+      end if
 !     Below -300 the point is at fault, and the library has lowered
 !     PNEWDT; above, the deck is.
       if (status < 0 .and. status > -300) call refuse

@@ -1,8 +1,13 @@
-! VUMAT of Abaqus/Explicit for the hyperelastic yarn law of libtoron:
+! VUMAT of Abaqus/Explicit for the laws of libtoron:
 ! jobs in double precision (double=both).
 !
-! Solids (NDIR = 3, NSHR = 3); 11 or more state variables, 11
-! properties, *DEPVAR, DELETE=11: see docs.
+! A material with 10 properties and 10 state variables has the linear
+! elastic law, every other one the hyperelastic yarn law: 11 properties
+! and 11 or more state variables. One job may have both.
+!
+! Solids (NDIR = 3; NSHR = 3, or 1 for plane strain and axisymmetric
+! ones); *DEPVAR, DELETE=11, for the linear elastic law DELETE=10: see
+! docs.
 !
 ! Fixed form: statements in columns 7 to 72, continued in column 6, and
 ! nothing beyond. Compile it as .f; free form is not supported.
@@ -48,6 +53,14 @@
       character(kind=c_char, len=capacity) :: message
 
       interface
+        function toron_abaqus_linear_vumat_f64(block, message,
+     &    capacity) bind(c) result(status)
+          import :: arguments, c_char, c_int32_t, c_size_t
+          type(arguments), target, intent(in) :: block
+          character(kind=c_char), intent(inout) :: message(*)
+          integer(c_size_t), value :: capacity
+          integer(c_int32_t) :: status
+        end function
         function toron_abaqus_vumat_f64(block, message, capacity)
      &    bind(c) result(status)
           import :: arguments, c_char, c_int32_t, c_size_t
@@ -82,7 +95,12 @@
       block%state_new = c_loc(statenew)
       block%ener_intern_new = c_loc(enerinternnew)
       block%ener_inelas_new = c_loc(enerinelasnew)
-      status = toron_abaqus_vumat_f64(block, message, capacity)
+      if (nprops == 10 .and. nstatev == 10) then
+        status = toron_abaqus_linear_vumat_f64(block, message,
+     &    capacity)
+      else
+        status = toron_abaqus_vumat_f64(block, message, capacity)
+      end if
 !     Below -300 a point is at fault, and the library has deleted it;
 !     above, the deck is.
       if (status < 0 .and. status > -300) call refuse

@@ -431,8 +431,16 @@ module toron
     procedure toron_abaqus_umat_f64
   end interface
 
+  interface toron_abaqus_linear_umat
+    procedure toron_abaqus_linear_umat_f64
+  end interface
+
   interface toron_abaqus_vumat
     procedure toron_abaqus_vumat_f64, toron_abaqus_vumat_f32
+  end interface
+
+  interface toron_abaqus_linear_vumat
+    procedure toron_abaqus_linear_vumat_f64, toron_abaqus_linear_vumat_f32
   end interface
 
   interface toron_lsdyna_umat
@@ -453,6 +461,26 @@ module toron
 
   interface toron_lsdyna_bulk_and_shear
     procedure toron_lsdyna_bulk_and_shear_f64
+  end interface
+
+  interface toron_lsdyna_linear_umat
+    procedure toron_lsdyna_linear_umat_f64, toron_lsdyna_linear_umat_f32
+  end interface
+
+  interface toron_lsdyna_linear_umat_vector
+    procedure toron_lsdyna_linear_umat_vector_f64, toron_lsdyna_linear_umat_vector_f32
+  end interface
+
+  interface toron_lsdyna_linear_utan
+    procedure toron_lsdyna_linear_utan_f64, toron_lsdyna_linear_utan_f32
+  end interface
+
+  interface toron_lsdyna_linear_utan_vector
+    procedure toron_lsdyna_linear_utan_vector_f64, toron_lsdyna_linear_utan_vector_f32
+  end interface
+
+  interface toron_lsdyna_linear_bulk_and_shear
+    procedure toron_lsdyna_linear_bulk_and_shear_f64
   end interface
 
   interface toron_openradioss_lecm
@@ -1228,6 +1256,34 @@ contains
     call end_message(status, message)
   end function
 
+  function toron_abaqus_linear_umat_f64(stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, &
+    ndi, nshr, nlgeom, message) result(status)
+    real(c_double), intent(inout) :: stress(*), statev(*)
+    real(c_double), intent(inout), optional :: ddsdde(*)
+    real(c_double), intent(inout) :: sse, pnewdt
+    real(c_double), intent(in) :: dfgrd0(*), dfgrd1(*), props(*)
+    integer(c_int32_t), intent(in) :: nprops, nstatv, ndi, nshr, nlgeom
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_linear_umat_f64(stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, &
+        ndi, nshr, nlgeom, message, capacity) bind(c, name='toron_abaqus_linear_umat_f64') result(status)
+        import
+        real(c_double), intent(inout) :: stress(*), statev(*)
+        real(c_double), intent(inout), optional :: ddsdde(*)
+        real(c_double), intent(inout) :: sse, pnewdt
+        real(c_double), intent(in) :: dfgrd0(*), dfgrd1(*), props(*)
+        integer(c_int32_t), value :: nprops, nstatv, ndi, nshr, nlgeom
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_linear_umat_f64(stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, &
+      ndi, nshr, nlgeom, message, room(message))
+    call end_message(status, message)
+  end function
+
   function toron_abaqus_vumat_f64(block, message) result(status)
     type(toron_vumat_f64), target, intent(in) :: block
     character(*), intent(out), optional :: message
@@ -1259,6 +1315,42 @@ contains
       end function
     end interface
     status = c_abaqus_vumat_f32(block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_abaqus_linear_vumat_f64(block, message) result(status)
+    type(toron_vumat_f64), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_linear_vumat_f64(block, message, &
+        capacity) bind(c, name='toron_abaqus_linear_vumat_f64') result(status)
+        import
+        type(toron_vumat_f64), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_linear_vumat_f64(block, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_abaqus_linear_vumat_f32(block, message) result(status)
+    type(toron_vumat_f32), target, intent(in) :: block
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_abaqus_linear_vumat_f32(block, message, &
+        capacity) bind(c, name='toron_abaqus_linear_vumat_f32') result(status)
+        import
+        type(toron_vumat_f32), target, intent(in) :: block
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_abaqus_linear_vumat_f32(block, message, room(message))
     call end_message(status, message)
   end function
 
@@ -1468,6 +1560,216 @@ contains
       end function
     end interface
     status = c_lsdyna_bulk_and_shear_f64(values, size(values, kind=c_size_t), bulk, shear, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_umat_f64(cm, sig, hsv, nhv, failel, message) result(status)
+    real(c_double), intent(in) :: cm(*)
+    real(c_double), intent(inout) :: sig(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    integer(c_int), intent(inout) :: failel
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_umat_f64(cm, sig, hsv, nhv, failel, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_umat_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*)
+        real(c_double), intent(inout) :: sig(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        integer(c_int), intent(inout) :: failel
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_umat_f64(cm, sig, hsv, nhv, failel, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_umat_f32(cm, sig, hsv, nhv, failel, message) result(status)
+    real(c_float), intent(in) :: cm(*)
+    real(c_float), intent(inout) :: sig(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    integer(c_int), intent(inout) :: failel
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_umat_f32(cm, sig, hsv, nhv, failel, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_umat_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*)
+        real(c_float), intent(inout) :: sig(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        integer(c_int), intent(inout) :: failel
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_umat_f32(cm, sig, hsv, nhv, failel, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+    failels, message) result(status)
+    real(c_double), intent(in) :: cm(*)
+    real(c_double), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    integer(c_int), intent(inout) :: failels(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+        failels, message, capacity) bind(c, name='toron_lsdyna_linear_umat_vector_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*)
+        real(c_double), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        integer(c_int), intent(inout) :: failels(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_umat_vector_f64(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+      failels, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+    failels, message) result(status)
+    real(c_float), intent(in) :: cm(*)
+    real(c_float), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    integer(c_int), intent(inout) :: failels(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+        failels, message, capacity) bind(c, name='toron_lsdyna_linear_umat_vector_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*)
+        real(c_float), intent(inout) :: sig1(*), sig2(*), sig3(*), sig4(*), sig5(*), sig6(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        integer(c_int), intent(inout) :: failels(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_umat_vector_f32(cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, &
+      failels, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_utan_f64(cm, hsv, nhv, es, message) result(status)
+    real(c_double), intent(in) :: cm(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    real(c_double), intent(inout) :: es(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_utan_f64(cm, hsv, nhv, es, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_utan_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        real(c_double), intent(inout) :: es(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_utan_f64(cm, hsv, nhv, es, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_utan_f32(cm, hsv, nhv, es, message) result(status)
+    real(c_float), intent(in) :: cm(*), hsv(*)
+    integer(c_int32_t), intent(in) :: nhv
+    real(c_float), intent(inout) :: es(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_utan_f32(cm, hsv, nhv, es, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_utan_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*), hsv(*)
+        integer(c_int32_t), value :: nhv
+        real(c_float), intent(inout) :: es(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_utan_f32(cm, hsv, nhv, es, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message) result(status)
+    real(c_double), intent(in) :: cm(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    real(c_double), intent(inout) :: dsave(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_utan_vector_f64') result(status)
+        import
+        real(c_double), intent(in) :: cm(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        real(c_double), intent(inout) :: dsave(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message) result(status)
+    real(c_float), intent(in) :: cm(*), hsvs(*)
+    integer(c_int32_t), intent(in) :: nhv, lft, llt, nlq
+    real(c_float), intent(inout) :: dsave(*)
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_utan_vector_f32') result(status)
+        import
+        real(c_float), intent(in) :: cm(*), hsvs(*)
+        integer(c_int32_t), value :: nhv, lft, llt, nlq
+        real(c_float), intent(inout) :: dsave(*)
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, room(message))
+    call end_message(status, message)
+  end function
+
+  function toron_lsdyna_linear_bulk_and_shear_f64(values, bulk, shear, message) result(status)
+    real(c_double), intent(in), contiguous :: values(:)
+    real(c_double), intent(inout) :: bulk, shear
+    character(*), intent(out), optional :: message
+    integer(c_int32_t) :: status
+    interface
+      function c_lsdyna_linear_bulk_and_shear_f64(values, count, bulk, shear, message, &
+        capacity) bind(c, name='toron_lsdyna_linear_bulk_and_shear_f64') result(status)
+        import
+        real(c_double), intent(in) :: values(*)
+        integer(c_size_t), value :: count
+        real(c_double), intent(inout) :: bulk, shear
+        character(kind=c_char), intent(inout), optional :: message(*)
+        integer(c_size_t), value :: capacity
+        integer(c_int32_t) :: status
+      end function
+    end interface
+    status = c_lsdyna_linear_bulk_and_shear_f64(values, size(values, kind=c_size_t), bulk, shear, message, &
+      room(message))
     call end_message(status, message)
   end function
 

@@ -1036,7 +1036,7 @@ typedef struct toron_linear_block_f32 {
 } toron_linear_block_f32;
 
 /*
- The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
+ The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
 typedef struct toron_vumat_f64 {
   /*
@@ -1044,8 +1044,8 @@ typedef struct toron_vumat_f64 {
    */
   size_t size;
   /*
-   Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
-   (11).
+   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids), of state
+   variables (≥ 11, linear law ≥ 10) and of properties (11, linear law 10).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1070,7 +1070,7 @@ typedef struct toron_vumat_f64 {
    */
   const double *density;
   /*
-   In, 6: increment of strain, tensor components; read in the data check only.
+   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
    */
   const double *strain_inc;
   /*
@@ -1095,7 +1095,7 @@ typedef struct toron_vumat_f64 {
 } toron_vumat_f64;
 
 /*
- The arguments of a VUMAT that the law uses, stored as in Abaqus: arrays are (nblock, components), column-major.
+ The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
  */
 typedef struct toron_vumat_f32 {
   /*
@@ -1103,8 +1103,8 @@ typedef struct toron_vumat_f32 {
    */
   size_t size;
   /*
-   Numbers of points, of direct components (3), of shear components (3), of state variables (≥ 11) and of properties
-   (11).
+   Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids), of state
+   variables (≥ 11, linear law ≥ 10) and of properties (11, linear law 10).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1129,7 +1129,7 @@ typedef struct toron_vumat_f32 {
    */
   const float *density;
   /*
-   In, 6: increment of strain, tensor components; read in the data check only.
+   In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
    */
   const float *strain_inc;
   /*
@@ -1550,6 +1550,32 @@ int32_t toron_abaqus_umat_f64(double *stress,
                               size_t capacity);
 
 /*
+ The linear elastic law as a UMAT of Abaqus/Standard.
+
+ The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
+ `nprops` = 10. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
+ symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
+ lie in the plane or normal to it.
+
+ Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be integrated.
+ */
+int32_t toron_abaqus_linear_umat_f64(double *stress,
+                                     double *statev,
+                                     double *ddsdde,
+                                     double *sse,
+                                     double *pnewdt,
+                                     const double *dfgrd0,
+                                     const double *dfgrd1,
+                                     const double *props,
+                                     int32_t nprops,
+                                     int32_t nstatv,
+                                     int32_t ndi,
+                                     int32_t nshr,
+                                     int32_t nlgeom,
+                                     char *message,
+                                     size_t capacity);
+
+/*
  The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 
  `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
@@ -1569,6 +1595,19 @@ int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block,
  As `toron_abaqus_vumat_f64`, for jobs in single precision.
  */
 int32_t toron_abaqus_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
+
+/*
+ The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 10 properties
+ and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at both ends of the increment.
+ */
+int32_t toron_abaqus_linear_vumat_f64(const struct toron_vumat_f64 *block,
+                                      char *message,
+                                      size_t capacity);
+
+/*
+ As `toron_abaqus_linear_vumat_f64`, for jobs in single precision.
+ */
+int32_t toron_abaqus_linear_vumat_f32(const struct toron_vumat_f32 *block, char *message, size_t capacity);
 
 /*
  The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
@@ -1719,6 +1758,132 @@ int32_t toron_lsdyna_bulk_and_shear_f64(const double *values,
                                         double *shear,
                                         char *message,
                                         size_t capacity);
+
+/*
+ The linear elastic law as a scalar user material of LS-DYNA, in double precision.
+
+ As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10 state variables
+ and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in. The material axes follow the
+ fibre, and the largest principal stress is compared with σ_lim.
+ */
+int32_t toron_lsdyna_linear_umat_f64(const double *cm,
+                                     double *sig,
+                                     double *hsv,
+                                     int32_t nhv,
+                                     int *failel,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_lsdyna_linear_umat_f64`, in single precision.
+ */
+int32_t toron_lsdyna_linear_umat_f32(const float *cm,
+                                     float *sig,
+                                     float *hsv,
+                                     int32_t nhv,
+                                     int *failel,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
+ (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
+ */
+int32_t toron_lsdyna_linear_umat_vector_f64(const double *cm,
+                                            double *sig1,
+                                            double *sig2,
+                                            double *sig3,
+                                            double *sig4,
+                                            double *sig5,
+                                            double *sig6,
+                                            double *hsvs,
+                                            int32_t nhv,
+                                            int32_t lft,
+                                            int32_t llt,
+                                            int32_t nlq,
+                                            int *failels,
+                                            char *message,
+                                            size_t capacity);
+
+/*
+ As `toron_lsdyna_linear_umat_vector_f64`, in single precision.
+ */
+int32_t toron_lsdyna_linear_umat_vector_f32(const float *cm,
+                                            float *sig1,
+                                            float *sig2,
+                                            float *sig3,
+                                            float *sig4,
+                                            float *sig5,
+                                            float *sig6,
+                                            float *hsvs,
+                                            int32_t nhv,
+                                            int32_t lft,
+                                            int32_t llt,
+                                            int32_t nlq,
+                                            int *failels,
+                                            char *message,
+                                            size_t capacity);
+
+/*
+ The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
+ `hsv` of `toron_lsdyna_linear_umat_f64`.
+
+ It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric part.
+ */
+int32_t toron_lsdyna_linear_utan_f64(const double *cm,
+                                     const double *hsv,
+                                     int32_t nhv,
+                                     double *es,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_lsdyna_linear_utan_f64`, in single precision.
+ */
+int32_t toron_lsdyna_linear_utan_f32(const float *cm,
+                                     const float *hsv,
+                                     int32_t nhv,
+                                     float *es,
+                                     char *message,
+                                     size_t capacity);
+
+/*
+ As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
+ (`nlq`, 28).
+ */
+int32_t toron_lsdyna_linear_utan_vector_f64(const double *cm,
+                                            const double *hsvs,
+                                            int32_t nhv,
+                                            int32_t lft,
+                                            int32_t llt,
+                                            int32_t nlq,
+                                            double *dsave,
+                                            char *message,
+                                            size_t capacity);
+
+/*
+ As `toron_lsdyna_linear_utan_vector_f64`, in single precision.
+ */
+int32_t toron_lsdyna_linear_utan_vector_f32(const float *cm,
+                                            const float *hsvs,
+                                            int32_t nhv,
+                                            int32_t lft,
+                                            int32_t llt,
+                                            int32_t nlq,
+                                            float *dsave,
+                                            char *message,
+                                            size_t capacity);
+
+/*
+ As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K + 4G/3 is the largest of
+ E1, E2 and 2G.
+ */
+int32_t toron_lsdyna_linear_bulk_and_shear_f64(const double *values,
+                                               size_t count,
+                                               double *bulk,
+                                               double *shear,
+                                               char *message,
+                                               size_t capacity);
 
 /*
  The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.

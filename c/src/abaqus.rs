@@ -69,6 +69,42 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     }
 }
 
+/// The linear elastic law as a UMAT of Abaqus/Standard.
+///
+/// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
+/// `nprops` = 10. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
+/// symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
+/// lie in the plane or normal to it.
+///
+/// Returns as `toron_abaqus_umat_tangent_f64` does, and `TORON_INCREMENT_TOO_LARGE` for a step that cannot be integrated.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd0: *const f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::abaqus::linear_umat_f64(
+            stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
+            capacity,
+        )
+    }
+}
+
 /// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
 ///
 /// `block` holds the VUMAT's arguments; their shapes are given in `toron_vumat_f64`. All pointers are the caller's and not
@@ -98,4 +134,27 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f32(
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe { toron::host::abaqus::vumat_f32(block, message, capacity) }
+}
+
+/// The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 10 properties
+/// and 10 state variables or more, of which number 10, "alive", deletes the element. It reads U at both ends of the increment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_linear_vumat_f64(
+    block: *const Vumat<f64>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::abaqus::linear_vumat_f64(block, message, capacity) }
+}
+
+/// As `toron_abaqus_linear_vumat_f64`, for jobs in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_abaqus_linear_vumat_f32(
+    block: *const Vumat<f32>,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::abaqus::linear_vumat_f32(block, message, capacity) }
 }

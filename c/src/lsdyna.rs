@@ -199,3 +199,175 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     // SAFETY: the caller's promise.
     unsafe { toron::host::lsdyna::bulk_and_shear_f64(values, count, bulk, shear, message, capacity) }
 }
+
+/// The linear elastic law as a scalar user material of LS-DYNA, in double precision.
+///
+/// As `toron_lsdyna_umat_f64`, with `cm`: at least 10 values, the properties; `hsv`: `nhv` = 19 variables, the law's 10 state variables
+/// and the 9 entries of F of the last step by columns, in and out, followed by the 9 entries of F, in. The material axes follow the
+/// fibre, and the largest principal stress is compared with σ_lim.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_umat_f64(
+    cm: *const f64,
+    sig: *mut f64,
+    hsv: *mut f64,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_umat_f64(cm, sig, hsv, nhv, failel, message, capacity) }
+}
+
+/// As `toron_lsdyna_linear_umat_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_umat_f32(
+    cm: *const f32,
+    sig: *mut f32,
+    hsv: *mut f32,
+    nhv: i32,
+    failel: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_umat_f32(cm, sig, hsv, nhv, failel, message, capacity) }
+}
+
+/// The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
+/// (`nlq`, 28), ordered as `hsv` of `toron_lsdyna_linear_umat_f64`.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f64(
+    cm: *const f64,
+    sig1: *mut f64,
+    sig2: *mut f64,
+    sig3: *mut f64,
+    sig4: *mut f64,
+    sig5: *mut f64,
+    sig6: *mut f64,
+    hsvs: *mut f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::lsdyna::linear_umat_vector_f64(
+            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
+        )
+    }
+}
+
+/// As `toron_lsdyna_linear_umat_vector_f64`, in single precision.
+#[unsafe(no_mangle)]
+#[allow(clippy::too_many_arguments)]
+pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f32(
+    cm: *const f32,
+    sig1: *mut f32,
+    sig2: *mut f32,
+    sig3: *mut f32,
+    sig4: *mut f32,
+    sig5: *mut f32,
+    sig6: *mut f32,
+    hsvs: *mut f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    failels: *mut c_int,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        toron::host::lsdyna::linear_umat_vector_f32(
+            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
+        )
+    }
+}
+
+/// The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
+/// `hsv` of `toron_lsdyna_linear_umat_f64`.
+///
+/// It is that of a further, infinitesimal step from the state that the material routine has written, its symmetric part.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_utan_f64(
+    cm: *const f64,
+    hsv: *const f64,
+    nhv: i32,
+    es: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_utan_f64(cm, hsv, nhv, es, message, capacity) }
+}
+
+/// As `toron_lsdyna_linear_utan_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_utan_f32(
+    cm: *const f32,
+    hsv: *const f32,
+    nhv: i32,
+    es: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_utan_f32(cm, hsv, nhv, es, message, capacity) }
+}
+
+/// As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
+/// (`nlq`, 28).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f64(
+    cm: *const f64,
+    hsvs: *const f64,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+}
+
+/// As `toron_lsdyna_linear_utan_vector_f64`, in single precision.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f32(
+    cm: *const f32,
+    hsvs: *const f32,
+    nhv: i32,
+    lft: i32,
+    llt: i32,
+    nlq: i32,
+    dsave: *mut f32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+}
+
+/// As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K + 4G/3 is the largest of
+/// E1, E2 and 2G.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
+    values: *const f64,
+    count: usize,
+    bulk: *mut f64,
+    shear: *mut f64,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { toron::host::lsdyna::linear_bulk_and_shear_f64(values, count, bulk, shear, message, capacity) }
+}

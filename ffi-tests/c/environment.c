@@ -9,6 +9,7 @@
 #define _GNU_SOURCE /* sigaction, fork, feenableexcept */
 #include "environment_hosts.h"
 #include "environment_laws.h"
+#include "environment_linear_hosts.h"
 #include "environment_mgis.h"
 
 /* ---- All of them */
@@ -32,6 +33,8 @@ static const struct {
     {"toron_abaqus_umat_f64", abaqus_umat},
     {"toron_abaqus_umat_tangent_f64", abaqus_umat_tangent},
     {"toron_lsdyna_bulk_and_shear_f64", lsdyna_bulk_and_shear},
+    {"toron_abaqus_linear_umat_f64", abaqus_linear_umat},
+    {"toron_lsdyna_linear_bulk_and_shear_f64", lsdyna_linear_bulk_and_shear},
 #endif
     {IN_BOTH(toron_preset), preset},
     {IN_BOTH(toron_hyperelastic_prepare), hyperelastic_prepare},
@@ -51,6 +54,11 @@ static const struct {
     {IN_BOTH(toron_lsdyna_utan), lsdyna_utan},
     {IN_BOTH(toron_lsdyna_umat_vector), lsdyna_umat_vector},
     {IN_BOTH(toron_lsdyna_utan_vector), lsdyna_utan_vector},
+    {IN_BOTH(toron_abaqus_linear_vumat), abaqus_linear_vumat},
+    {IN_BOTH(toron_lsdyna_linear_umat), lsdyna_linear_umat},
+    {IN_BOTH(toron_lsdyna_linear_utan), lsdyna_linear_utan},
+    {IN_BOTH(toron_lsdyna_linear_umat_vector), lsdyna_linear_umat_vector},
+    {IN_BOTH(toron_lsdyna_linear_utan_vector), lsdyna_linear_utan_vector},
     {IN_BOTH(toron_openradioss_lecm), openradioss_lecm},
     {IN_BOTH(toron_openradioss_listing), openradioss_listing},
     {IN_BOTH(toron_openradioss_luser), openradioss_luser},
@@ -61,7 +69,9 @@ static const struct {
     {"ToronLinearElastic_Tridimensional", mgis_linear_elastic},
     {"ToronLinearElastic_PlaneStrain", mgis_linear_elastic_in_plane_strain},
     {"ToronLinearElastic_Axisymmetrical", mgis_linear_elastic_of_revolution},
-    {"HYPERELASTIC", calculix}, /* the last one, since it may end the process */
+    /* The last ones, since they may end the process. */
+    {"HYPERELASTIC", calculix},
+    {"LINEARELASTIC", calculix_linear},
 #endif
 };
 

@@ -93,7 +93,9 @@ static void abaqus_vumat(void)
             CALL(VUMAT(&block, MESSAGE));
         }
         toron_vumat wrong = block;
-        wrong.nshr = 1;
+        wrong.nshr = 1; /* plane elements: right where the fibre is in the plane */
+        CALL(VUMAT(&wrong, MESSAGE));
+        wrong = block, wrong.nshr = 2;
         CALL(VUMAT(&wrong, MESSAGE));
         wrong = block, wrong.nprops = 3;
         CALL(VUMAT(&wrong, MESSAGE));
@@ -298,38 +300,45 @@ static void lsdyna_bulk_and_shear(void)
     }
 }
 
-/* ---- CalculiX, which finds its entry by name. An error in the deck ends the process. */
+/* ---- CalculiX, which finds its entries by name. An error in the deck ends the process. */
 
-void HYPERELASTIC(const char *amat, const int32_t *iel, const int32_t *iint, const int32_t *kode, const double *elconloc,
-                  const double *emec, const double *emec0, const double *beta, const double *xokl, const double *voj,
-                  const double *xkl, const double *vj, const int32_t *ithermal, const double *t1l, const double *dtime,
-                  const double *time, const double *ttime, const int32_t *icmd, const int32_t *ielas, const int32_t *mi,
-                  const int32_t *nstate, const double *xstateini, double *xstate, double *stre, double *stiff,
-                  const int32_t *iorien, const double *pgauss, const double *orab, double *pnewdt, const int32_t *ipkon,
-                  int32_t amat_length);
+typedef void behaviour(const char *amat, const int32_t *iel, const int32_t *iint, const int32_t *kode, const double *elconloc,
+                       const double *emec, const double *emec0, const double *beta, const double *xokl, const double *voj,
+                       const double *xkl, const double *vj, const int32_t *ithermal, const double *t1l, const double *dtime,
+                       const double *time, const double *ttime, const int32_t *icmd, const int32_t *ielas, const int32_t *mi,
+                       const int32_t *nstate, const double *xstateini, double *xstate, double *stre, double *stiff,
+                       const int32_t *iorien, const double *pgauss, const double *orab, double *pnewdt, const int32_t *ipkon,
+                       int32_t amat_length);
+extern behaviour HYPERELASTIC, LINEARELASTIC;
 
 typedef struct {
+    behaviour *law;
     char name[80];
     int32_t kode, state_count, orientation;
     double *yarn, *strain, *initial_stress, *f, *old, *new, *stress, *stiffness, *orab, *place, *pnewdt;
 } deck;
 
 #define CALCULIX(d)                                                                                                        \
-    HYPERELASTIC((d)->name, &one, &one, &(d)->kode, (d)->yarn, (d)->strain, unused, (d)->initial_stress, unused, unused,   \
+    (d)->law((d)->name, &one, &one, &(d)->kode, (d)->yarn, (d)->strain, unused, (d)->initial_stress, unused, unused,   \
                  (d)->f, unused, &zero, unused, unused, unused, unused, &zero, &zero, &one, &(d)->state_count, (d)->old,   \
                  (d)->new, (d)->stress, (d)->stiffness, &(d)->orientation, (d)->place, (d)->orab, (d)->pnewdt, &zero, 80)
 static const int32_t one = 1, zero = 0;
 static const double unused[9] = {0};
 
-static deck new_deck(size_t yarn, size_t f, size_t state)
+static deck new_deck(int linear, size_t yarn, size_t f, size_t state)
 {
     const double nowhere[3] = {1, 2, 3}, axes[7] = {1, 1, 0, 0, 2, 1, 1};
-    deck d = {.kode = -100 - PROPERTIES, .state_count = STATE, .yarn = given(yarns[yarn], PROPERTIES),
+    const int properties = linear ? LINEAR : PROPERTIES, variables = linear ? LINEAR_STATE + 9 : STATE;
+    deck d = {.law = linear ? LINEARELASTIC : HYPERELASTIC, .kode = -100 - properties, .state_count = variables,
+              .yarn = linear ? given(linear_yarns[yarn], LINEAR) : given(yarns[yarn], PROPERTIES),
               .strain = reals(6), .initial_stress = filled(0, 6), .f = given(deformations[f], 9),
-              .old = given(states[state], STATE), .new = reals(STATE), .stress = reals(6), .stiffness = reals(21),
+              .old = filled(0, (size_t)variables), .new = reals((size_t)variables), .stress = reals(6), .stiffness = reals(21),
               .orab = given(axes, 7), .place = given(nowhere, 3),
               .pnewdt = given(&time_increments[(yarn + f) % COUNT(time_increments)], 1)};
     memset(d.name, ' ', sizeof d.name);
+    /* F of the last increment stays 0, as at the start. */
+    memcpy(d.old, linear ? given(linear_states[state], LINEAR_STATE) : given(states[state], STATE),
+           (linear ? LINEAR_STATE : STATE) * sizeof(real));
     /* Lagrange's, as in an analysis with NLGEOM: 11 22 33 12 13 23. */
     const int first[6] = {0, 1, 2, 0, 0, 1}, second[6] = {0, 1, 2, 1, 2, 2};
     for (int c = 0; c < 6; c++) {
@@ -352,12 +361,13 @@ static void at_exit(void)
 }
 
 /* What a deck may have wrong ends the process, with CalculiX's code, and not by SIGFPE. */
-static void calculix_refuses(void)
+static void calculix_refuses(int linear)
 {
+    const size_t bad_yarn = linear ? GOOD_LINEAR_YARNS : GOOD_YARNS, bad_state = linear ? 5 : 6;
     enum { EXIT_CODE = 201, ERRORS = 8 };
     for (int error = 0; error < ERRORS; error++)
         for (where = 0; where < environment_count; where++) {
-            deck d = new_deck(error == 0 ? GOOD_YARNS : 0, 3, error == 1 ? 6 : 0);
+            deck d = new_deck(linear, error == 0 ? bad_yarn : 0, 3, error == 1 ? bad_state : 0);
             d.state_count -= error == 2;
             d.kode += error == 3;
             put(&d.initial_stress[2], error == 4 ? 0.5 : error == 5 ? SIGNALLING : error == 6 ? SUBNORMAL : 0);
@@ -387,20 +397,31 @@ static void calculix_refuses(void)
         }
 }
 
-static void calculix(void)
+static void calculix_law(int linear)
 {
     enum { STATES = 5, ORIENTATIONS = 3 }; /* another state is an error in the deck */
-    for (size_t next = 0; next < GOOD_YARNS * DEFORMATIONS * STATES * ORIENTATIONS; next += stride) {
+    const size_t good = linear ? GOOD_LINEAR_YARNS : GOOD_YARNS;
+    for (size_t next = 0; next < good * DEFORMATIONS * STATES * ORIENTATIONS; next += stride) {
         size_t rest = next, orientation = rest % ORIENTATIONS, state = (rest /= ORIENTATIONS) % STATES;
         size_t f = (rest /= STATES) % DEFORMATIONS, y = rest / DEFORMATIONS;
-        deck d = new_deck(y, f, state);
+        deck d = new_deck(linear, y, f, state);
         d.orientation = orientation > 0;
         d.orab[6] = orientation == 1 ? 1 : -1; /* rectangular, cylindrical */
         ARGUMENTS("yarn %zu, F %zu, old state %zu, orientation %zu", y, f, state, orientation);
-        RUN("HYPERELASTIC()", CALCULIX(&d); answer = 0);
+        RUN(linear ? "LINEARELASTIC()" : "HYPERELASTIC()", CALCULIX(&d); answer = 0);
         release();
     }
-    calculix_refuses();
+    calculix_refuses(linear);
+}
+
+static void calculix(void)
+{
+    calculix_law(0);
+}
+
+static void calculix_linear(void)
+{
+    calculix_law(1);
 }
 #endif
 

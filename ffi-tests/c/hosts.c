@@ -243,7 +243,6 @@ static void lsdyna_moduli(void)
 #define VUMAT ENTRY(toron_abaqus_vumat)
 #define NDIR_TEXT "direct stress components, NDIR (solids only): "
 #define NDI_TEXT "direct stress components, NDI (solids only): "
-#define VUMAT_NSHR_TEXT "shear stress components, NSHR (solids only): "
 #define NSHR_TEXT "shear stress components, NSHR (1 for plane strain and axisymmetric solids): "
 #define DEPVAR_TEXT "number of state variables (*DEPVAR): "
 enum { VUMAT_STATE = STATE + 2 };
@@ -388,8 +387,8 @@ static void vumat_wrong_calls(void)
 {
     const toron_vumat good = vumat_block(cases, 1).block;
     toron_vumat block = good;
-    block.nshr = 1;
-    vumat_refused(block, TORON_BAD_COUNT, VUMAT_NSHR_TEXT "1 given, 3 needed");
+    block.nshr = 2;
+    vumat_refused(block, TORON_BAD_COUNT, NSHR_TEXT "2 given, 3 needed");
     block = good, block.ndir = 2;
     vumat_refused(block, TORON_BAD_COUNT, NDIR_TEXT "2 given, 3 needed");
     block = good, block.nblock = -1;

@@ -1,4 +1,4 @@
-! The shims lsdyna_umat41.f, lsdyna_umat41v.f, lsdyna_utan41.f and lsdyna_utan41v.f, called as LS-DYNA does, with the
+! The shims lsdyna_umat.F, lsdyna_umatv.F, lsdyna_utan.F and lsdyna_utanv.F, called as LS-DYNA does, with the
 ! default kinds of the build.
 program lsdyna_test
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int64_t
@@ -115,7 +115,7 @@ contains
     zero = 0
     nnpcrv = 0
     reject = .false.
-    call umat41(cm, zero, stress, zero, hsv, zero, zero, 'solid', zero, zero, failel, zero, nnpcrv, zero, zero, zero, &
+    call umat41(cm, zero, stress, zero, hsv, zero, zero, 'solid', 1.0, zero, failel, zero, nnpcrv, zero, zero, zero, &
       1_c_int64_t, reject)
     call check(.not. reject, 'reject', 0)
   end subroutine
@@ -129,7 +129,7 @@ contains
     nnpcrv = 0
     unsym = .false.
     failel = .false.
-    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', zero, zero, es, zero, nnpcrv, failel, zero, zero)
+    call utan41(cm, zero, zero, zero, hsv, zero, unsym, zero, 'solid', 1.0, zero, es, zero, nnpcrv, failel, zero, zero)
     call check(.not. unsym .and. .not. failel, 'unsym, failel', 0)
   end subroutine
 
@@ -159,7 +159,7 @@ contains
     nnpcrv = 0
     reject = .false.
     call umat41v(cm, zero, zero, zero, zero, zero, zero, sig(:, 1), sig(:, 2), sig(:, 3), sig(:, 4), sig(:, 5), &
-      sig(:, 6), zero, hsvs, before + 1, before + n, zero, zero, 'solid', zero, zero, failels, nlq, zero, nnpcrv, zero, &
+      sig(:, 6), zero, hsvs, before + 1, before + n, zero, zero, 'solid', 1.0, zero, failels, nlq, zero, nnpcrv, zero, &
       zero, zero, idelev, reject)
     call check(all(sig(:before, :) == mark) .and. all(sig(before + n + 1:, :) == mark), 'sig outside', first)
     call check(all(hsvs(:before, :) == mark) .and. all(hsvs(before + n + 1:, :) == mark), 'hsvs outside', first)
@@ -206,7 +206,7 @@ contains
     nnpcrv = 0
     unsym = .false.
     call utan41v(cm, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, hsvs, unsym, &
-      before + 1, before + n, zero, zero, 'solid', zero, zero, dsave, nlq, zero, nnpcrv, failels, zero, zero)
+      before + 1, before + n, zero, zero, 'solid', 1.0, zero, dsave, nlq, zero, nnpcrv, failels, zero, zero)
     call check(.not. unsym, 'unsym', first)
   end subroutine
 

@@ -499,7 +499,7 @@ contains
       ener_intern_new=c_loc(single_energy(1)), ener_inelas_new=c_loc(single_energy(2)))
     call check(toron_abaqus_vumat(single) == toron_status_ok, 'vumat in single precision', 0)
     call check(abs(single_stress(1) / real(stress(1), c_float) - 1) < 1e-5, 'vumat in single precision', 0)
-    block%nshr = 1
+    block%nshr = 2
     call check(toron_abaqus_vumat(block, message) == toron_status_bad_count, message, 0)
     call check(index(message, 'NSHR') > 0, message, 0)
   end subroutine

@@ -10,7 +10,7 @@ program umat_test
   ! With room around what the routine may touch.
   real(c_double) :: stress(1 - guard:6 + guard), statev(1 - guard:12 + guard), ddsdde(1 - guard:36 + guard)
   real(c_double) :: sse(1 - guard:1 + guard), pnewdt(1 - guard:1 + guard)
-  real(c_double) :: props(11), f(9)
+  real(c_double) :: props(11), f(9), f_old(9)
   integer :: nlgeom
   integer :: i
 
@@ -60,6 +60,7 @@ program umat_test
   props(9:11) = real([0.6, 0.0, 0.8], c_double)
   call refused('neither in the plane', 11, 12, 1)
   call check_written(7, 'material FIBRE:')
+  call linear
   call finish
 
 contains
@@ -76,6 +77,37 @@ contains
     call check(all(four == stress(1:4)) .and. all(matrix == six(1:4, 1:4)), 'of the six', t%id)
   end subroutine
 
+  ! Ten properties and ten state variables: the linear elastic law, which reads F at the start of the increment too. Along the
+  ! fibre its stress is E1 ln(lambda), whatever the increments are.
+  subroutine linear
+    real(c_double), parameter :: stretches(3) = [1.0_c_double, 1.01_c_double, 1.03_c_double]
+    real(c_double) :: along
+    integer :: step, shear
+    stops = 0
+    do shear = 3, 1, -2
+      call prepare(table(1))
+      props(1:10) = [79414.0_c_double, 794.0_c_double, 126.0_c_double, 0.0_c_double, 0.0_c_double, 2.0_c_double, 0.0_c_double, &
+        0.0_c_double, 0.0_c_double, 0.0_c_double]
+      do step = 1, 2
+        f_old = [1, 0, 0, 0, 1, 0, 0, 0, 1]
+        f = f_old
+        f_old(5) = stretches(step)
+        f(5) = stretches(step + 1)
+        call call_umat(10, 10, 3, shear)
+        along = 79414 * log(stretches(step + 1))
+        call check(abs(stress(2) - along) < 1e-12_c_double * along, 'linear: stress', step)
+        call check(all(abs(stress([1, 3, 4])) < 1e-12_c_double * along), 'linear: other stress', step)
+        call check(abs(ddsdde(shear + 5) - 79414 - along) < 1e-9_c_double * along, 'linear: DDSDDE', step)
+        call check(abs(statev(8) - 0.5_c_double * along * log(stretches(step + 1)) * 1.01) < 0.02 * statev(8), 'linear: work', step)
+      end do
+      call check(all(stress(4 + shear:) == mark), 'linear: four components', shear)
+    end do
+    call check(stops == 0 .and. pnewdt(1) == 1, 'linear: no stop', 0)
+    props(2) = -1
+    call refused('property 2 (e_2, ', 10, 10, 3)
+    call refused('NDI (solids only): 2 given, 3 needed', 10, 10, -1)
+  end subroutine
+
   subroutine prepare(t)
     type(truth), intent(in) :: t
     stress = mark
@@ -87,6 +119,7 @@ contains
     pnewdt(1) = 1
     props = t%properties
     f = t%f
+    f_old = mark
     nlgeom = 1
   end subroutine
 
@@ -100,7 +133,7 @@ contains
     jstep = 1
     jstep(3) = nlgeom
     call umat(stress(1), statev(1), ddsdde(1), sse(1), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, &
-      zero, zero, zero, zero, cmname, ndi, nshr, ndi + nshr, nstatv, props, nprops, zero, zero, pnewdt(1), zero, zero, &
+      zero, zero, zero, zero, cmname, ndi, nshr, ndi + nshr, nstatv, props, nprops, zero, zero, pnewdt(1), zero, f_old, &
       f, 1, 1, 1, 1, jstep, 1)
   end subroutine
 
@@ -120,7 +153,8 @@ contains
     stress = mark
     f = [1, 0, 0, 0, 1, 0, 0, 0, 1]
     nlgeom = merge(0, 1, message == 'NLGEOM')
-    call call_umat(nprops, nstatv, 3, nshr)
+    ! Plane stress has two direct components.
+    call call_umat(nprops, nstatv, merge(2, 3, nshr < 0), abs(nshr))
     call check(stops == before + 1, 'stop: ' // message, 0)
     call check_written(7, message)
     call check(all(stress == mark), 'nothing is written: ' // message, 0)

@@ -60,8 +60,10 @@ program vumat_test
   call refused('number of properties: 10 given, 11 needed', 10, nstatev, 3)
   props(3) = 2
   call refused('number of state variables (*DEPVAR): 10 given, 11 needed', 11, 10, 3)
-  call refused('NSHR (solids only): 1 given, 3 needed', 11, nstatev, 1)
+  call refused('NSHR (1 for plane strain and axisymmetric solids): 2 given, 3 needed', 11, nstatev, 2)
   call check_written(7, 'material FIBRE:')
+  call linear
+  call plane
   call finish
 
 contains
@@ -70,6 +72,39 @@ contains
     type(truth), intent(in) :: t
     is_stretch = t%f(2) == t%f(4) .and. t%f(3) == t%f(7) .and. t%f(6) == t%f(8)
   end function
+
+  ! Ten properties and ten state variables: the linear elastic law, of two stretches in one increment.
+  subroutine linear
+    real(wp) :: along
+    chosen = [1, 1]
+    call prepare
+    props(1:10) = real([79414.0, 794.0, 126.0, 1000.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], wp)
+    stretch = [1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.01_wp, 1.02_wp, spread(0.0_wp, 1, 6)]
+    call call_vumat(10, 10, 3)
+    along = 79414 * log(1.01_wp)
+    call check(abs(stress_new(5) - along) < 1e5_wp * epsilon(along) * along, 'linear: stress', 1)
+    call check(abs(stress_new(6) - 79414 * log(1.02_wp)) < 1e5_wp * epsilon(along) * along, 'linear: stress', 2)
+    call check(all(abs(stress_new([1, 2, 3, 4, 7, 8, 9, 10, 11, 12])) < 1e-3_wp * along), 'linear: other stress', 0)
+    ! Only the second one has reached 1000.
+    call check(all(state_new([17, 18, 19, 20]) == [0.0_wp, 1.0_wp, 1.0_wp, 0.0_wp]), 'linear: failed, alive', 0)
+  end subroutine
+
+  ! Plane strain: the four components of a stretch in the plane are those of the solid.
+  subroutine plane
+    real(wp) :: solid(4)
+    chosen = [1]
+    call prepare
+    stretch = real([1.01, 0.95, 1.0, 0.02, 0.0, 0.0], wp)
+    props(9:11) = real([1, 0, 0], wp)
+    call call_vumat(11, nstatev, 3)
+    solid = stress_new(1:4)
+    call prepare
+    stretch = real([1.01, 0.95, 1.0, 0.02], wp)
+    props(9:11) = real([1, 0, 0], wp)
+    call call_vumat(11, nstatev, 1)
+    call check(all(stress_new(1:4) == solid) .and. all(stress_new(5:) == mark), 'plane: four components', 0)
+    call check(solid(1) > 0, 'plane: stress', 0)
+  end subroutine
 
   subroutine prepare
     integer :: n, k
@@ -102,7 +137,7 @@ contains
 
   subroutine call_vumat(nprops, nstates, nshr)
     integer, intent(in) :: nprops, nstates, nshr
-    real(wp), allocatable, dimension(:) :: zero, strain
+    real(wp), allocatable, dimension(:) :: zero, strain, stretch_old
     character(len=80) :: cmname
     integer :: n
     n = size(chosen)
@@ -110,8 +145,11 @@ contains
     allocate (zero(9 * n), source=0.0_wp)
     strain = zero
     strain(1:n) = 1e-4_wp
+    ! Every increment starts from rest.
+    stretch_old = zero
+    stretch_old(1:3 * n) = 1
     call vumat(n, 3, nshr, nstates, 0, nprops, 0, step_time, step_time, zero, cmname, zero, zero, props, density, &
-      strain, zero, zero, stretch, zero, zero, zero, state_old, zero, zero, zero, stretch, zero, zero, &
+      strain, zero, zero, stretch_old, zero, zero, zero, state_old, zero, zero, zero, stretch, zero, zero, &
       stress_new(guard + 1), state_new(guard + 1), energy_new(guard + 1), inelastic_new(guard + 1))
     call unframe(stress_new)
     call unframe(state_new)

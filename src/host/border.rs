@@ -6,9 +6,11 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::environment::in_default_environment;
+use crate::law::block::Precision;
 use crate::law::bounds::wrong_number;
 use crate::law::error::Error;
-use crate::law::parameters::{FIBRE, Property};
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::parameters::{FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use crate::law::status;
 
 /// The properties that a caller passes, read only if their number is right.
@@ -53,6 +55,48 @@ pub(super) fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
     const TOLERANCE: f64 = 1e-9;
     let (across, along) = (m_1.abs().max(m_2.abs()), m_3.abs());
     along > TOLERANCE * across && across > TOLERANCE * along
+}
+
+/// The error of a direction among the properties that a plane-strain or axisymmetric element does not allow: the stress would have
+/// components that such an element does not have. `index` is that of its first component, from 0.
+#[cold]
+pub(super) fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
+    Error::Direction { index, name, value, wanted: "a direction in the plane (third component 0) or normal to it" }
+}
+
+/// Checks that the material axes of the linear elastic law lie in the plane of a plane-strain or axisymmetric element, or normal to it.
+///
+/// # Errors
+/// The direction among the properties that does not.
+pub(super) fn check_plane(law: &LinearElastic, properties: &[f64]) -> Result<(), Error> {
+    let &[.., m_1, m_2, m_3, n_1, n_2, n_3] = properties else { return Ok(()) }; // their number has been checked
+    let axes: [[f64; 3]; 3] = law.reference_axes().into();
+    if out_of_plane([m_1, m_2, m_3]) {
+        return Err(oblique(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3]));
+    }
+    // Another axis may be oblique only because of the second one.
+    if axes.into_iter().any(out_of_plane) {
+        return Err(oblique(LINEAR_SECOND_AXIS, "second axis", [n_1, n_2, n_3]));
+    }
+    Ok(())
+}
+
+/// For hosts that do not pass the F of the last step: sets it to 1 where it is 0, as the host initialises the place where it is kept,
+/// since points start unstressed. No F has a column of zeros.
+///
+/// # Safety
+/// The rows have n values.
+pub(super) unsafe fn start_at_rest<T: Precision>(f_old: [*mut T; 9], n: usize) {
+    for i in 0..n {
+        // SAFETY: the caller's promise.
+        unsafe {
+            if f_old.iter().take(3).all(|row| (*row.add(i)).into() == 0.0) {
+                for (c, row) in f_old.into_iter().enumerate() {
+                    *row.add(i) = T::splat(if c % 4 == 0 { 1.0 } else { 0.0 });
+                }
+            }
+        }
+    }
 }
 
 /// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error.

@@ -1,34 +1,45 @@
-//! CalculiX: an external behaviour through the native interface, `*MATERIAL, NAME=@TORON_HYPERELASTIC`.
+//! CalculiX: external behaviours through the native interface, `*MATERIAL, NAME=@TORON_HYPERELASTIC` and
+//! `NAME=@TORON_LINEARELASTIC`.
+//!
+//! | | hyperelastic law | linear elastic law |
+//! |---|---|---|
+//! | found as | `HYPERELASTIC` | `LINEARELASTIC`, both in `libTORON.so`, a link to `libtoron_calculix.so` |
+//! | properties, elconloc | 11 | 10 |
+//! | state, nstate_ ≥ | 11 | 19: 10 state variables, then F of the last increment, by columns |
+//! | stiff | dS/dE | its symmetric part |
 //!
 //! | | |
 //! |---|---|
-//! | found as | `HYPERELASTIC` in `libTORON.so`, a link to `libtoron_calculix.so` |
-//! | properties | elconloc(1) … elconloc(11), kode = −100 − 11 |
+//! | kode | −100 minus the number of constants |
 //! | deformation | xkl(3,3), F by columns, global |
-//! | state | xstateini, xstate: (nstate_, mi(1), elements), nstate_ ≥ 11 |
+//! | state | xstateini, xstate: (nstate_, mi(1), elements) |
 //! | stress | stre(6): second Piola–Kirchhoff 11 22 33 **12 13 23** |
 //! | tangent | stiff(21): dS/dE, tensor components, the upper triangle of that order by columns; on every call |
 //! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
-//! The fibre is given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is global. NLGEOM,
-//! and no initial stress. The header does not declare the entry: CalculiX alone calls it.
+//! The fibre, and the second axis, are given in the axes of `*ORIENTATION`, if there are any, else in global ones; everything else is
+//! global. NLGEOM, and no initial stress. The header does not declare the entries: CalculiX alone calls them.
 
 use core::cell::Cell;
 use core::ffi::c_char;
 
+use crate::law::block::linear::LinearPointers;
+use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
 use crate::law::error::Error;
+use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::parameters;
+use crate::law::parameters::{self, Property};
 use crate::law::point::{Call, Point, Sink, evaluate_call};
-use crate::law::response::Request;
-use crate::law::state::HYPERELASTIC_STATE;
+use crate::law::response::{Request, nan_unless_finite};
+use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
 use crate::law::status;
+use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
 use nalgebra::{Matrix3, Vector3};
 
-use super::border::properties;
+use super::border::{properties, start_at_rest};
 use super::environment::in_default_environment;
 
 /// The value that pnewdt is lowered to if a point cannot be evaluated. CalculiX passes −1 for no limit.
@@ -41,7 +52,34 @@ const EXIT_CODE: i32 = 201;
 /// ends the job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
 
-/// The arguments of CalculiX that the law uses.
+/// The state variables of the linear elastic law, and F of the last increment.
+const LINEAR_HISTORY: usize = LINEAR_ELASTIC_STATE + 9;
+
+/// The arguments of CalculiX that the laws use, see its `umat_user.f`.
+#[derive(Clone, Copy, Debug)]
+pub struct Behaviour {
+    /// The material's name, 80 characters.
+    pub amat: *const c_char,
+    pub iel: *const i32,
+    pub iint: *const i32,
+    pub kode: *const i32,
+    pub elconloc: *const f64,
+    pub emec: *const f64,
+    pub beta: *const f64,
+    pub xkl: *const f64,
+    pub mi: *const i32,
+    pub nstate_: *const i32,
+    pub xstateini: *const f64,
+    pub xstate: *mut f64,
+    pub stre: *mut f64,
+    pub stiff: *mut f64,
+    pub iorien: *const i32,
+    pub pgauss: *const f64,
+    pub orab: *const f64,
+    pub pnewdt: *mut f64,
+}
+
+/// The arguments of a call, at its point.
 struct Arguments<'a> {
     /// −100 minus the number of constants.
     kode: i32,
@@ -57,17 +95,21 @@ struct Arguments<'a> {
     pnewdt: f64,
 }
 
-/// The results that are returned to CalculiX.
-#[derive(Default)]
-struct Answer {
+/// The results that are returned to CalculiX; N state variables.
+struct Answer<const N: usize> {
     stress: [f64; 6],
     stiffness: [f64; 21],
-    state: [f64; HYPERELASTIC_STATE],
+    state: [f64; N],
     pnewdt: f64,
     status: i32,
 }
 
-impl Sink<f64, 21> for &mut Answer {
+impl<const N: usize> Answer<N> {
+    const EMPTY: Answer<N> =
+        Answer { stress: [0.0; 6], stiffness: [0.0; 21], state: [0.0; N], pnewdt: 0.0, status: status::OK };
+}
+
+impl Sink<f64, 21> for &mut Answer<HYPERELASTIC_STATE> {
     #[inline(always)]
     fn take(self, point: Point<f64>, moduli: [f64; 21]) {
         let [el, tc, td, ld] = point.modes;
@@ -90,16 +132,18 @@ const DIAGONAL: [f64; 21] = by_columns([
 ]);
 
 impl Arguments<'_> {
-    /// Evaluates the law.
+    /// The constants of the material, if there are as many as the law has properties.
     ///
     /// # Errors
-    /// The errors of a deck that the arguments show.
-    fn evaluate(&self) -> Result<Answer, Error> {
+    /// The errors of a deck that the arguments show; `state` is the number of state variables that the law needs.
+    fn properties(&self, table: &'static [Property], state: usize) -> Result<&[f64], Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
         // SAFETY: CalculiX's promise: as many constants as kode says.
-        let properties = unsafe { properties(self.constants, count, &parameters::HYPERELASTIC) }?;
-        if self.state_count < HYPERELASTIC_STATE as i32 {
-            return Err(Error::Plain(status::STATE_COUNT));
+        let properties = unsafe { properties(self.constants, count, table) }?;
+        if self.state_count < state as i32 {
+            let (found, wanted) = (i64::from(self.state_count), state as i64);
+            let what = "number of state variables (*DEPVAR)";
+            return Err(Error::Count { code: status::STATE_COUNT, what, found, wanted });
         }
         if let Some(&value) = self.initial_stress.iter().find(|&&x| x != 0.0) {
             return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
@@ -107,27 +151,125 @@ impl Arguments<'_> {
         if self.is_linear() {
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
+        Ok(properties)
+    }
+
+    /// Completes the answer: pnewdt, and a stiffness where there is none.
+    ///
+    /// # Errors
+    /// A status that no smaller increment helps.
+    fn finish<const N: usize>(&self, mut answer: Answer<N>, stiffness: f64) -> Result<Answer<N>, Error> {
+        if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
+            return Err(Error::Plain(answer.status));
+        }
+        answer.pnewdt = match (answer.status, self.pnewdt > 0.0) {
+            (status::OK, _) => self.pnewdt,
+            (_, true) => self.pnewdt.min(CUTBACK),
+            (_, false) => CUTBACK,
+        };
+        if answer.stiffness.iter().all(|&c| c == 0.0) {
+            let residual = RESIDUAL_STIFFNESS * 0.5 * stiffness;
+            answer.stiffness = DIAGONAL.map(|diagonal| residual * diagonal);
+        }
+        Ok(answer)
+    }
+
+    /// Evaluates the hyperelastic law.
+    ///
+    /// # Errors
+    /// The errors of a deck that the arguments show.
+    fn hyperelastic(&self) -> Result<Answer<HYPERELASTIC_STATE>, Error> {
+        let properties = self.properties(&parameters::HYPERELASTIC, HYPERELASTIC_STATE)?;
         let fibre = match (self.orientation, properties) {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
         };
-        let mut answer = Answer { pnewdt: self.pnewdt, ..Answer::default() };
+        let mut answer = Answer::EMPTY;
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
         // SAFETY: CalculiX's promise: there are as many as state_count says.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(Call { source: properties, f: self.f, fibre, state, tangent, sink: &mut answer }, Level::Avx512)?;
-        if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
-            return Err(Error::Plain(answer.status)); // no smaller increment helps
+        self.finish(answer, properties.first().copied().unwrap_or_default())
+    }
+
+    /// Evaluates the linear elastic law.
+    ///
+    /// # Errors
+    /// The errors of a deck that the arguments show.
+    fn linear_elastic(&self) -> Result<Answer<LINEAR_HISTORY>, Error> {
+        let values = self.properties(&parameters::LINEAR_ELASTIC, LINEAR_HISTORY)?;
+        let law = self.oriented(values)?;
+        // SAFETY: CalculiX's promise: there are as many as state_count says.
+        let mut state = unsafe { *self.old_state.cast::<[f64; LINEAR_HISTORY]>() };
+        let (old, f_old) = state.split_at_mut(LINEAR_ELASTIC_STATE);
+        let f_old = components_mut(f_old.as_mut_ptr(), 1);
+        // SAFETY: nine values.
+        unsafe { start_at_rest(f_old, 1) };
+        let mut answer = Answer::EMPTY;
+        let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
+        let pointers = LinearPointers {
+            f_old: f_old.map(<*mut f64>::cast_const),
+            f_new: components(self.f.as_flattened().as_ptr(), 1),
+            state_old: old.as_ptr(),
+            state_new: answer.state.as_mut_ptr(),
+            stress: components_mut(cauchy.as_mut_ptr(), 1),
+            tangent: entries.as_mut_ptr().cast(),
+            measure: Measure::Material,
+            ..LinearPointers::without_arrays(1, 1)
+        };
+        // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
+        answer.status = unsafe { law.raw_block(&pointers) }?;
+        let f =
+            if answer.status == status::OK { self.f.as_flattened() } else { state.split_at(LINEAR_ELASTIC_STATE).1 };
+        answer.state.iter_mut().skip(LINEAR_ELASTIC_STATE).zip(f).for_each(|(kept, &f)| *kept = f);
+        let [s11, s22, s33, s12, s23, s31] = second_piola_kirchhoff(&cauchy, self.f);
+        answer.stress = [s11, s22, s33, s12, s31, s23];
+        let [r1, r2, r3, r4, r5, r6] = entries;
+        // Halves first: a sum might overflow.
+        let mean = |x: f64, y: f64| 0.5 * x + 0.5 * y;
+        answer.stiffness = by_columns([
+            r1[0],
+            mean(r1[1], r2[0]),
+            mean(r1[2], r3[0]),
+            mean(r1[3], r4[0]),
+            mean(r1[4], r5[0]),
+            mean(r1[5], r6[0]),
+            r2[1],
+            mean(r2[2], r3[1]),
+            mean(r2[3], r4[1]),
+            mean(r2[4], r5[1]),
+            mean(r2[5], r6[1]),
+            r3[2],
+            mean(r3[3], r4[2]),
+            mean(r3[4], r5[2]),
+            mean(r3[5], r6[2]),
+            r4[3],
+            mean(r4[4], r5[3]),
+            mean(r4[5], r6[3]),
+            r5[4],
+            mean(r5[5], r6[4]),
+            r6[5],
+        ]);
+        if nan_unless_finite(&answer.stress) != 0.0 {
+            // The state must not advance without its stress.
+            answer = Answer { state, status: status::OVERFLOW, ..Answer::EMPTY };
         }
-        if answer.status != status::OK {
-            answer.pnewdt = if self.pnewdt > 0.0 { self.pnewdt.min(CUTBACK) } else { CUTBACK };
-        }
-        if let (true, &[k_el, ..]) = (answer.stiffness.iter().all(|&c| c == 0.0), properties) {
-            let residual = RESIDUAL_STIFFNESS * 0.5 * k_el;
-            answer.stiffness = DIAGONAL.map(|diagonal| residual * diagonal);
-        }
-        Ok(answer)
+        self.finish(answer, values.first().copied().unwrap_or_default())
+    }
+
+    /// The linear elastic law, its axes turned where the element has an orientation.
+    ///
+    /// # Errors
+    /// The first property that is wrong.
+    fn oriented(&self, values: &[f64]) -> Result<LinearElastic, Error> {
+        let law = LinearElastic::new(values)?;
+        let (Some((axes, place)), &[.., m_1, m_2, m_3, n_1, n_2, n_3]) = (self.orientation, values) else {
+            return Ok(law);
+        };
+        let second = [n_1, n_2, n_3];
+        let second = if second == [0.0; 3] { None } else { Some(turned(second, axes, place)) };
+        law.along(turned([m_1, m_2, m_3], axes, place), second)
     }
 
     /// Whether NLGEOM is missing: the strain is the linear one of this F, without ½ HᵀH, H = F − 1.
@@ -197,72 +339,60 @@ fn refuse(material: &[u8; 80], message: &Message) -> ! {
     unsafe { libc::exit(EXIT_CODE) }
 }
 
-/// The hyperelastic law as an external behaviour of CalculiX. Arguments as CalculiX passes them, see its `umat_user.f`.
+/// The hyperelastic law as an external behaviour of CalculiX.
 ///
 /// # Safety
-/// CalculiX's promise: every pointer has as many values as documented there.
-#[allow(clippy::too_many_arguments)]
+/// CalculiX's promise: every pointer has as many values as its `umat_user.f` says.
 #[inline(never)]
-pub unsafe extern "C" fn hyperelastic(
-    amat: *const c_char,
-    iel: *const i32,
-    iint: *const i32,
-    kode: *const i32,
-    elconloc: *const f64,
-    emec: *const f64,
-    _emec0: *const f64,
-    beta: *const f64,
-    _xokl: *const f64,
-    _voj: *const f64,
-    xkl: *const f64,
-    _vj: *const f64,
-    _ithermal: *const i32,
-    _t1l: *const f64,
-    _dtime: *const f64,
-    _time: *const f64,
-    _ttime: *const f64,
-    _icmd: *const i32,
-    _ielas: *const i32,
-    mi: *const i32,
-    nstate_: *const i32,
-    xstateini: *const f64,
-    xstate: *mut f64,
-    stre: *mut f64,
-    stiff: *mut f64,
-    iorien: *const i32,
-    pgauss: *const f64,
-    orab: *const f64,
-    pnewdt: *mut f64,
-    _ipkon: *const i32,
-    _amat_length: i32,
-) {
-    // SAFETY: CalculiX's promise; integration points and elements count from 1.
+pub unsafe fn hyperelastic(call: &Behaviour) {
+    // SAFETY: the caller's promise.
+    unsafe { answer(call, |arguments| arguments.hyperelastic()) }
+}
+
+/// The linear elastic law as an external behaviour of CalculiX.
+///
+/// # Safety
+/// As for [`hyperelastic`].
+#[inline(never)]
+pub unsafe fn linear_elastic(call: &Behaviour) {
+    // SAFETY: the caller's promise.
+    unsafe { answer(call, |arguments| arguments.linear_elastic()) }
+}
+
+/// Evaluates a law and stores its results, or ends the job.
+///
+/// # Safety
+/// As for [`hyperelastic`].
+#[inline(always)]
+unsafe fn answer<const N: usize>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result<Answer<N>, Error>) {
+    // SAFETY: the caller's promise; integration points and elements count from 1.
     let (arguments, new) = unsafe {
-        let point = (*iel as usize - 1) * *mi as usize + (*iint as usize - 1);
-        let place = point * *nstate_ as usize;
+        let point = (*call.iel as usize - 1) * *call.mi as usize + (*call.iint as usize - 1);
+        let place = point * *call.nstate_ as usize;
+        let axes = usize::try_from(*call.iorien - 1).ok();
         let arguments = Arguments {
-            kode: *kode,
-            constants: elconloc,
-            strain: &*emec.cast(),
-            initial_stress: &*beta.cast(),
-            f: &*xkl.cast(),
-            orientation: usize::try_from(*iorien - 1).ok().map(|i| (&*orab.cast::<[f64; 7]>().add(i), &*pgauss.cast())),
-            state_count: *nstate_,
-            old_state: xstateini.wrapping_add(place),
-            pnewdt: *pnewdt,
+            kode: *call.kode,
+            constants: call.elconloc,
+            strain: &*call.emec.cast(),
+            initial_stress: &*call.beta.cast(),
+            f: &*call.xkl.cast(),
+            orientation: axes.map(|i| (&*call.orab.cast::<[f64; 7]>().add(i), &*call.pgauss.cast())),
+            state_count: *call.nstate_,
+            old_state: call.xstateini.wrapping_add(place),
+            pnewdt: *call.pnewdt,
         };
-        (arguments, xstate.wrapping_add(place))
+        (arguments, call.xstate.wrapping_add(place))
     };
     let mut message = Message::EMPTY;
-    match in_default_environment(|| arguments.evaluate().map_err(|error| message.write(error))) {
-        // SAFETY: CalculiX's promise.
+    match in_default_environment(|| law(&arguments).map_err(|error| message.write(error))) {
+        // SAFETY: the caller's promise.
         Ok(answer) => unsafe {
-            *stre.cast() = answer.stress;
-            *stiff.cast() = answer.stiffness;
+            *call.stre.cast() = answer.stress;
+            *call.stiff.cast() = answer.stiffness;
             *new.cast() = answer.state;
-            *pnewdt = answer.pnewdt;
+            *call.pnewdt = answer.pnewdt;
         },
         // SAFETY: a material's name has 80 characters.
-        Err(()) => refuse(unsafe { &*amat.cast() }, &message),
+        Err(()) => refuse(unsafe { &*call.amat.cast() }, &message),
     }
 }

@@ -236,6 +236,13 @@ pub(super) struct Step<'a, R> {
 }
 
 impl<R: Real> LinearElastic<R> {
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is the greatest one at rest: K + 4G/3 is the largest
+    /// of E1, E2 and 2G. For hosts that compute their time step and contact stiffness from two elastic constants.
+    pub fn bulk_and_shear(&self) -> [R; 2] {
+        let modulus = self.modulus_at_rest();
+        [R::splat(0.5) * modulus, R::splat(0.375) * modulus]
+    }
+
     /// With Q = G(1 + n⊗n) + diag((E_i − 2G) n_i²) no eigenvalue exceeds the largest of E_i and 2G.
     #[inline(always)]
     fn modulus_at_rest(&self) -> R {

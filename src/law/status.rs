@@ -60,7 +60,7 @@ pub const TABLE: [(i32, &str, &str); 22] = [
     (
         NO_DEFORMATION_GRADIENT,
         "no_deformation_gradient",
-        "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11",
+        "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11 (linear elastic law: 19)",
     ),
     (NOT_PREPARED, "not_prepared", "the law has not been prepared, or it is another law or precision"),
     (BAD_SIZE, "bad_size", "the size of a structure is not set, or wrong"),
@@ -74,7 +74,11 @@ pub const TABLE: [(i32, &str, &str); 22] = [
         "fibre_out_of_plane",
         "the fibre direction (properties 9 to 11) is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
     ),
-    (STATE_COUNT, "state_count", "there are fewer state variables than the law needs (LS-DYNA: NHV is not 11)"),
+    (
+        STATE_COUNT,
+        "state_count",
+        "there are fewer state variables than the law needs (LS-DYNA: NHV is not 11; linear elastic law: 19)",
+    ),
     (INVERTED, "inverted", "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"),
     (NOT_FINITE, "not_finite", "the deformation has an entry that is NaN or infinite"),
     (

@@ -4,7 +4,7 @@
 use nalgebra::Matrix3;
 
 use super::number::real::Real;
-use super::number::vector::{Matrix, cofactors, cross, dot, image, product, select, transposed, unit};
+use super::number::vector::{Matrix, cofactors, cross, dot, image, product, scaled, select, transposed, unit};
 use super::voigt::{Moduli, PAIRS, columns, paired_with_one, upper_triangle};
 
 /// The symmetric matrix of six components 11 22 33 12 23 31.
@@ -29,6 +29,19 @@ pub fn turned<R: Real>(q: &Matrix<R>, s: &[R; 6]) -> [R; 6] {
 pub fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix3<f64>) -> Matrix3<f64> {
     // J F⁻ᵀ is the matrix of cofactors, which exists for every F.
     matrix(cauchy) * Matrix3::from(cofactors(&f.data.0).1)
+}
+
+/// The second Piola–Kirchhoff stress S = JF⁻¹σF⁻ᵀ of a Cauchy stress, both 11 22 33 12 23 31; F by columns. A stress of 0 stays 0
+/// whatever F is.
+#[inline(always)]
+pub(crate) fn second_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix<f64>) -> [f64; 6] {
+    if cauchy.iter().all(|&x| x == 0.0) {
+        return [0.0; 6];
+    }
+    let (jacobian, minors) = cofactors(f);
+    let [[s11, s21, s31], [_, s22, s32], [_, _, s33]] =
+        scaled(1.0 / jacobian, &product(&transposed(&minors), &product(&columns(cauchy), &minors)));
+    [s11, s22, s33, s21, s32, s31]
 }
 
 /// The eigenvalues of a symmetric tensor 11 22 33 12 23 31, in no particular order, and an orthonormal axis for each, by Jacobi

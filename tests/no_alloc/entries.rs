@@ -6,6 +6,7 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::Vumat;
 use toron::host::c::*;
+use toron::host::calculix::Behaviour;
 use toron::host::mgis::{BehaviourDataView, StateView};
 use toron::host::{abaqus, c, calculix, lsdyna, mgis, openradioss};
 
@@ -341,49 +342,124 @@ fn double_precision_only() {
 /// Right decks only: a wrong one ends the process.
 #[test]
 fn calculix() {
-    let yarn = YARNS[0].as_ptr();
     // A strain that is not the linear one of any F below.
-    let (strain, zeros) = ([1e3; 6], [0.0; S]);
-    let (e, z, one, no, constants, n) = (strain.as_ptr(), zeros.as_ptr(), &1, &0, &(-100 - P as i32), &(S as i32));
+    let (strain, zeros, name) = ([1e3; 6], [0.0; 19], [b' ' as c_char; 80]);
     for f in deformations() {
-        let (mut stress, mut stiff, mut state, mut step) = ([0.0; 6], [0.0; 21], [0.0; S], -1.0);
-        let (s, c, h, f) = (stress.as_mut_ptr(), stiff.as_mut_ptr(), state.as_mut_ptr(), f.as_ptr());
-        let name = [b' ' as c_char; 80];
-        quiet!(
-            calculix::hyperelastic,
-            name.as_ptr(),
-            one,
-            one,
-            constants,
-            yarn,
-            e,
-            z,
-            z,
-            f,
-            z,
-            f,
-            z,
-            no,
-            z,
-            z,
-            z,
-            z,
-            no,
-            no,
-            one,
-            n,
-            z,
-            h,
-            s,
-            c,
-            no,
-            z,
-            z,
-            &mut step,
-            no,
-            80,
-        );
+        let (mut stress, mut stiff, mut state, mut step) = ([0.0; 6], [0.0; 21], [0.0; 19], -1.0);
+        let call = Behaviour {
+            amat: name.as_ptr(),
+            iel: &1,
+            iint: &1,
+            kode: &(-100 - P as i32),
+            elconloc: YARNS[0].as_ptr(),
+            emec: strain.as_ptr(),
+            beta: zeros.as_ptr(),
+            xkl: f.as_ptr(),
+            mi: &1,
+            nstate_: &19,
+            xstateini: zeros.as_ptr(),
+            xstate: state.as_mut_ptr(),
+            stre: stress.as_mut_ptr(),
+            stiff: stiff.as_mut_ptr(),
+            iorien: &0,
+            pgauss: zeros.as_ptr(),
+            orab: zeros.as_ptr(),
+            pnewdt: &mut step,
+        };
+        quiet!(calculix::hyperelastic, &call);
         assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
+        quiet!(calculix::linear_elastic, &Behaviour { kode: &(-100 - L as i32), elconloc: LINEAR[0].as_ptr(), ..call });
+        assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
+    }
+}
+
+/// The linear elastic law in Abaqus and LS-DYNA.
+macro_rules! linear_hosts {
+    ($test:ident, $t:ty, $vumat:path, $umat:path, $utan:path, $vector:path, $vector_tangent:path) => {
+        #[test]
+        fn $test() {
+            let mut text = [0 as c_char; ROOM];
+            let (t, unit, zero) = (text.as_mut_ptr(), [1.0 as $t], [0.0 as $t; S]);
+            for (yarn, f) in LINEAR.into_iter().flat_map(|yarn| deformations().map(|f| (yarn, f))) {
+                let (yarn, f) = (yarn.map(|x| x as $t), f.map(|x| x as $t));
+                let (yarn, stretch) = (yarn.as_ptr(), [f[0], f[4], f[8], 0.0, 0.0, 0.0]);
+                let (mut stress, mut state, mut tangent) = ([0.0 as $t; 6], [0.0 as $t; S], [0.0 as $t; 36]);
+                let (mut energy, mut inelastic) = (0.0 as $t, 0.0 as $t);
+                let (s, c) = (stress.as_mut_ptr(), tangent.as_mut_ptr());
+                let job = Vumat {
+                    nblock: 1,
+                    ndir: 3,
+                    nshr: 3,
+                    nstatev: S as i32,
+                    nprops: L as i32,
+                    step_time: 1.0,
+                    total_time: 1.0,
+                    props: yarn,
+                    density: unit.as_ptr(),
+                    strain_inc: zero.as_ptr(),
+                    stretch_old: [1.0 as $t, 1.0, 1.0, 0.0, 0.0, 0.0].as_ptr(),
+                    stretch_new: stretch.as_ptr(),
+                    stress_old: zero.as_ptr(),
+                    state_old: zero.as_ptr(),
+                    ener_intern_old: zero.as_ptr(),
+                    ener_inelas_old: zero.as_ptr(),
+                    stress_new: s,
+                    state_new: state.as_mut_ptr(),
+                    ener_intern_new: &mut energy,
+                    ener_inelas_new: &mut inelastic,
+                    ..Vumat::empty()
+                };
+                let check = Vumat { step_time: 0.0, total_time: 0.0, ..job };
+                for job in [job, check, Vumat { nshr: 1, ..job }, Vumat { nprops: 3, ..job }] {
+                    quiet!($vumat, &job, t, ROOM);
+                }
+                let mut history = [0.0 as $t; 28];
+                history[19..].copy_from_slice(&f);
+                let (h, mut failed) = (history.as_mut_ptr(), 0 as c_int);
+                for nhv in [19, 11] {
+                    quiet!($umat, yarn, s, h, nhv, &mut failed, t, ROOM);
+                    quiet!($utan, yarn, h, nhv, c, t, ROOM);
+                    let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
+                    quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, nhv, 1, 1, 1, &mut failed, t, ROOM);
+                    quiet!($vector_tangent, yarn, h, nhv, 1, 1, 1, c, t, ROOM);
+                }
+            }
+        }
+    };
+}
+
+linear_hosts!(
+    linear_hosts_in_double_precision,
+    f64,
+    abaqus::linear_vumat_f64,
+    lsdyna::linear_umat_f64,
+    lsdyna::linear_utan_f64,
+    lsdyna::linear_umat_vector_f64,
+    lsdyna::linear_utan_vector_f64
+);
+linear_hosts!(
+    linear_hosts_in_single_precision,
+    f32,
+    abaqus::linear_vumat_f32,
+    lsdyna::linear_umat_f32,
+    lsdyna::linear_utan_f32,
+    lsdyna::linear_umat_vector_f32,
+    lsdyna::linear_utan_vector_f32
+);
+
+#[test]
+fn linear_hosts_in_double_precision_only() {
+    let (mut bulk, mut shear, mut text) = (0.0, 0.0, [0 as c_char; ROOM]);
+    let t = text.as_mut_ptr();
+    for (yarn, f) in LINEAR.iter().flat_map(|yarn| deformations().map(move |f| (yarn.as_ptr(), f))) {
+        quiet!(lsdyna::linear_bulk_and_shear_f64, yarn, L, &mut bulk, &mut shear, t, ROOM);
+        let (mut stress, mut state, mut tangent) = ([0.0; 6], [0.0; S], [0.0; 36]);
+        let (mut energy, mut step, n) = (0.0, 1.0, L as i32);
+        let (s, h, c) = (stress.as_mut_ptr(), state.as_mut_ptr(), tangent.as_mut_ptr());
+        let (f0, f1, e) = (REST.as_ptr(), f.as_ptr(), &mut energy);
+        for (tangent, shear) in [(c, 3), (c, 1), (null_mut(), 3), (c, 2)] {
+            quiet!(abaqus::linear_umat_f64, s, h, tangent, e, &mut step, f0, f1, yarn, n, n, 3, shear, 1, t, ROOM);
+        }
     }
 }
 

@@ -132,12 +132,41 @@ fn shims_of_abaqus() {
     }
 }
 
+/// The routines of LS-DYNA.
+const LSDYNA: [&str; 4] = ["lsdyna_umat.F", "lsdyna_umatv.F", "lsdyna_utan.F", "lsdyna_utanv.F"];
+
 #[test]
 fn shims_of_lsdyna() {
-    let sources = ["lsdyna_umat41.f", "lsdyna_umat41v.f", "lsdyna_utan41.f", "lsdyna_utan41v.f"].map(shim);
+    let sources = LSDYNA.map(shim);
     let kinds: [&[&str]; 4] = [&[], &[INTEGERS_64], &[REALS_64], &[INTEGERS_64, REALS_64]];
     for kinds in kinds.into_iter().chain([&[TRAPS][..], &[INTEGERS_64, REALS_64, TRAPS]]) {
         fortran_program("lsdyna.f90", kinds, &sources);
+    }
+}
+
+/// Both argument lists, every material number, both laws in one program.
+#[test]
+fn shims_of_lsdyna_in_other_releases_and_under_other_numbers() {
+    for number in [43, 44, 45, 47, 48, 49, 50] {
+        for release in [&[][..], &["-DTORON_R9"]] {
+            // Each number with one set of kinds, all of them with some number.
+            let kinds: &[&str] = [&[][..], &[INTEGERS_64, REALS_64], &[REALS_64], &[INTEGERS_64], &[TRAPS]][number % 5];
+            let options = [release, kinds].concat();
+            let other = folder(&format!("fortran-lsdyna-{number}{}", options.concat()));
+            let mut sources: Vec<PathBuf> = LSDYNA.map(shim).into();
+            for name in LSDYNA {
+                let object = other.join(name).with_extension("o");
+                let mut gfortran = Command::new("gfortran");
+                gfortran.args(["-std=f2018", "-O1", "-c", "-DTORON_LINEAR_ELASTIC"]).args(SHIM_WARNINGS).args(&options);
+                gfortran.arg(format!("-DTORON_MT={number}")).arg(shim(name)).arg("-o").arg(&object);
+                run(&mut gfortran, "gfortran");
+                sources.push(object);
+            }
+            let names = ["UMAT_OTHER=umat#", "UMATV_OTHER=umat#v", "UTAN_OTHER=utan#", "UTANV_OTHER=utan#v"];
+            let names = names.map(|name| format!("-D{}", name.replace('#', &number.to_string())));
+            let names = names.each_ref().map(String::as_str);
+            fortran_program("lsdyna_variants.F90", &[&options[..], &names].concat(), &sources);
+        }
     }
 }
 
@@ -162,7 +191,8 @@ fn needs_modules(shim: &Path) -> bool {
 fn shims() -> Vec<PathBuf> {
     let folder = std::fs::read_dir(Path::new(ROOT).join("fortran-shim")).expect("fortran-shim");
     let files = folder.map(|entry| entry.expect("a file").path());
-    let shims: Vec<_> = files.filter(|path| path.extension() == Some("f".as_ref())).collect();
+    let fixed_form = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("f"));
+    let shims: Vec<_> = files.filter(fixed_form).collect();
     assert_eq!(shims.len(), 9);
     shims
 }
@@ -179,7 +209,7 @@ fn shims_are_plain_fixed_form() {
             let place = format!("{}, line {number}", path.display());
             assert!(line.chars().all(|c| c == ' ' || c.is_ascii_graphic()), "{place}: a tab, or not ASCII");
             assert!(line.len() <= 72, "{place}: beyond column 72");
-            if line.is_empty() || line.starts_with(['!', 'C']) {
+            if line.is_empty() || line.starts_with(['!', 'C', '#']) {
                 continue;
             }
             let (label, statement) = line.split_at(6);

@@ -17,7 +17,7 @@ const SOURCES: [&str; 16] = [
     "src/host/c/points.rs",
     "src/host/c/blocks.rs",
     "src/host/c/linear_elastic.rs",
-    "src/host/abaqus.rs",
+    "src/host/abaqus/vumat.rs",
     "c/src/about.rs",
     "c/src/tables.rs",
     "c/src/hyperelastic.rs",

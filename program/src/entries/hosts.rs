@@ -7,6 +7,7 @@ use nalgebra::Matrix3;
 
 use super::precision::BlockPrecision;
 use toron::host::c::{self, HyperelasticLaw, Point};
+use toron::host::calculix::Behaviour;
 use toron::host::mgis::{self, BehaviourDataView, StateView};
 use toron::host::openradioss::{self, card};
 use toron::host::{abaqus, calculix};
@@ -185,43 +186,28 @@ impl CalculixPoint {
         let strain = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|component| strain[component]);
         let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
         let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
-        let (i, d) = (&raw const none, zeros.as_ptr());
-        // SAFETY: the arrays have the sizes that CalculiX promises; what the entry does not look at is zero.
-        unsafe {
-            calculix::hyperelastic(
-                name.as_ptr(),
-                &one,
-                &one,
-                &kode,
-                properties.as_ptr(),
-                strain.as_ptr(),
-                d,
-                d,
-                d,
-                d,
-                f.as_ptr(),
-                d,
-                i,
-                d,
-                d,
-                d,
-                d,
-                i,
-                i,
-                &one,
-                &state_count,
-                self.state_old.as_ptr(),
-                self.state.as_mut_ptr(),
-                self.stress.as_mut_ptr(),
-                self.stiffness.as_mut_ptr(),
-                i,
-                d,
-                d,
-                &mut self.pnewdt,
-                i,
-                80,
-            );
-        }
+        let call = Behaviour {
+            amat: name.as_ptr(),
+            iel: &one,
+            iint: &one,
+            kode: &kode,
+            elconloc: properties.as_ptr(),
+            emec: strain.as_ptr(),
+            beta: zeros.as_ptr(),
+            xkl: f.as_ptr(),
+            mi: &one,
+            nstate_: &state_count,
+            xstateini: self.state_old.as_ptr(),
+            xstate: self.state.as_mut_ptr(),
+            stre: self.stress.as_mut_ptr(),
+            stiff: self.stiffness.as_mut_ptr(),
+            iorien: &none,
+            pgauss: zeros.as_ptr(),
+            orab: zeros.as_ptr(),
+            pnewdt: &mut self.pnewdt,
+        };
+        // SAFETY: the arrays have the sizes that CalculiX promises.
+        unsafe { calculix::hyperelastic(&call) }
     }
 }
 

@@ -3,7 +3,7 @@
 use core::cell::Cell;
 use core::slice;
 
-use crate::host::border::{fibre_of, out_of_plane};
+use crate::host::border::{fibre_of, oblique, out_of_plane};
 use crate::law::derivative::{JaumannModulus, NineByNine, NoTangent, SixBySix, StressAndState};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
@@ -97,7 +97,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
 fn check_plane(properties: &[f64]) -> Result<(), Error> {
     Hyperelastic::new(properties)?;
     match fibre_of(properties) {
-        Some(value) if out_of_plane(value) => Err(super::oblique(FIBRE, "fibre direction", value)),
+        Some(value) if out_of_plane(value) => Err(oblique(FIBRE, "fibre direction", value)),
         _ => Ok(()),
     }
 }

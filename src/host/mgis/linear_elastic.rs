@@ -2,20 +2,21 @@
 
 use core::slice;
 
-use crate::host::border::out_of_plane;
+use crate::host::border::check_plane;
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::parameters::{LINEAR_ELASTIC_PROPERTIES, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
+use crate::law::parameters::LINEAR_ELASTIC_PROPERTIES;
 use crate::law::response::nan_unless_finite;
 use crate::law::state::{LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_WORK};
 use crate::law::status;
+use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
 
 use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
-use super::results::{Results, Stress, second_of_cauchy};
+use super::results::{Results, Stress};
 use super::view::{BehaviourDataView, Operator, Options, columns, integrate};
 
 /// `ToronLinearElastic_Tridimensional`.
@@ -66,7 +67,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
     if code != status::OK {
         return Ok(code);
     }
-    let stress = Stress::new(options.measure, &cauchy, &f1, || second_of_cauchy(&cauchy, &f1));
+    let stress = Stress::new(options.measure, &cauchy, &f1, || second_piola_kirchhoff(&cauchy, &f1));
     let rows = step.operator(&tangent, &cauchy);
     if !stress.is_finite() || !rows.is_finite() {
         return Ok(status::OVERFLOW);
@@ -88,23 +89,6 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
         }
     }
     Ok(status::OK)
-}
-
-/// Checks that the material axes lie in the plane or normal to it.
-///
-/// # Errors
-/// The direction among the properties that does not.
-fn check_plane(law: &LinearElastic, properties: &[f64]) -> Result<(), Error> {
-    let &[.., m_1, m_2, m_3, n_1, n_2, n_3] = properties else { return Ok(()) }; // their number has been checked
-    let axes: [[f64; 3]; 3] = law.reference_axes().into();
-    if out_of_plane([m_1, m_2, m_3]) {
-        return Err(super::oblique(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3]));
-    }
-    // Another axis may be oblique only because of the second one.
-    if axes.into_iter().any(out_of_plane) {
-        return Err(super::oblique(LINEAR_SECOND_AXIS, "second axis", [n_1, n_2, n_3]));
-    }
-    Ok(())
 }
 
 /// A step of the law.

@@ -18,8 +18,6 @@
 //! secant and the tangent operator are the same: the derivative of the stress that is returned. Temperature and time step are not
 //! read. The linear elastic law has axes that follow the fibre, and fails by its largest principal stress.
 
-use crate::law::error::Error;
-
 mod hyperelastic;
 mod linear_elastic;
 mod operator;
@@ -37,10 +35,3 @@ pub const NOT_INTEGRATED: i32 = -1;
 
 /// The room for a message that MGIS and MTest give, with the terminating null.
 pub const MESSAGE_CAPACITY: usize = 512;
-
-/// The error of a direction among the properties that a plane hypothesis does not allow: the stress would have components that
-/// the hypothesis does not have. `index` is that of its first component, from 0.
-#[cold]
-fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
-    Error::Direction { index, name, value, wanted: "a direction in the plane (third component 0) or normal to it" }
-}

@@ -123,12 +123,3 @@ fn combined([a, b, c]: &[[f64; 6]; 3], [x, y, z]: [f64; 3]) -> [f64; 6] {
 pub(super) fn first_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix<f64>) -> Matrix<f64> {
     product(&columns(cauchy), &cofactors(f).1)
 }
-
-/// The second Piola–Kirchhoff stress S = JF⁻¹σF⁻ᵀ, 11 22 33 12 23 31.
-#[inline(always)]
-pub(super) fn second_piola_kirchhoff(cauchy: &[f64; 6], f: &Matrix<f64>) -> [f64; 6] {
-    let (jacobian, minors) = cofactors(f);
-    let [[s11, s21, s31], [_, s22, s32], [_, _, s33]] =
-        scaled(1.0 / jacobian, &product(&transposed(&minors), &product(&columns(cauchy), &minors)));
-    [s11, s22, s33, s21, s32, s31]
-}

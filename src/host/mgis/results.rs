@@ -4,7 +4,7 @@ use crate::law::response::nan_unless_finite;
 use crate::law::status;
 use crate::law::wave_speed::wave_speed;
 
-use super::operator::{first_piola_kirchhoff, second_piola_kirchhoff, symmetric, unsymmetric};
+use super::operator::{first_piola_kirchhoff, symmetric, unsymmetric};
 use super::view::{BehaviourDataView, Options, StressMeasure};
 
 /// The stress in the measure that is requested, before it is written.
@@ -41,11 +41,6 @@ impl Stress {
             Stress::Unsymmetric(values) => nan_unless_finite(values) == 0.0,
         }
     }
-}
-
-/// The second Piola–Kirchhoff stress of a Cauchy stress; 0 for 0, whatever F is.
-pub(super) fn second_of_cauchy(cauchy: &[f64; 6], f: &[[f64; 3]; 3]) -> [f64; 6] {
-    if cauchy.iter().all(|&x| x == 0.0) { [0.0; 6] } else { second_piola_kirchhoff(cauchy, f) }
 }
 
 /// Where the results go.

@@ -12,7 +12,7 @@ use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
-use crate::host::border::check_pointers;
+use crate::host::border::{check_pointers, start_at_rest};
 use crate::host::environment::in_default_environment;
 
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
@@ -358,19 +358,5 @@ impl<T: Precision> Group<T> {
             }
         }
         Ok(())
-    }
-}
-
-/// Sets the old F to 1 where it is 0, as the solver initialises it: the elements start unstressed. No F has a column of zeros.
-unsafe fn start_at_rest<T: Precision>(f_old: [*mut T; 9], n: usize) {
-    for i in 0..n {
-        // SAFETY: the caller's promise: the rows have n values.
-        unsafe {
-            if f_old.iter().take(3).all(|row| (*row.add(i)).into() == 0.0) {
-                for (c, row) in f_old.into_iter().enumerate() {
-                    *row.add(i) = T::splat(if c % 4 == 0 { 1.0 } else { 0.0 });
-                }
-            }
-        }
     }
 }

@@ -1,22 +1,13 @@
-//! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`), and their tangents (`utan41`, `utan41v`).
-//!
-//! | | |
-//! |---|---|
-//! | properties | cm(1) … cm(11); cm(12), cm(13) hold bulk and shear modulus for IBULK = 12, IG = 13 |
-//! | deformation | F by columns in the history after the NHV = 11 state variables: hsv(12) … hsv(20), read only |
-//! | arrays, vectorised | leading dimension nlq: variable j of element i at hsvs((i − 1) + (j − 1) nlq) |
-//! | stress | Cauchy 11 22 33 12 23 31, global |
-//! | card | IHYPER = −1, IORTHO = 1: fibre (1, 0, 0); or IHYPER = 1, IORTHO = 0: fibre in global axes; IFAIL = 1 |
-//! | tangent | es(6, 6), dsave(nlq, 6, 6): Truesdell modulus of the Cauchy stress, the stress's order, engineering shears, global |
-//! | failure | failel; F inverted or not finite fails the element too |
-//!
-//! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
+//! The hyperelastic law as a user material of LS-DYNA.
 
 use core::cell::Cell;
 use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 
+use super::{Elements, HYPERELASTIC, check_elements};
+use crate::host::border::{Message, check_pointers, entry, properties, store};
+use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
 use crate::law::derivative::StressAndState;
@@ -25,7 +16,6 @@ use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::Level;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
-use crate::law::number::vector::dot;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::Request;
@@ -33,87 +23,14 @@ use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STA
 use crate::law::status;
 use crate::law::tangent::Measure;
 
-use super::border::{Message, check_pointers, entry, properties, store};
-use super::c::PointAnswer;
-
-/// `count` elements of a vector block from `first` on, counted from 0.
-struct Elements<T> {
-    stress: [*mut T; 6],
-    history: *mut T,
-    leading_dimension: usize,
-    first: usize,
-    count: usize,
-    failed: *mut c_int,
-}
-
-fn wrong_nhv(nhv: i32) -> Error {
-    let what = "number of history variables, NHV";
-    Error::Count { code: status::STATE_COUNT, what, found: i64::from(nhv), wanted: HYPERELASTIC_STATE as i64 }
-}
-
-/// Checks the elements of a vector block and their leading dimension.
-fn check_elements(lft: i32, llt: i32, nlq: i32) -> Result<(), Error> {
-    let wrong = |name: &'static str, value: i32, least: i64| {
-        let value = i64::from(value);
-        Err(Error::Range { code: status::BAD_COUNT, name, value, least, greatest: i64::MAX })
-    };
-    if lft < 1 {
-        return wrong("lft", lft, 1);
-    }
-    if llt < lft - 1 {
-        return wrong("llt (no less than lft - 1)", llt, i64::from(lft) - 1);
-    }
-    if nlq < llt {
-        let (found, wanted) = (i64::from(nlq), i64::from(llt));
-        return Err(Error::Count {
-            code: status::BAD_LEADING_DIMENSION,
-            what: "leading dimension, nlq",
-            found,
-            wanted,
-        });
-    }
-    Ok(())
-}
-
 /// The law with the properties of the card. Refuses a wrong number of history variables.
 ///
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
 unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, Error> {
-    if nhv != HYPERELASTIC_STATE as i32 {
-        return Err(wrong_nhv(nhv));
-    }
+    HYPERELASTIC.check_number(nhv)?;
     // SAFETY: the caller's promise.
     Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
-}
-
-/// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
-/// below 20.
-///
-/// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is not 11, F is at another place, behind
-/// zeros. Before the first call of an element, F is a rotation or nearly one, which two of its columns show. After a call,
-/// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0. NHV from 14 to 19 is not
-/// detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
-fn is_plausible<T: Scalar>(history: impl Fn(usize) -> T) -> bool {
-    const F: usize = HYPERELASTIC_STATE;
-    let h = |j: usize| -> f64 { history(j).into() };
-    if (F..F + 9).all(|j| h(j) == 0.0) {
-        return false;
-    }
-    let [failed, alive] = [FAILED, ALIVE].map(h);
-    if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-        // Entries of an F at another place may look like such flags; then there are zeros where F is read. No F has a row or
-        // column of zeros.
-        let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-        return !(0..3).any(|k| zeros(F + 3 * k, 1) || zeros(F + k, 3));
-    }
-    let is_at = |start: usize| {
-        let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
-        [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)].iter().all(|x| x.abs() < 0.25)
-    };
-    let leading_zeros = (0..F + 2).take_while(|&j| h(j) == 0.0).count();
-    let mut elsewhere = if leading_zeros < F { 0..=leading_zeros } else { F + 1..=leading_zeros };
-    !elsewhere.any(is_at)
 }
 
 /// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
@@ -171,13 +88,11 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
 unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
-    if nhv != HYPERELASTIC_STATE as i32 {
-        return Err(wrong_nhv(nhv));
-    }
+    HYPERELASTIC.check_number(nhv)?;
     // SAFETY: the caller's promise.
     unsafe {
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
-        if !is_plausible(|j| *hsv.add(j)) {
+        if !HYPERELASTIC.is_plausible(|j| *hsv.add(j)) {
             Hyperelastic::new(properties)?;
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
@@ -298,7 +213,7 @@ unsafe fn vector<T: Precision>(
     unsafe {
         let law = law(cm, nhv)?;
         let first = elements.history.wrapping_add(elements.first);
-        if elements.count > 0 && !is_plausible(|j| *first.wrapping_add(j * elements.leading_dimension)) {
+        if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *first.wrapping_add(j * elements.leading_dimension)) {
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
         evaluate(&law, &elements)
@@ -448,7 +363,7 @@ unsafe fn vector_tangent<T: Precision>(
     // SAFETY: the caller's promise.
     unsafe {
         let law = law(cm, nhv)?;
-        if pointers.n > 0 && !is_plausible(|j| *row(j)) {
+        if pointers.n > 0 && !HYPERELASTIC.is_plausible(|j| *row(j)) {
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
         law.raw_block(&pointers)

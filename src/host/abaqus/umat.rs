@@ -1,0 +1,350 @@
+//! The UMAT of Abaqus/Standard, of both laws.
+
+use core::cell::Cell;
+use core::slice;
+
+use libc::{c_char, size_t};
+
+use super::{UMAT_COUNTS, check_counts, property_count};
+use crate::host::border::{Message, check_plane, check_pointers, entry, fibre_of, out_of_plane, properties};
+use crate::law::block::linear::LinearPointers;
+use crate::law::block::{components, components_mut};
+use crate::law::derivative::{Derivative, JaumannModulus, StressAndState};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::level::Level;
+use crate::law::number::vector::{cross, dot};
+use crate::law::parameters;
+use crate::law::point::{Call, Point, Sink, evaluate_call};
+use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_WORK};
+use crate::law::status;
+use crate::law::tangent::Measure;
+use crate::law::voigt::Moduli;
+
+/// The value that PNEWDT is lowered to if a point cannot be evaluated.
+const CUTBACK: f64 = 0.25;
+
+/// Checks the arguments of a UMAT, evaluates its point with or without DDSDDE and stores the results. Returns the status code.
+///
+/// # Safety
+/// As documented for `toron_abaqus_umat_tangent_f64` in package `toron-c`; `ddsdde` is not null if `tangent` is DDSDDE.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+unsafe fn umat<D: Derivative<N>, const N: usize>(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: Message,
+    tangent: D,
+) -> i32
+where
+    for<'a> Umat<'a>: Sink<f64, N>,
+{
+    let solid = ndi == 3 && (nshr == 3 || nshr == 1) && nstatv >= HYPERELASTIC_STATE as i32 && nlgeom != 0;
+    let given = !stress.is_null() & !statev.is_null() & !sse.is_null() & !pnewdt.is_null() & !dfgrd1.is_null();
+    if !solid || !given || props.is_null() || nprops != parameters::HYPERELASTIC_PROPERTIES as i32 || nshr == 1 {
+        // Every argument is looked at only if one of them is wrong, or if the element is two-dimensional.
+        let pointers = [
+            (stress.cast_const(), "stress"),
+            (statev, "statev"),
+            (sse, "sse"),
+            (pnewdt, "pnewdt"),
+            (dfgrd1, "dfgrd1"),
+            (props, "props"),
+        ];
+        // SAFETY: the caller's promise.
+        let code = unsafe {
+            entry(message, || {
+                check_pointers(&pointers)?;
+                check_umat(nstatv, ndi, nshr, nlgeom, HYPERELASTIC_STATE)?;
+                let properties =
+                    properties(props, property_count(nprops, &parameters::HYPERELASTIC)?, &parameters::HYPERELASTIC)?;
+                if nshr == 1 {
+                    Hyperelastic::new(properties)?;
+                    if fibre_of(properties).is_some_and(out_of_plane) {
+                        return Err(Error::Plain(status::FIBRE_OUT_OF_PLANE));
+                    }
+                }
+                Ok(status::OK)
+            })
+        };
+        if code != status::OK {
+            return code;
+        }
+    }
+    // The structures are built inside the closure, so that their fields need not be copied as a whole.
+    let body = move || {
+        // SAFETY: not null, and the caller's promise.
+        let (source, f, state) = unsafe {
+            (
+                slice::from_raw_parts(props, parameters::HYPERELASTIC_PROPERTIES),
+                &*dfgrd1.cast::<[[f64; 3]; 3]>(),
+                &*statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
+            )
+        };
+        let mut status = status::OK;
+        let sink = Umat { stress, statev, ddsdde, sse, pnewdt, f, shear: nshr, status: &mut status };
+        evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
+        Ok(status)
+    };
+    // SAFETY: the caller's promise.
+    unsafe { entry(message, body) }
+}
+
+/// Checks the numbers of a UMAT.
+///
+/// # Errors
+/// The first that is wrong.
+#[cold]
+fn check_umat(nstatv: i32, ndi: i32, nshr: i32, nlgeom: i32, state: usize) -> Result<(), Error> {
+    if nlgeom == 0 {
+        return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+    }
+    check_counts(ndi, nshr, UMAT_COUNTS, nstatv, state)
+}
+
+/// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[allow(clippy::too_many_arguments)]
+#[inline(never)]
+pub unsafe extern "C" fn umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let (ddsdde, message) = (core::ptr::null_mut(), Message { text: message, capacity });
+    let tangent = StressAndState;
+    // SAFETY: the caller's promise.
+    unsafe {
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
+    }
+}
+
+/// `toron_abaqus_umat_tangent_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[allow(clippy::too_many_arguments)]
+#[inline(never)]
+pub unsafe extern "C" fn umat_tangent_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        if ddsdde.is_null() {
+            return umat_f64(
+                stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
+            );
+        }
+        let (message, tangent) = (Message { text: message, capacity }, JaumannModulus);
+        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
+    }
+}
+
+/// The sink of a UMAT: Abaqus's arrays, for which the caller answers.
+struct Umat<'a> {
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    f: &'a [[f64; 3]; 3],
+    shear: i32,
+    status: &'a mut i32,
+}
+
+impl Umat<'_> {
+    /// Stores all results except DDSDDE.
+    #[inline(always)]
+    fn put(self, point: &Point<f64>) {
+        let [s11, s22, s33, s12, s23, s31] = point.stress;
+        *self.status = point.status;
+        // SAFETY: ntens entries, for ntens = 6 or 4, and as many state variables as the law has.
+        unsafe {
+            *self.stress.cast() = [s11, s22, s33, s12];
+            if self.shear == 3 {
+                *self.stress.add(4).cast() = [s31, s23];
+            }
+            if point.status == status::OK {
+                for (c, &variable) in point.state.iter().enumerate() {
+                    *self.statev.add(c) = variable;
+                }
+                let [w_el, w_tc, w_td, w_ld, ..] = point.state;
+                let energy = ((w_el + w_tc) + w_td) + w_ld;
+                let jacobian = determinant(self.f);
+                *self.sse = current_density(energy, jacobian);
+            } else {
+                *self.pnewdt = (*self.pnewdt).min(CUTBACK);
+            }
+        }
+    }
+}
+
+impl Sink<f64, 0> for Umat<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, _: [f64; 0]) {
+        self.put(&point);
+    }
+}
+
+impl Sink<f64, 21> for Umat<'_> {
+    #[inline(always)]
+    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+        let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix();
+        let [r1, r2, r3, r4] = [abaqus_order(r1), abaqus_order(r2), abaqus_order(r3), abaqus_order(r4)];
+        let [r5, r6] = [abaqus_order(r5), abaqus_order(r6)];
+        // SAFETY: ntens² entries, for ntens = 6 or 4.
+        unsafe {
+            if self.shear == 3 {
+                *self.ddsdde.cast() = [r1, r2, r3, r4, r6, r5];
+            } else {
+                for (k, [c1, c2, c3, c4, ..]) in [r1, r2, r3, r4].into_iter().enumerate() {
+                    *self.ddsdde.cast::<[f64; 4]>().add(k) = [c1, c2, c3, c4];
+                }
+            }
+        }
+        self.put(&point);
+    }
+}
+
+/// 11 22 33 12 13 23 of 11 22 33 12 23 31.
+#[inline(always)]
+fn abaqus_order([c11, c22, c33, c12, c23, c31]: [f64; 6]) -> [f64; 6] {
+    [c11, c22, c33, c12, c31, c23]
+}
+
+/// The determinant of F, given by columns.
+#[inline(always)]
+fn determinant(f: &[[f64; 3]; 3]) -> f64 {
+    dot(f[0], cross(f[1], f[2]))
+}
+
+/// An energy per reference volume as one per current volume, W/J. A point that has failed before may have any F.
+#[inline(always)]
+fn current_density(energy: f64, jacobian: f64) -> f64 {
+    let current = energy / jacobian;
+    if jacobian > 0.0 && current.is_finite() { current } else { energy }
+}
+
+/// `toron_abaqus_linear_umat_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[allow(clippy::too_many_arguments)]
+#[inline(never)]
+pub unsafe extern "C" fn linear_umat_f64(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd0: *const f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    let body = move || {
+        check_pointers(&[
+            (stress.cast_const(), "stress"),
+            (statev, "statev"),
+            (sse, "sse"),
+            (pnewdt, "pnewdt"),
+            (dfgrd0, "dfgrd0"),
+            (dfgrd1, "dfgrd1"),
+            (props, "props"),
+        ])?;
+        check_umat(nstatv, ndi, nshr, nlgeom, LINEAR_ELASTIC_STATE)?;
+        let table = &parameters::LINEAR_ELASTIC;
+        // SAFETY: the caller's promise, here and below.
+        let values = unsafe { properties(props, property_count(nprops, table)?, table) }?;
+        let law = LinearElastic::new(values)?;
+        if nshr == 1 {
+            check_plane(&law, values)?;
+        }
+        let (mut sigma, mut state, mut tangent) = ([0.0; 6], [0.0; LINEAR_ELASTIC_STATE], [[0.0; 6]; 6]);
+        let wanted = !ddsdde.is_null();
+        let pointers = LinearPointers {
+            f_old: components(dfgrd0, 1),
+            f_new: components(dfgrd1, 1),
+            state_old: statev.cast_const(),
+            state_new: state.as_mut_ptr(),
+            stress: components_mut(sigma.as_mut_ptr(), 1),
+            tangent: if wanted { tangent.as_mut_ptr().cast() } else { core::ptr::null_mut() },
+            measure: Measure::Jaumann,
+            ..LinearPointers::without_arrays(1, 1)
+        };
+        let code = unsafe { law.raw_block(&pointers) }?;
+        let components = if nshr == 3 { 6 } else { 4 };
+        unsafe {
+            for (to, from) in (0..components).zip(IN_ABAQUS) {
+                *stress.add(to) = component(&sigma, from);
+            }
+            if wanted {
+                for (column, from) in (0..components).zip(IN_ABAQUS) {
+                    for (row, entries) in (0..components).zip(IN_ABAQUS.map(|row| tangent.get(row))) {
+                        *ddsdde.add(components * column + row) = entries.map_or(0.0, |row| component(row, from));
+                    }
+                }
+            }
+            if code == status::OK {
+                for (c, &variable) in state.iter().enumerate() {
+                    *statev.add(c) = variable;
+                }
+                *sse = current_density(state[LINEAR_WORK], determinant(&*dfgrd1.cast()));
+            } else {
+                *pnewdt = (*pnewdt).min(CUTBACK);
+            }
+        }
+        Ok(code)
+    };
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, body) }
+}
+
+/// The law's components 11 22 33 12 23 31 in Abaqus's order.
+const IN_ABAQUS: [usize; 6] = [0, 1, 2, 3, 5, 4];
+
+fn component(values: &[f64; 6], place: usize) -> f64 {
+    values.get(place).copied().unwrap_or_default()
+}

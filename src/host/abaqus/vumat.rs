@@ -1,0 +1,386 @@
+//! The VUMAT of Abaqus/Explicit, of both laws.
+
+use core::mem::MaybeUninit;
+
+use libc::{c_char, size_t};
+
+use super::{VUMAT_COUNTS, check_counts, property_count};
+use crate::host::border::{Message, check_plane, check_pointers, entry, out_of_plane, properties};
+use crate::host::c::level;
+use crate::host::structures::{read, structures};
+use crate::law::block::linear::LinearPointers;
+use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::number::level::Level;
+use crate::law::parameters::{self, LINEAR_ELASTIC_PROPERTIES, Property};
+use crate::law::state::{
+    ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ALIVE, LINEAR_ELASTIC_STATE,
+    LINEAR_FAILED, LINEAR_WORK,
+};
+use crate::law::status;
+
+/// The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct Vumat<T> {
+    /// The size of this structure.
+    pub size: size_t,
+    /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids), of state
+    /// variables (≥ 11, linear law ≥ 10) and of properties (11, linear law 10).
+    pub nblock: i32,
+    pub ndir: i32,
+    pub nshr: i32,
+    pub nstatev: i32,
+    pub nprops: i32,
+    /// In: the instruction set to use, one of `TORON_LEVEL_...`; 0: the best.
+    pub level: i32,
+    /// If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
+    pub step_time: f64,
+    pub total_time: f64,
+    /// In: properties, nprops.
+    pub props: *const T,
+    /// In, 1: current density at the middle of the step.
+    pub density: *const T,
+    /// In, 6 (or 4, as all tensors of plane elements): increment of strain, tensor components; read in the data check only.
+    pub strain_inc: *const T,
+    /// In, 6 components each: the right stretch U at the start and at the end of the increment, 11 22 33 12 23 31.
+    pub stretch_old: *const T,
+    pub stretch_new: *const T,
+    /// In, with 6, nstatev, 1 and 1 components.
+    pub stress_old: *const T,
+    pub state_old: *const T,
+    pub ener_intern_old: *const T,
+    pub ener_inelas_old: *const T,
+    /// Out, with 6, nstatev, 1 and 1 components.
+    pub stress_new: *mut T,
+    pub state_new: *mut T,
+    pub ener_intern_new: *mut T,
+    pub ener_inelas_new: *mut T,
+}
+
+structures! { Vumat, "toron_vumat_f64", "toron_vumat_f32", "block"; }
+
+#[cfg(target_pointer_width = "64")]
+const _: () = assert!(size_of::<Vumat<f64>>() == 6 * 8 + 13 * 8 && size_of::<Vumat<f32>>() == size_of::<Vumat<f64>>());
+
+/// Component `c` of point `i` in an array of a VUMAT.
+macro_rules! at {
+    ($array:expr, $block:expr, $c:expr, $i:expr) => {
+        *$array.add($c * $block.nblock as usize + $i)
+    };
+}
+
+/// What a VUMAT needs of a law.
+trait VumatLaw<T: Precision>: Sized {
+    const PROPERTIES: &'static [Property];
+    /// The number of state variables, and the places of `failed` and `alive` among them.
+    const STATE: usize;
+    const FAILED: usize;
+    const ALIVE: usize;
+    /// How many energies the state has, and the place of the first; their sum is W.
+    const ENERGIES: (usize, usize);
+
+    /// Checks the properties, for a plane element if `plane`.
+    fn new(properties: &[T], plane: bool) -> Result<Self, Error>;
+
+    /// The moduli of the data check.
+    fn moduli(&self) -> [T; 2];
+
+    /// Evaluates the law at `n` points from U at both ends of the increment; state and stress are new ones. Returns the worst status.
+    ///
+    /// # Safety
+    /// The rows have `n` values, those of the state at `state_old` and `state_new` the distance `stride`.
+    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error>;
+}
+
+/// Points of a VUMAT as a law takes them.
+struct Part<T> {
+    n: usize,
+    /// The distance from one state variable to the next.
+    stride: usize,
+    /// F = U, by columns.
+    old: [*const T; 9],
+    new: [*const T; 9],
+    state_old: *const T,
+    state_new: *mut T,
+    stress: [*mut T; 6],
+    codes: *mut i32,
+    level: Option<Level>,
+}
+
+impl<T: Precision> VumatLaw<T> for Hyperelastic<T> {
+    const PROPERTIES: &'static [Property] = &parameters::HYPERELASTIC;
+    const STATE: usize = HYPERELASTIC_STATE;
+    const FAILED: usize = FAILED;
+    const ALIVE: usize = ALIVE;
+    const ENERGIES: (usize, usize) = (4, ENERGIES);
+
+    fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
+        let law = Hyperelastic::new(properties)?;
+        let &[.., m_1, m_2, m_3] = properties else { return Ok(law) }; // their number has been checked
+        if plane && out_of_plane([m_1.into(), m_2.into(), m_3.into()]) {
+            return Err(Error::Plain(status::FIBRE_OUT_OF_PLANE));
+        }
+        Ok(law)
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        self.bulk_and_shear()
+    }
+
+    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error> {
+        let row = |c: usize| c.wrapping_mul(part.stride);
+        let pointers = Pointers {
+            deformation_gradient: part.new,
+            energies_old: part.state_old.wrapping_add(row(ENERGIES)),
+            invariants_old: part.state_old.wrapping_add(row(INVARIANTS)),
+            failure_old: part.state_old.wrapping_add(row(FAILURE_INDEX)),
+            stress: part.stress,
+            energies: part.state_new.wrapping_add(row(ENERGIES)),
+            invariants: part.state_new.wrapping_add(row(INVARIANTS)),
+            failure: part.state_new.wrapping_add(row(FAILURE_INDEX)),
+            status: part.codes,
+            level: part.level,
+            ..Pointers::without_arrays(part.n, part.stride)
+        };
+        // SAFETY: the caller's promise.
+        unsafe { self.raw_block(&pointers) }
+    }
+}
+
+impl<T: Precision> VumatLaw<T> for LinearElastic<T> {
+    const PROPERTIES: &'static [Property] = &parameters::LINEAR_ELASTIC;
+    const STATE: usize = LINEAR_ELASTIC_STATE;
+    const FAILED: usize = LINEAR_FAILED;
+    const ALIVE: usize = LINEAR_ALIVE;
+    const ENERGIES: (usize, usize) = (1, LINEAR_WORK);
+
+    fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
+        let law = LinearElastic::new(properties)?;
+        if plane {
+            let mut values = [0.0; LINEAR_ELASTIC_PROPERTIES];
+            values.iter_mut().zip(properties).for_each(|(value, &property)| *value = property.into());
+            check_plane(&law.lanes(), &values)?;
+        }
+        Ok(law)
+    }
+
+    fn moduli(&self) -> [T; 2] {
+        self.bulk_and_shear()
+    }
+
+    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error> {
+        let pointers = LinearPointers {
+            f_old: part.old,
+            f_new: part.new,
+            state_old: part.state_old,
+            state_new: part.state_new,
+            stress: part.stress,
+            status: part.codes,
+            level: part.level,
+            ..LinearPointers::without_arrays(part.n, part.stride)
+        };
+        // SAFETY: the caller's promise.
+        unsafe { self.raw_block(&pointers) }
+    }
+}
+
+/// # Safety
+/// As for `toron_abaqus_vumat_f64`.
+unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
+    let mut room = MaybeUninit::uninit();
+    // SAFETY: the caller's promise.
+    let block = unsafe { read(block, &mut room) }?;
+    check_pointers(&[
+        (block.props, "props"),
+        (block.density, "density"),
+        (block.strain_inc, "strain_inc"),
+        (block.stretch_old, "stretch_old"),
+        (block.stretch_new, "stretch_new"),
+        (block.stress_old, "stress_old"),
+        (block.state_old, "state_old"),
+        (block.ener_intern_old, "ener_intern_old"),
+        (block.ener_inelas_old, "ener_inelas_old"),
+        (block.stress_new, "stress_new"),
+        (block.state_new, "state_new"),
+        (block.ener_intern_new, "ener_intern_new"),
+        (block.ener_inelas_new, "ener_inelas_new"),
+    ])?;
+    check_counts(block.ndir, block.nshr, VUMAT_COUNTS, block.nstatev, L::STATE)?;
+    let Ok(n) = usize::try_from(block.nblock) else {
+        let (code, value) = (status::BAD_COUNT, i64::from(block.nblock));
+        return Err(Error::Range { code, name: "nblock", value, least: 0, greatest: i64::MAX });
+    };
+    let level = level(block.level)?;
+    let count = property_count(block.nprops, L::PROPERTIES)?;
+    // SAFETY: not null, and the caller's promise.
+    let law = L::new(unsafe { properties(block.props, count, L::PROPERTIES) }?, block.nshr == 1)?;
+    // SAFETY: the caller's promise, from here on.
+    unsafe {
+        for i in 0..n {
+            // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
+            // nothing.
+            for c in L::STATE..block.nstatev as usize {
+                at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
+            }
+            *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
+        }
+        if block.step_time == 0.0 && block.total_time == 0.0 {
+            elastic_check(&law, block, n);
+            return Ok(status::OK);
+        }
+        stretched(&law, block, n, level)
+    }
+}
+
+/// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
+/// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the hyperelastic law has no
+/// transverse stiffness at rest.
+///
+/// # Safety
+/// As for [`vumat`], with `n` points.
+unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) {
+    let [bulk, shear] = law.moduli();
+    let two_g = T::splat(2.0) * shear;
+    let lame = bulk - two_g * T::splat(1.0 / 3.0);
+    // SAFETY: the caller's promise.
+    unsafe {
+        for i in 0..n {
+            let strain = |c: usize| at!(block.strain_inc, block, c, i);
+            let volumetric = lame * (strain(0) + strain(1) + strain(2));
+            for c in 0..3 + block.nshr as usize {
+                let isotropic = if c < 3 { volumetric } else { T::splat(0.0) };
+                at!(block.stress_new, block, c, i) =
+                    at!(block.stress_old, block, c, i) + two_g.mul_add(strain(c), isotropic);
+            }
+            for c in 0..L::STATE {
+                at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
+            }
+            at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_old, block, L::FAILED, i);
+            *block.ener_intern_new.add(i) = *block.ener_intern_old.add(i);
+        }
+    }
+}
+
+/// The points of a block that are evaluated at once.
+const CHUNK: usize = 64;
+
+/// Evaluates the law at F = U, whose stress is RᵀσR.
+///
+/// # Safety
+/// As for [`vumat`], with `n` points.
+unsafe fn stretched<L: VumatLaw<T>, T: Precision>(
+    law: &L,
+    block: &Vumat<T>,
+    n: usize,
+    level: Option<Level>,
+) -> Result<i32, Error> {
+    let mut worst = status::OK;
+    let mut start = 0;
+    // The components 23 and 31, which plane elements do not have.
+    let (zeros, mut unused) = ([T::splat(0.0); CHUNK], [[T::splat(0.0); CHUNK]; 2]);
+    while start < n {
+        let mut codes = [status::OK; CHUNK];
+        let plane = block.nshr == 1;
+        let columns = |stretch: *const T| {
+            let [u11, u22, u33, u12, u23, u31] = components(stretch.wrapping_add(start), n);
+            let [u23, u31] = if plane { [zeros.as_ptr(); 2] } else { [u23, u31] };
+            [u11, u12, u31, u12, u22, u23, u31, u23, u33]
+        };
+        let mut stress = components_mut(block.stress_new.wrapping_add(start), n);
+        if plane {
+            let [a, b] = unused.each_mut().map(|row| row.as_mut_ptr());
+            [stress[4], stress[5]] = [a, b];
+        }
+        let part = Part {
+            n: CHUNK.min(n - start),
+            stride: n,
+            old: columns(block.stretch_old),
+            new: columns(block.stretch_new),
+            state_old: block.state_old.wrapping_add(start),
+            state_new: block.state_new.wrapping_add(start),
+            stress,
+            codes: codes.as_mut_ptr(),
+            level,
+        };
+        // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
+        worst = worst.min(unsafe { law.evaluate(&part) }?);
+        for (i, &code) in (start..n).zip(&codes) {
+            // SAFETY: i < n.
+            unsafe { finish::<L, T>(block, i, code) };
+        }
+        start += CHUNK;
+    }
+    Ok(worst)
+}
+
+/// Deletes a point that could not be evaluated, and writes its energy per mass, W/ρ0. The density that Abaqus passes is
+/// the current one at the middle of the step.
+///
+/// # Safety
+/// As for [`vumat`], for a point i < nblock whose new state is written.
+unsafe fn finish<L: VumatLaw<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
+    let (zero, half, one) = (T::splat(0.0), T::splat(0.5), T::splat(1.0));
+    // SAFETY: the caller's promise.
+    unsafe {
+        if code != status::OK {
+            at!(block.state_new, block, L::FAILED, i) = one;
+            at!(block.state_new, block, L::ALIVE, i) = zero;
+        }
+        let middle = |c: usize| half * (at!(block.stretch_old, block, c, i) + at!(block.stretch_new, block, c, i));
+        let u = |c: usize| if c < 3 + block.nshr as usize { middle(c) } else { zero };
+        let volume = u(0) * (u(1) * u(2) - u(4) * u(4)) - u(3) * (u(3) * u(2) - u(4) * u(5))
+            + u(5) * (u(3) * u(4) - u(1) * u(5));
+        let (count, first) = L::ENERGIES;
+        let mut energy = at!(block.state_new, block, first, i);
+        for c in 1..count {
+            energy = energy + at!(block.state_new, block, first + c, i);
+        }
+        let specific = energy / (*block.density.add(i) * volume);
+        // If the deformation or the density is invalid, the energy keeps its old value.
+        let known = zero.lt(volume) && (specific * zero).le(zero);
+        *block.ener_intern_new.add(i) = if known { specific } else { *block.ener_intern_old.add(i) };
+    }
+}
+
+/// `toron_abaqus_vumat_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, move || vumat::<Hyperelastic<f64>, f64>(block)) }
+}
+
+/// `toron_abaqus_vumat_f32` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, move || vumat::<Hyperelastic<f32>, f32>(block)) }
+}
+
+/// `toron_abaqus_linear_vumat_f64` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn linear_vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, move || vumat::<LinearElastic<f64>, f64>(block)) }
+}
+
+/// `toron_abaqus_linear_vumat_f32` of the C interface; package `toron-c` documents its arguments.
+///
+/// # Safety
+/// As documented there.
+#[inline(never)]
+pub unsafe extern "C" fn linear_vumat_f32(block: *const Vumat<f32>, message: *mut c_char, capacity: size_t) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { entry(Message { text: message, capacity }, move || vumat::<LinearElastic<f32>, f32>(block)) }
+}

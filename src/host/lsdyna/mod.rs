@@ -1,0 +1,134 @@
+//! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`), and their tangents (`utan41`, `utan41v`).
+//!
+//! | | hyperelastic law | linear elastic law |
+//! |---|---|---|
+//! | properties | cm(1) … cm(11) | cm(1) … cm(10) |
+//! | bulk and shear modulus | cm(12), cm(13): IBULK = 12, IG = 13 | cm(11), cm(12): IBULK = 11, IG = 12 |
+//! | history, NHV | 11 state variables | 19: 10 state variables, then the 9 entries of F of the last step, by columns |
+//! | F by columns, behind it, read only | hsv(12) … hsv(20) | hsv(20) … hsv(28) |
+//! | tangent | of the step | of a further, infinitesimal step; its symmetric part |
+//!
+//! | | |
+//! |---|---|
+//! | arrays, vectorised | leading dimension nlq: variable j of element i at hsvs((i − 1) + (j − 1) nlq) |
+//! | stress | Cauchy 11 22 33 12 23 31, global |
+//! | card | IHYPER = −1, IORTHO = 1: fibre (1, 0, 0); or IHYPER = 1, IORTHO = 0: fibre in global axes; IFAIL = 1 |
+//! | tangent | es(6, 6), dsave(nlq, 6, 6): Truesdell modulus of the Cauchy stress, the stress's order, engineering shears, global |
+//! | failure | failel; F inverted or not finite fails the element too |
+//!
+//! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
+
+mod hyperelastic;
+mod linear_elastic;
+
+pub use hyperelastic::{
+    bulk_and_shear_f64, umat_f32, umat_f64, umat_vector_f32, umat_vector_f64, utan_f32, utan_f64, utan_vector_f32,
+    utan_vector_f64,
+};
+pub use linear_elastic::{
+    linear_bulk_and_shear_f64, linear_umat_f32, linear_umat_f64, linear_umat_vector_f32, linear_umat_vector_f64,
+    linear_utan_f32, linear_utan_f64, linear_utan_vector_f32, linear_utan_vector_f64,
+};
+
+use core::ffi::c_int;
+
+use crate::law::error::Error;
+use crate::law::number::real::Scalar;
+use crate::law::number::vector::dot;
+use crate::law::state::{ALIVE, FAILED, HYPERELASTIC_STATE, LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
+use crate::law::status;
+
+/// Where a law has what in the history of an element, from 0.
+#[derive(Clone, Copy)]
+struct History {
+    /// The law, for messages.
+    law: &'static str,
+    failed: usize,
+    alive: usize,
+    /// NHV: F is behind.
+    variables: usize,
+}
+
+const HYPERELASTIC: History =
+    History { law: "number of history variables, NHV", failed: FAILED, alive: ALIVE, variables: HYPERELASTIC_STATE };
+
+const LINEAR_ELASTIC: History = History {
+    law: "number of history variables, NHV, of the linear elastic law",
+    failed: LINEAR_FAILED,
+    alive: LINEAR_ALIVE,
+    variables: LINEAR_ELASTIC_STATE + 9,
+};
+
+/// `count` elements of a vector block from `first` on, counted from 0.
+struct Elements<T> {
+    stress: [*mut T; 6],
+    history: *mut T,
+    leading_dimension: usize,
+    first: usize,
+    count: usize,
+    failed: *mut c_int,
+}
+
+/// Checks the elements of a vector block and their leading dimension.
+fn check_elements(lft: i32, llt: i32, nlq: i32) -> Result<(), Error> {
+    let wrong = |name: &'static str, value: i32, least: i64| {
+        let value = i64::from(value);
+        Err(Error::Range { code: status::BAD_COUNT, name, value, least, greatest: i64::MAX })
+    };
+    if lft < 1 {
+        return wrong("lft", lft, 1);
+    }
+    if llt < lft - 1 {
+        return wrong("llt (no less than lft - 1)", llt, i64::from(lft) - 1);
+    }
+    if nlq < llt {
+        let (found, wanted) = (i64::from(nlq), i64::from(llt));
+        return Err(Error::Count {
+            code: status::BAD_LEADING_DIMENSION,
+            what: "leading dimension, nlq",
+            found,
+            wanted,
+        });
+    }
+    Ok(())
+}
+
+impl History {
+    /// Refuses a wrong number of history variables.
+    fn check_number(&self, nhv: i32) -> Result<(), Error> {
+        if nhv == self.variables as i32 {
+            return Ok(());
+        }
+        let (found, wanted) = (i64::from(nhv), self.variables as i64);
+        Err(Error::Count { code: status::STATE_COUNT, what: self.law, found, wanted })
+    }
+
+    /// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
+    /// below NHV + 9.
+    ///
+    /// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
+    /// zeros. Before the first call of an element, F is a rotation or nearly one, which two of its columns show. After a call,
+    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0. An NHV that is greater by 3 to 8 is
+    /// not detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
+    fn is_plausible<T: Scalar>(&self, history: impl Fn(usize) -> T) -> bool {
+        let f = self.variables;
+        let h = |j: usize| -> f64 { history(j).into() };
+        if (f..f + 9).all(|j| h(j) == 0.0) {
+            return false;
+        }
+        let [failed, alive] = [self.failed, self.alive].map(h);
+        if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
+            // Entries of an F at another place may look like such flags; then there are zeros where F is read. No F has a row or
+            // column of zeros.
+            let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
+            return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3));
+        }
+        let is_at = |start: usize| {
+            let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
+            [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)].iter().all(|x| x.abs() < 0.25)
+        };
+        let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
+        let mut elsewhere = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
+        !elsewhere.any(is_at)
+    }
+}
