@@ -17,7 +17,7 @@ use crate::material::preset::{LawName, Preset};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {
     LsDyna,
-    /// One card for both.
+    /// One card for both solvers.
     Abaqus,
     AbaqusStandard,
     AbaqusExplicit,

@@ -17,6 +17,8 @@ pub const WIDE: usize = 19;
 pub struct Material {
     /// Letters, digits and - _ . only.
     pub name: String,
+    /// The preset's file, or its name, for messages.
+    place: String,
     /// Where the values come from, on one line.
     source: String,
     units: UnitSystem,
@@ -41,7 +43,8 @@ impl Material {
             None => preset.law_error(&error),
         })?;
         let (name, source) = (preset.name.clone(), preset.source.clone());
-        Ok(Material { name, source, units: *units, law: preset.law, values, density: preset.density_in(units) })
+        let place = preset.file().unwrap_or(&name).to_string();
+        Ok(Material { name, place, source, units: *units, law: preset.law, values, density: preset.density_in(units) })
     }
 
     pub fn interface(&self) -> &'static Interface {
@@ -58,7 +61,7 @@ impl Material {
     /// The material has none.
     pub fn density(&self) -> Result<f64, Error> {
         let message = "density is missing, which this host needs; allowed: a finite number > 0";
-        self.density.ok_or_else(|| Error::Input(format!("{}: {message}", self.name)))
+        self.density.ok_or_else(|| Error::Input(format!("{}: {message}", self.place)))
     }
 
     /// The density, for the hosts that need it in some analyses only.

@@ -220,7 +220,7 @@ fn a_file_prints_as_a_deck() {
     assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
     write(&folder, "bare.toml", "units = \"si\"\n[properties]\nk_el = 1\nk_tc = 1\np = 2\nk_td = 1\n");
     let missing = "density is missing, which this host needs; allowed: a finite number > 0";
-    assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare: {missing}\n")));
+    assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
     let static_only = answer(&["deck", "--host", "calculix", "--preset", "bare.toml"]).expect("it needs no density");
     assert!(static_only.contains("CONSTANTS=11") && !static_only.contains("*DENSITY"), "{static_only}");
     let nothing = deck(&["nothing.toml"]).expect_err("there is no file");

@@ -9,10 +9,11 @@ use toron_program::material::preset::LawName;
 
 use crate::hexahedra::Mesh;
 
-/// When numbers are given, as parts of the time; the fourth is behind the failure under tension.
+/// When numbers are given, as parts of the time; under tension the last is after failure.
 pub const ROWS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
-/// Steps of the law, which no row and no failure of these decks falls between.
+/// Steps of the law: rows are at their ends, and the strain at which a yarn of these decks fails is not, so that rounding does not
+/// choose the step.
 const STEPS: usize = 7212;
 
 pub struct Deck {
