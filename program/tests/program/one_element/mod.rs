@@ -10,14 +10,17 @@ mod model;
 mod mtest;
 mod openradioss;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::calculix_decks::{Job, Tangent};
+use crate::eval::evaluated;
 use crate::library::{ROOT, run};
 use model::{Deck, ROWS, Row};
+use toron::law::parameters::FIBRE;
 use toron_program::material::preset::LawName;
 
 /// A host: folder, ending of its decks, sign of a comment, how a deck is read, and the deck's time at the end.
@@ -27,15 +30,38 @@ struct Host {
     comment: &'static str,
     read: fn(&str) -> Deck,
     end: f64,
+    /// The C entry that its routine calls, as `toron eval` names it.
+    entry: Option<&'static str>,
 }
 
 const HOSTS: [Host; 6] = [
-    Host { folder: "ls-dyna", ending: ".k", comment: "$", read: ls_dyna::read, end: 60e-6 },
-    Host { folder: "abaqus-standard", ending: ".inp", comment: "**", read: abaqus::standard, end: 60.0 },
-    Host { folder: "abaqus-explicit", ending: ".inp", comment: "**", read: abaqus::explicit, end: 60e-6 },
-    Host { folder: "openradioss", ending: "_0000.rad", comment: "#", read: openradioss::read, end: 60e-6 },
-    Host { folder: "calculix", ending: ".inp", comment: "**", read: abaqus::calculix, end: 60.0 },
-    Host { folder: "mtest", ending: ".mtest", comment: "//", read: mtest::read, end: 60.0 },
+    Host { folder: "ls-dyna", ending: ".k", comment: "$", read: ls_dyna::read, end: 60e-6, entry: Some("ls-dyna") },
+    Host {
+        folder: "abaqus-standard",
+        ending: ".inp",
+        comment: "**",
+        read: abaqus::standard,
+        end: 60.0,
+        entry: Some("umat"),
+    },
+    Host {
+        folder: "abaqus-explicit",
+        ending: ".inp",
+        comment: "**",
+        read: abaqus::explicit,
+        end: 60e-6,
+        entry: Some("vumat"),
+    },
+    Host {
+        folder: "openradioss",
+        ending: "_0000.rad",
+        comment: "#",
+        read: openradioss::read,
+        end: 60e-6,
+        entry: Some("openradioss"),
+    },
+    Host { folder: "calculix", ending: ".inp", comment: "**", read: abaqus::calculix, end: 60.0, entry: None },
+    Host { folder: "mtest", ending: ".mtest", comment: "//", read: mtest::read, end: 60.0, entry: Some("mgis") },
 ];
 
 const SCENES: [&str; 3] = ["tension", "compaction", "turn"];
@@ -209,6 +235,34 @@ fn the_numbers_are_those_of_closed_forms() {
         near(row, [79414.0 * strain, 0.0, 0.0, 0.0], row.energy);
     }
     assert!(!linear[2].failed && linear[3].failed);
+}
+
+/// The C entry that each host's routine calls gives the same numbers, before failure; CalculiX's is tested in CalculiX.
+#[test]
+fn the_hosts_entries_give_the_numbers() {
+    for host in &HOSTS {
+        let Some(entry) = host.entry else { continue };
+        for (_, path) in &host.decks()[..SCENES.len()] {
+            let deck = (host.read)(&text(path));
+            let point = &deck.points[0];
+            let rows: Vec<Row> = deck.rows(point).into_iter().filter(|row| !row.failed).collect();
+            let (properties, fibre) = point.values.split_at(FIBRE);
+            let names = point.law.table().iter().map(|property| property.name);
+            let params: BTreeMap<_, _> = names.zip(properties).collect();
+            let lines = rows.iter().map(|row| {
+                let f: [[f64; 3]; 3] = (point.path)(row.time).transpose().into();
+                serde_json::json!({ "F": f, "m": fibre, "params": params }).to_string() + "\n"
+            });
+            let answers = evaluated(&["--via", entry], lines.collect::<String>().as_bytes());
+            assert!(rows.len() >= 3 && answers.len() == rows.len());
+            for (answer, row) in answers.iter().zip(&rows) {
+                for (k, expected) in row.stress[..4].iter().enumerate() {
+                    let found = answer["sigma"][k].as_f64().expect("a number");
+                    assert!((found - expected).abs() < 1e-3, "{} at {}: {found}", path.display(), row.time);
+                }
+            }
+        }
+    }
 }
 
 /// Between the points of its tables a turned element moves along chords: by how much that is wrong is said in the deck.

@@ -129,6 +129,7 @@ impl Model {
                 let points = mesh.gauss_points(0, &displacements);
                 let f = points[0].f;
                 assert!(points.iter().all(|point| (point.f - f).norm() < 1e-8), "F is not homogeneous at {time}");
+                assert!(points.iter().all(|point| point.volume > 0.0), "the order of the element's nodes");
                 f
             };
             let label = format!("element {number}");
