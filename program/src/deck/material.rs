@@ -38,9 +38,9 @@ impl Material {
             values[first..first + 3].copy_from_slice(&fibre);
         }
         let law = Law::new(preset.law.table(), &values, Rotation::Fibre, Criterion::LargestPrincipal);
-        law.map_err(|error| match fibre {
-            Some(_) => Error::Input(format!("--fibre: {error}")),
-            None => preset.law_error(&error),
+        law.map_err(|error| match error {
+            toron::Error::Direction { .. } if fibre.is_some() => Error::Input(format!("--fibre: {error}")),
+            error => preset.law_error(&error),
         })?;
         let (name, source) = (preset.name.clone(), preset.source.clone());
         let place = preset.file().unwrap_or(&name).to_string();

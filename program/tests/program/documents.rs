@@ -113,7 +113,7 @@ fn mistakes() -> String {
         ("a stiffness with the wrong sign", with(0, -82341.0)),
         ("p left at 0: a column of the card is shifted", with(2, 0.0)),
         ("the fibre direction left at 0", no_fibre),
-        ("LS-DYNA: the linear elastic preset on this card", linear_elastic),
+        ("LS-DYNA: the linear elastic preset on the hyperelastic card", linear_elastic),
     ];
     let refused = refused.map(|(mistake, values)| {
         let error = Hyperelastic::new(&values).expect_err("a mistake");
