@@ -6,7 +6,8 @@
 //! - one element along a load path (`toron run`): [`load_path`];
 //! - single points through any C entry (`toron eval`): [`eval`];
 //! - what a point costs (`toron bench`): [`mod@bench`];
-//! - tables of properties, presets and decks (`toron params`): [`params`];
+//! - tables of properties and presets (`toron params`): [`params`];
+//! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
@@ -16,6 +17,7 @@
 pub mod bench;
 pub mod cell;
 pub mod common;
+pub mod deck;
 pub mod entries;
 pub mod eval;
 pub mod explicit;

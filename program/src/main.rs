@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand};
 use toron_program::common::console::print_error;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, cell, eval, identify, impact, load_path, params};
+use toron_program::{bench, cell, deck, eval, identify, impact, load_path, params};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -27,16 +27,17 @@ enum Command {
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
     },
-    /// Print the tables of properties and state variables, the presets, or a preset as a deck.
+    /// Print the tables of properties and state variables, the presets, or one preset's values.
     Params {
         /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
         #[arg(long)]
         units: Option<String>,
-        /// Print this preset, ready for LS-DYNA and Abaqus decks: a name, or a file of your own, as my-yarn.toml (see
-        /// docs/load-paths.md).
+        /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/load-paths.md).
         #[arg(long)]
         preset: Option<String>,
     },
+    /// Print a material's card, ready to be pasted into a solver's deck.
+    Deck(deck::command::Arguments),
     /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
     /// eps_lim, alpha, beta}}.
     Eval {
@@ -89,6 +90,7 @@ fn main() -> ExitCode {
     let answer: Result<(), Error> = match Arguments::parse().command {
         Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
+        Command::Deck(arguments) => deck::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),

@@ -1,35 +1,35 @@
-//! `toron params`: the tables of properties and state variables, the presets, and a preset as a deck.
+//! `toron params`: the tables of properties and state variables, the presets, and the values of one preset.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::short_number::short;
 use crate::common::units::unit;
-use crate::material::model::deletion_variable;
-use crate::material::preset::{LawName, Preset};
+use crate::material::model::Law;
+use crate::material::preset::Preset;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Property};
 use toron::law::state::{self, StateVariable};
-use toron::{Hyperelastic, LinearElastic};
+use toron::{Criterion, Rotation};
 
 /// The text of `toron --version`.
 pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }
 
-/// Prints the tables; or, given a preset by name or file, its values for the decks of both hosts.
+/// Prints the tables; or, given a preset by name or file, its values.
 ///
 /// # Errors
-/// An unknown preset or unit system; a file of a preset that is wrong, or not enough for a deck.
+/// An unknown preset or unit system; a file of a preset that is wrong, or lacks a property.
 pub fn print_tables(units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
     let units = units.map(unit_system).transpose()?;
     let text = match preset {
         None => tables(&units.unwrap_or(UnitSystem::SI))?,
         Some(name) => {
             let preset = Preset::find(name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?;
-            deck(&preset, &units.unwrap_or(preset.units))?
+            values(&preset, &units.unwrap_or(preset.units))?
         }
     };
     print(&text);
@@ -52,11 +52,24 @@ fn tables(units: &UnitSystem) -> Result<String, Error> {
         text += &format!("{name}: state variables, all 0 at the start\n{}\n", state_table(variables, units));
     }
     for preset in PRESETS.iter().map(Preset::from) {
-        let (values, density) = (preset.complete(units)?, preset.density_in(units));
-        let table = preset_table(preset.law.table(), &values, density, units);
-        text += &format!("Preset {}\n{}\n{table}\n", preset.name, preset.source);
+        text += &format!("{}\n", preset_text(&preset, units)?);
     }
     Ok(text)
+}
+
+/// One preset, and what makes a card of it.
+fn values(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
+    let (table, values) = (preset.law.table(), preset.complete(units)?);
+    Law::new(table, &values, Rotation::Fibre, Criterion::LargestPrincipal).map_err(|error| preset.law_error(&error))?;
+    let name = preset.file().unwrap_or(&preset.name);
+    let deck = format!("toron deck --host HOST --preset {name} --units {}", units.names().join("-"));
+    Ok(format!("{}\nAs a card for a solver: {deck}\n", preset_text(preset, units)?))
+}
+
+fn preset_text(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
+    let (values, density) = (preset.complete(units)?, preset.density_in(units));
+    let table = preset_table(preset.law.table(), &values, density, units);
+    Ok(format!("Preset {} ({})\n{}\n{table}", preset.name, preset.law.text(), preset.source))
 }
 
 fn property_table(properties: &[Property], units: &UnitSystem) -> String {
@@ -104,85 +117,4 @@ fn align<const N: usize>(head: [&str; N], rows: impl Iterator<Item = [String; N]
         text += &format!("  {}\n", cells.join("  ").trim_end());
     }
     text
-}
-
-/// A preset as cards of LS-DYNA and lines of Abaqus.
-fn deck(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
-    let values = preset.complete(units)?;
-    let density = preset.density_in(units);
-    let [length, mass, time] = units.names();
-    let heading = format!("{}, in {length}, {mass}, {time}", preset.source);
-    if preset.law == LawName::LinearElastic {
-        // The linear law goes into a host by the C interface, not by a deck: the same card would run the other law.
-        LinearElastic::new(&values).map_err(|error| preset.law_error(&error))?;
-        return Ok(format!("{heading}\n{}", preset_table(preset.law.table(), &values, density, units)));
-    }
-    let law = Hyperelastic::new(&values).map_err(|error| preset.law_error(&error))?;
-    let density =
-        density.ok_or_else(|| preset.error("density is missing, which a deck needs; allowed: a finite number > 0"))?;
-    let cards = ls_dyna(&preset.name, &heading, density, &values, law.bulk_and_shear());
-    Ok(format!("{cards}\n{}", abaqus(&preset.name, &heading, density, &values)))
-}
-
-/// `*MAT_USER_DEFINED_MATERIAL_MODELS`: the properties as P1…, then the bulk and the shear modulus.
-fn ls_dyna(name: &str, heading: &str, density: f64, values: &[f64], moduli: [f64; 2]) -> String {
-    let constants: Vec<f64> = values.iter().copied().chain(moduli).collect();
-    let (count, bulk, shear) = (constants.len(), values.len() + 1, values.len() + 2);
-    let history = deletion_variable(&HYPERELASTIC) + 1;
-    let field = |text: &dyn std::fmt::Display| format!("{text:>10}");
-    let card = |fields: &[String]| fields.iter().map(|text| field(text)).collect::<String>();
-    let head = |names: &str| {
-        let names: String = names.split(' ').map(|name| field(&name)).collect();
-        format!("$#{}", &names[2..])
-    };
-    let text = |value: usize| value.to_string();
-    let mut deck = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{name}\n$ {heading}\n");
-    let first = ["1".to_string(), field_of_ten(density), "41".to_string(), text(count), text(history)];
-    let last = ["0".to_string(), text(bulk), text(shear)];
-    deck += &format!("{}\n{}\n", head("mid ro mt lmc nhv iortho ibulk ig"), card(&[&first[..], &last[..]].concat()));
-    let options = ["0", "1", "0", "1", "0", "0"].map(str::to_string);
-    deck += &format!("{}\n{}\n", head("ivect ifail itherm ihyper ieos lmca"), card(&options));
-    let names: Vec<&str> = HYPERELASTIC.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
-    for (names, constants) in names.chunks(8).zip(constants.chunks(8)) {
-        let fields: Vec<String> = constants.iter().map(|&value| field_of_ten(value)).collect();
-        deck += &format!("{}\n{}\n", head(&names.join(" ")), card(&fields));
-    }
-    deck
-}
-
-/// `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named.
-fn abaqus(name: &str, heading: &str, density: f64, values: &[f64]) -> String {
-    let mut deck =
-        format!("*MATERIAL, NAME={}\n** {heading}\n*DENSITY\n{},\n", name.to_uppercase(), short(density, 20));
-    let _ = writeln!(deck, "*USER MATERIAL, CONSTANTS={}", values.len());
-    for line in values.chunks(8) {
-        let fields: Vec<String> = line.iter().map(|&value| short(value, 20)).collect();
-        let _ = writeln!(deck, "{}", fields.join(", "));
-    }
-    let variables = &state::HYPERELASTIC;
-    let _ = writeln!(deck, "*DEPVAR, DELETE={}\n{},", deletion_variable(&HYPERELASTIC) + 1, variables.len());
-    for (i, variable) in variables.iter().enumerate() {
-        let _ = writeln!(deck, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
-    }
-    deck
-}
-
-/// A number for a field of ten columns: with a blank before it where that costs no digit.
-fn field_of_ten(value: f64) -> String {
-    let spaced = short(value, 9);
-    let exact = spaced.parse().is_ok_and(|x: f64| (x - value).abs() <= 1e-12 * value.abs());
-    if exact { spaced } else { short(value, 10) }
-}
-
-/// The shortest number that says the value to twelve digits; where `width` characters do not hold it, the nearest one that
-/// they do.
-fn short(value: f64, width: usize) -> String {
-    let fixed = (1..17).map(|decimals| format!("{value:.decimals$}"));
-    let scientific = (0..17).map(|digits| format!("{value:.digits$e}"));
-    let error = |text: &String| text.parse().map_or(f64::INFINITY, |x: f64| (x - value).abs());
-    let fits = fixed.chain(scientific).filter(|text| text.len() <= width);
-    // Among those that are near enough the shortest counts, fixed before scientific.
-    let rank = |text: &String| (error(text).max(1e-12 * value.abs()), text.len());
-    let best = fits.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(std::cmp::Ordering::Equal));
-    best.unwrap_or_else(|| value.to_string())
 }

@@ -1,10 +1,11 @@
-//! What all commands share: errors and their exit codes, the console, progress bars, units, files in TOML, tables of
+//! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
 //! measured data.
 
 pub mod console;
 pub mod data_table;
 pub mod error;
 pub mod progress;
+pub mod short_number;
 pub mod toml_error;
 pub mod toml_file;
 pub mod unit_expression;

@@ -1,4 +1,4 @@
-//! Runs decks of `ffi-tests/calculix` in CalculiX and reads what it writes.
+//! Runs decks of `ffi-tests/calculix`, and of other folders beside it, in CalculiX and reads what it writes.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -176,20 +176,149 @@ fn tables_fit_a_terminal() {
     }
 }
 
+/// What `toron deck` prints.
+fn card(arguments: &[&str]) -> String {
+    let output = toron(Path::new("."), &[&["deck"], arguments].concat());
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+/// The lines that a solver reads.
+fn read_by<'a>(card: &'a str, comment: &str) -> Vec<&'a str> {
+    card.lines().filter(|line| !line.starts_with(comment)).collect()
+}
+
 #[test]
-fn a_preset_prints_as_a_deck() {
-    let output = toron(Path::new("."), &["params", "--preset", "kevlar-km2-600", "--units", "mm-tonne-s"]);
-    let deck = text(&output.stdout);
-    // Ten columns a field: mid, ro, mt, lmc, nhv, iortho, ibulk, ig; then the constants.
-    for line in [
-        "         1 1.3514e-9        41        13        11         0        12        13",
-        "   82341.0    1055.0       2.2    649.74       0.0    0.0458       1.8       0.0",
-        "       1.0       0.0       0.0   41170.5 30877.875",
-        "*USER MATERIAL, CONSTANTS=11",
-        "82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.0",
-        "*DEPVAR, DELETE=11",
-        "1.3514e-9,",
-    ] {
-        assert!(deck.lines().any(|found| found == line), "{line}\nin\n{deck}");
+fn a_preset_prints_as_a_card() {
+    let dyna = card(&["--host", "ls-dyna", "--units", "mm-tonne-s"]);
+    assert_eq!(
+        read_by(&dyna, "$"),
+        [
+            "*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE",
+            "kevlar-km2-600",
+            "         1 1.3514e-9        41        13        11         0        12        13",
+            "         0         1         0         1         0         0",
+            "   82341.0    1055.0       2.2    649.74       0.0    0.0458       1.8       0.0",
+            "       1.0       0.0       0.0   41170.5 30877.875",
+        ]
+    );
+    let linear = ["--law", "linear-elastic", "--units", "mm-tonne-s"];
+    let axes = ["--fibre", "0.6,0.8,0", "--axes", "--mt", "44", "--id", "7"];
+    let dyna = card(&[&["--host", "ls-dyna"], &linear[..], &axes].concat());
+    assert_eq!(
+        read_by(&dyna, "$")[2..],
+        [
+            "         7 1.3514e-9        44        12        19         1        11        12",
+            "         0         1         0        -1         0         0",
+            "       2.0         1       0.0       0.0       0.0       0.6       0.8       0.0",
+            "       0.0       0.0       0.0       0.0       0.0       1.0       0.0         0",
+            "   79414.0     794.0     126.0    3637.0       1.0       0.0       0.0       0.0",
+            "       0.0       0.0   39707.0  29780.25",
+        ]
+    );
+    let abaqus = card(&[&["--host", "abaqus"], &linear[..]].concat());
+    assert_eq!(
+        read_by(&abaqus, "**")[..7],
+        [
+            "*MATERIAL, NAME=KEVLAR-KM2-600-LINEAR",
+            "*DENSITY",
+            "1.3514e-9,",
+            "*USER MATERIAL, CONSTANTS=10",
+            "79414.0, 794.0, 126.0, 3637.0, 1.0, 0.0, 0.0, 0.0",
+            "0.0, 0.0",
+            "*DEPVAR, DELETE=10",
+        ]
+    );
+    // The same card, but for the deletion that Abaqus/Standard does not have.
+    for law in ["hyperelastic", "linear-elastic"] {
+        let of = |host| card(&["--host", host, "--law", law, "--units", "si"]);
+        let [both, explicit, standard] = ["abaqus", "abaqus-explicit", "abaqus-standard"].map(of);
+        assert_eq!(read_by(&both, "**"), read_by(&explicit, "**"));
+        assert!(explicit.contains("ELEMENT DELETION=YES") && !standard.contains("DELET"), "{standard}");
+        let kept = |line: &&str| !line.starts_with("*DEPVAR");
+        let lines = |card| read_by(card, "**").into_iter().filter(kept).map(String::from).collect::<Vec<_>>();
+        assert_eq!(lines(&standard), lines(&explicit));
     }
+    let calculix = card(&[&["--host", "calculix"], &linear[..]].concat());
+    let lines = read_by(&calculix, "**");
+    assert_eq!(lines[..1], ["*MATERIAL, NAME=@TORON_LINEARELASTIC"]);
+    assert_eq!(lines[lines.len() - 2..], ["*DEPVAR", "19"]);
+    let radioss = card(&["--host", "openradioss", "--units", "mm-tonne-s", "--id", "3"]);
+    let lines = read_by(&radioss, "#");
+    assert_eq!(
+        (lines[0], lines[6], lines[8]),
+        (
+            "/MAT/USER01/3",
+            "/PROP/TYPE14/3",
+            "         1        10                   0                   0         0         1                   0"
+        )
+    );
+    let mtest = card(&["--host", "mtest", "--units", "mm-kg-ms"]);
+    assert!(
+        mtest.contains("@MaterialProperty<constant> 'k_el' 82.341;") && mtest.contains("stiffness, GPa\n"),
+        "{mtest}"
+    );
+}
+
+/// Every field of ten columns has a blank before it, in any units, and says its number to five digits or names itself rounded.
+#[test]
+fn fields_of_ls_dyna_never_touch() {
+    for units in ["si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "um-kg-s", "in-slinch-s", "ft-slug-s"] {
+        for law in ["hyperelastic", "linear-elastic"] {
+            let numbers = card(&["--host", "mtest", "--law", law, "--units", units]);
+            let dyna = card(&["--host", "ls-dyna", "--law", law, "--units", units]);
+            let lines = read_by(&dyna, "$");
+            let fields = |line: &&str| {
+                let text = line.to_string();
+                (0..line.len() / 10).map(|i| text[10 * i..10 * (i + 1)].to_string()).collect::<Vec<_>>()
+            };
+            for field in lines[2..].iter().flat_map(fields) {
+                assert!(field.starts_with(' ') && !field.ends_with(' '), "{field} in\n{dyna}");
+            }
+            let given = lines[4..].iter().flat_map(fields).map(|field| field.trim().parse::<f64>().expect("a number"));
+            let wanted = numbers.lines().filter_map(|line| line.strip_prefix("@MaterialProperty<constant> '"));
+            for (found, line) in given.zip(wanted) {
+                let (name, value) = line.split_once("' ").expect("name and value");
+                let value: f64 = value.split(';').next().expect("a value").parse().expect("a number");
+                assert!((found - value).abs() <= 5e-5 * value.abs(), "{name}: {found}, not {value}");
+                let rounded = (found - value).abs() > 1e-12 * value.abs();
+                let said = dyna.lines().find(|line| line.starts_with("$ rounded")).unwrap_or_default();
+                assert_eq!(rounded, said.split([' ', ',']).any(|word| word == name), "{name}: {said}");
+            }
+        }
+    }
+}
+
+#[test]
+fn wrong_arguments_of_a_card_are_named() {
+    let refused = |arguments: &[&str], message: &str| {
+        let output = toron(Path::new("."), &[&["deck"], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(message), "{arguments:?}: {}", text(&output.stderr));
+    };
+    refused(&["--host", "nastran"], "'nastran' for '--host <HOST>'");
+    refused(&["--host", "nastran"], "ls-dyna, abaqus, abaqus-standard, abaqus-explicit, openradioss, calculix, mtest");
+    refused(&["--host", "mtest"], "--units is missing, and kevlar-km2-600 has none; allowed: length-mass-time");
+    let dyna = ["--host", "ls-dyna", "--units", "si"];
+    for (arguments, message) in [
+        (&["--law", "elastic"][..], "--law elastic; allowed: hyperelastic, linear-elastic"),
+        (&["--preset", "nylon"], "--preset: preset \"nylon\"; allowed: kevlar-km2-600"),
+        (&["--properties", "nylon.txt"], "--properties nylon.txt: it cannot be read: "),
+        (&["--preset", "kevlar-km2-600", "--law", "linear-elastic"], "kevlar-km2-600 is of the law hyperelastic"),
+        (&["--fibre", "1,0"], "--fibre 1,0; allowed: three finite numbers, X,Y,Z"),
+        (&["--fibre", "1,0,inf"], "--fibre 1,0,inf; allowed: three finite numbers, X,Y,Z"),
+        (
+            &["--fibre", "0,0,0"],
+            "--fibre: properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero",
+        ),
+        (&["--mt", "42"], "--mt 42; allowed: 41, 43, 44, 45, 47, 48, 49, 50"),
+        (&["--id", "0"], "--id 0; allowed: 1 to 999999999"),
+    ] {
+        refused(&[&dyna[..], arguments].concat(), message);
+    }
+    let ccx = ["--host", "calculix", "--units", "si"];
+    refused(&[&ccx[..], &["--axes"]].concat(), "--axes is for --host ls-dyna only");
+    refused(&[&ccx[..], &["--mt", "41"]].concat(), "--mt is for --host ls-dyna only");
+    refused(&[&ccx[..], &["--id", "2"]].concat(), "--id is for --host ls-dyna and openradioss only");
+    refused(&["--host", "mtest", "--units", "furlong"], "--units furlong; allowed: length-mass-time");
 }

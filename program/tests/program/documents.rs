@@ -1,6 +1,7 @@
-//! The documents say what the library says. What stands in `docs/` between `<!-- generated: NAME -->` and `<!-- end -->` is
-//! the library's own words; `TORON_WRITE_DOCS=1 cargo test -p toron-program documents` writes it anew. The programs shown there
-//! compile and print what is shown behind them, and the code names of the symbols exist.
+//! The documents say what the library says. What stands in them between `<!-- generated: NAME -->` and `<!-- end -->` is the
+//! library's own words, or what the program prints where NAME is a command; `TORON_WRITE_DOCS=1 cargo test -p toron-program
+//! documents` writes it anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a
+//! heading in it, and the code names of the symbols exist.
 
 use std::ffi::c_char;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,19 @@ use toron::law::status;
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Point, Request};
 
-const DOCUMENTS: [&str; 5] = ["theory.md", "hosts.md", "validation.md", "load-paths.md", "identification.md"];
+const DOCUMENTS: [&str; 11] = [
+    "../README.md",
+    "theory.md",
+    "hosts.md",
+    "hosts/ls-dyna.md",
+    "hosts/abaqus.md",
+    "hosts/calculix.md",
+    "hosts/openradioss.md",
+    "hosts/mgis.md",
+    "validation.md",
+    "load-paths.md",
+    "identification.md",
+];
 
 fn document(name: &str) -> PathBuf {
     Path::new(ROOT).join("docs").join(name)
@@ -100,7 +113,7 @@ fn mistakes() -> String {
         ("a stiffness with the wrong sign", with(0, -82341.0)),
         ("p left at 0: a column of the card is shifted", with(2, 0.0)),
         ("the fibre direction left at 0", no_fibre),
-        ("LS-DYNA: the linear elastic preset on this card", linear_elastic),
+        ("LS-DYNA: the linear elastic preset on the hyperelastic card", linear_elastic),
     ];
     let refused = refused.map(|(mistake, values)| {
         let error = Hyperelastic::new(&values).expect_err("a mistake");
@@ -165,13 +178,10 @@ fn preset(name: &str, system: &str) -> Vec<f64> {
     preset.table.iter().zip(preset.values).map(|(row, &value)| units.from_si(value, row.dimension)).collect()
 }
 
-/// What `toron params` prints of the yarn: the cards of LS-DYNA and the lines of Abaqus.
-fn deck() -> [String; 2] {
-    let arguments = ["params", "--preset", "kevlar-km2-600", "--units", "mm-tonne-s"];
-    let output = run(Command::new(env!("CARGO_BIN_EXE_toron")).args(arguments), "");
-    let text = String::from_utf8(output.stdout).expect("UTF-8");
-    let (dyna, abaqus) = text.split_once("\n\n").expect("two decks");
-    [dyna, abaqus].map(|deck| format!("{}\n", deck.trim_end()))
+/// What the command prints: cards, for the documents to show.
+fn printed(arguments: &str) -> String {
+    let output = run(Command::new(env!("CARGO_BIN_EXE_toron")).args(arguments.split(' ')), "");
+    fenced(&String::from_utf8(output.stdout).expect("UTF-8"))
 }
 
 /// What `toron fit` prints of an example.
@@ -186,25 +196,6 @@ fn fit_of_energies() -> String {
         std::fs::copy(output.join("fit.png"), document("images/fit.png")).expect("docs/images/fit.png");
     }
     fenced(report)
-}
-
-/// The same cards with the fibre from AOPT: IORTHO = 1, IHYPER = −1 and the two cards of the axes.
-fn deck_with_axes() -> String {
-    const AXES: &str = "\
-$#    aopt      macf        xp        yp        zp        a1        a2        a3
-       2.0         1       0.0       0.0       0.0       0.6       0.8       0.0
-$#      v1        v2        v3        d1        d2        d3      beta     ievts
-       0.0       0.0       0.0       0.0       0.0       1.0       0.0         0
-";
-    let [deck, _] = deck();
-    let mut lines: Vec<String> = deck.lines().map(String::from).collect();
-    let card = |name: &str| 1 + lines.iter().position(|line| line.contains(name)).expect("a heading");
-    let (first, second) = (card(" iortho "), card(" ihyper "));
-    lines[first].replace_range(50..60, "         1");
-    lines[second].replace_range(30..40, "        -1");
-    lines[second] += "\n";
-    lines[second] += AXES.trim_end();
-    lines.join("\n") + "\n"
 }
 
 fn fenced(text: &str) -> String {
@@ -283,12 +274,12 @@ fn generate(name: &str) -> String {
         "status codes" => status_codes(),
         "message" => message(),
         "mistakes" => mistakes(),
-        "LS-DYNA deck" => fenced(&deck()[0]),
-        "LS-DYNA deck with axes" => fenced(&deck_with_axes()),
-        "Abaqus deck" => fenced(&deck()[1]),
         "figures" => figures(),
         "fit of energies" => fit_of_energies(),
-        name => panic!("nothing is generated under the name {name}"),
+        name => match name.strip_prefix("toron ") {
+            Some(arguments) => printed(arguments),
+            None => panic!("nothing is generated under the name {name}"),
+        },
     }
 }
 
@@ -319,7 +310,7 @@ fn generated_parts_are_current() {
         );
         count += parts;
     }
-    assert_eq!(count, 13, "a part has got lost");
+    assert_eq!(count, 20, "a part has got lost");
 }
 
 /// The fenced blocks of a document in their order: language and text.
@@ -362,6 +353,47 @@ fn programs_print_what_is_shown() {
         assert_eq!(String::from_utf8_lossy(&output.stdout), *shown, "{code}");
     }
     assert_eq!(programs, 4, "a program has got lost");
+}
+
+/// Every document with links to others.
+fn linked_documents() -> Vec<PathBuf> {
+    let markdown = |folder: &str| {
+        let entries = std::fs::read_dir(Path::new(ROOT).join(folder)).expect("a folder");
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        paths.filter(|path| path.extension().is_some_and(|ending| ending == "md")).collect::<Vec<_>>()
+    };
+    [".", "docs", "docs/hosts", "fortran-shim", "ffi-tests", "examples/one-element"].map(markdown).concat()
+}
+
+/// A heading as a link names it: small letters, digits and hyphens.
+fn anchor(heading: &str) -> String {
+    let kept = |c: &char| c.is_alphanumeric() || "-_ ".contains(*c);
+    heading.trim().to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let mut links = 0;
+    for document in linked_documents() {
+        let text = std::fs::read_to_string(&document).expect("a document");
+        let prose: String = text.split("```").step_by(2).collect();
+        for target in prose.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if target.starts_with("https://") {
+                continue;
+            }
+            let (file, heading) = target.split_once('#').unwrap_or((target, ""));
+            let path = if file.is_empty() { document.clone() } else { document.with_file_name("").join(file) };
+            assert!(path.exists(), "{}: {target} does not exist", document.display());
+            links += 1;
+            if !heading.is_empty() {
+                let there = std::fs::read_to_string(&path).expect("a document");
+                let found =
+                    there.lines().filter(|line| line.starts_with('#')).map(|line| anchor(line.trim_start_matches('#')));
+                assert!(found.into_iter().any(|found| found == heading), "{}: no heading {target}", document.display());
+            }
+        }
+    }
+    assert!(links > 50, "{links} links");
 }
 
 /// Rows of the table of symbols: `| no | symbol | meaning | `name` | `file` |`.

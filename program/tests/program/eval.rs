@@ -31,7 +31,7 @@ fn eval(via: &str, input: &[u8]) -> Vec<Value> {
     evaluated(&["--via", via], input)
 }
 
-fn evaluated(options: &[&str], input: &[u8]) -> Vec<Value> {
+pub fn evaluated(options: &[&str], input: &[u8]) -> Vec<Value> {
     let via = options.join(" ");
     let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
     let program = program.arg("eval").args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());

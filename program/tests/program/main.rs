@@ -19,6 +19,7 @@ mod identify;
 mod impact;
 mod load_paths;
 mod newton;
+mod one_element;
 mod parallel;
 mod presets;
 mod yarn_between_plates;

@@ -179,33 +179,50 @@ fn a_summary_names_the_yarn() {
 #[test]
 fn a_file_prints_as_a_deck() {
     let folder = folder("deck");
-    let deck = |arguments: &[&str]| {
-        let output = toron(&folder, &[&["params", "--preset"], arguments].concat());
+    let answer = |arguments: &[&str]| {
+        let output = toron(&folder, arguments);
         if output.status.success() { Ok(text(&output.stdout)) } else { Err(text(&output.stderr)) }
     };
+    let deck = |arguments: &[&str]| answer(&[&["deck", "--host", "abaqus", "--preset"], arguments].concat());
     let own = deck(&["yarns/my-yarn.toml"]).expect("a deck");
     for line in [
-        "my-yarn",
-        "$ lot 12, in mm, tonne, s",
-        "   82445.3    1012.7       2.3     655.1       0.0     0.046       0.0       0.0",
+        "** my-yarn: lot 12",
+        "** toron, hyperelastic yarn law, in mm, tonne, s",
         "*MATERIAL, NAME=MY-YARN",
         "82445.3, 1012.7, 2.3, 655.1, 0.0, 0.046, 0.0, 0.0",
         "1.1e-9,",
     ] {
         assert!(own.lines().any(|found| found == line), "{line}\nin\n{own}");
     }
-    assert_eq!(deck(&["yarns/my-yarn.toml", "--units", "mm-tonne-s"]), Ok(own));
+    assert_eq!(deck(&["yarns/my-yarn.toml", "--units", "mm-tonne-s"]), Ok(own.clone()));
+    // The same file under another name, which no preset could have.
+    write(&folder, "yarns/lot-12.txt", YARN);
+    assert_eq!(answer(&["deck", "--host", "abaqus", "--properties", "yarns/lot-12.txt"]), Ok(own));
     let si = deck(&["yarns/my-yarn.toml", "--units", "si"]).expect("a deck");
-    assert!(si.contains("\n** lot 12, in m, kg, s\n*DENSITY\n1.1e3,\n"), "{si}");
-    let linear = deck(&["yarns/linear.toml"]).expect("a table");
-    assert!(linear.contains("linear, in m, kg, s\n") && linear.contains("density    1.1e3 kg/m³"), "{linear}");
+    assert!(
+        si.contains("\n** toron, hyperelastic yarn law, in m, kg, s\n") && si.contains("*DENSITY\n1.1e3,\n"),
+        "{si}"
+    );
+    let linear = deck(&["yarns/linear.toml"]).expect("a deck");
+    assert!(
+        linear.contains("** toron, linear elastic law, in m, kg, s\n") && linear.contains("CONSTANTS=10"),
+        "{linear}"
+    );
+    let values = answer(&["params", "--preset", "yarns/linear.toml"]).expect("a table");
+    assert!(
+        values.contains("Preset linear (linear-elastic)\n") && values.contains("density    1.1e3 kg/m³"),
+        "{values}"
+    );
+    assert!(values.contains("toron deck --host HOST --preset yarns/linear.toml --units m-kg-s\n"), "{values}");
 
     write(&folder, "bare.toml", "units = \"si\"\n[properties]\nk_el = 1\nk_tc = 1\np = 2\n");
     let missing = "property k_td (transverse distortion stiffness) is missing; allowed: a number from 0 to 1e25";
     assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
     write(&folder, "bare.toml", "units = \"si\"\n[properties]\nk_el = 1\nk_tc = 1\np = 2\nk_td = 1\n");
-    let missing = "density is missing, which a deck needs; allowed: a finite number > 0";
+    let missing = "density is missing, which this host needs; allowed: a finite number > 0";
     assert_eq!(deck(&["bare.toml"]), Err(format!("toron: bare.toml: {missing}\n")));
+    let static_only = answer(&["deck", "--host", "calculix", "--preset", "bare.toml"]).expect("it needs no density");
+    assert!(static_only.contains("CONSTANTS=11") && !static_only.contains("*DENSITY"), "{static_only}");
     let nothing = deck(&["nothing.toml"]).expect_err("there is no file");
     assert!(
         nothing.starts_with("toron: --preset: preset \"nothing.toml\": nothing.toml cannot be read: "),

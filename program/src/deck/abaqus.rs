@@ -1,0 +1,77 @@
+//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the laws runs follows from the
+//! number of properties.
+
+use std::fmt::Write;
+
+use super::material::{Material, WIDE};
+use crate::common::error::Error;
+use crate::common::short_number::short;
+use crate::material::model::deletion_variable;
+
+/// Which of the two solvers the card is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Solver {
+    Standard,
+    Explicit,
+    Both,
+}
+
+/// # Errors
+/// The material has no density.
+pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
+    let mut card = comments(material);
+    match solver {
+        Solver::Standard => card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n",
+        Solver::Explicit => card += &deletion(material),
+        Solver::Both => {
+            card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
+            card += &deletion(material);
+        }
+    }
+    let _ = write!(card, "*MATERIAL, NAME={}\n*DENSITY\n{},\n", name(material), short(material.density()?, WIDE));
+    card += &constants(material);
+    let delete = match solver {
+        Solver::Standard => String::new(),
+        Solver::Explicit | Solver::Both => format!(", DELETE={}", deletion_variable(material.table()) + 1),
+    };
+    let variables = material.interface().state;
+    let _ = writeln!(card, "*DEPVAR{delete}\n{},", variables.len());
+    for (i, variable) in variables.iter().enumerate() {
+        let _ = writeln!(card, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
+    }
+    Ok(card)
+}
+
+pub fn comments(material: &Material) -> String {
+    material.comments().map(|comment| format!("** {comment}\n")).concat()
+}
+
+fn name(material: &Material) -> String {
+    material.name.to_uppercase()
+}
+
+/// What deletes failed elements besides the card.
+fn deletion(material: &Material) -> String {
+    let name = name(material);
+    format!(
+        "** Abaqus/Explicit deletes failed elements if their section says so:\n\
+         **   *SECTION CONTROLS, NAME=DELETE-FAILED, ELEMENT DELETION=YES\n\
+         **   *SOLID SECTION, ELSET=YARN, MATERIAL={name}, CONTROLS=DELETE-FAILED\n"
+    )
+}
+
+/// The properties, eight a line, with their names in a comment before them.
+pub fn constants(material: &Material) -> String {
+    let (table, values) = (material.table(), &material.values);
+    let mut text = String::new();
+    let names: Vec<&str> = table.iter().map(|property| property.name).collect();
+    for names in names.chunks(8) {
+        let _ = writeln!(text, "** {}", names.join(", "));
+    }
+    let _ = writeln!(text, "*USER MATERIAL, CONSTANTS={}", values.len());
+    for line in values.chunks(8) {
+        let fields: Vec<String> = line.iter().map(|&value| short(value, WIDE)).collect();
+        let _ = writeln!(text, "{}", fields.join(", "));
+    }
+    text
+}

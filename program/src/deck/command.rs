@@ -1,0 +1,170 @@
+//! The arguments of `toron deck`.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use toron::host::units::UnitSystem;
+use toron::law::parameters::PRESETS;
+
+use super::abaqus::{self, Solver};
+use super::ls_dyna::{self, Fibre, NUMBERS};
+use super::material::Material;
+use super::{calculix, mtest, openradioss};
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::material::preset::{LawName, Preset};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Host {
+    LsDyna,
+    /// One card for both solvers.
+    Abaqus,
+    AbaqusStandard,
+    AbaqusExplicit,
+    Openradioss,
+    Calculix,
+    Mtest,
+}
+
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// The solver.
+    #[arg(long, value_enum)]
+    host: Host,
+    /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (see
+    /// docs/load-paths.md); without it, the first built-in one of the law.
+    #[arg(long)]
+    preset: Option<String>,
+    /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes.
+    #[arg(long, value_name = "FILE", conflicts_with = "preset")]
+    properties: Option<PathBuf>,
+    /// hyperelastic or linear-elastic: which built-in preset to take, or what law that of --preset must be of.
+    #[arg(long)]
+    law: Option<String>,
+    /// The deck's units, for instance mm-tonne-s; may be left out for a file, which has its own.
+    #[arg(long)]
+    units: Option<String>,
+    /// The fibre direction X,Y,Z instead of the yarn's own.
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    fibre: Option<String>,
+    /// LS-DYNA, OpenRadioss: the material's number in the deck, and that of OpenRadioss's property; 1 without it.
+    #[arg(long)]
+    id: Option<u32>,
+    /// LS-DYNA: the fibre is the first material axis, element by element (IHYPER -1, IORTHO 1, AOPT 2), and not one direction for
+    /// the material (IHYPER 1, IORTHO 0).
+    #[arg(long)]
+    axes: bool,
+    /// LS-DYNA: the number of the material, and of the routine umatMT.
+    #[arg(long)]
+    mt: Option<u32>,
+}
+
+/// Prints the card.
+///
+/// # Errors
+/// The argument that is wrong, or what is wrong with the yarn.
+pub fn run(arguments: &Arguments) -> Result<(), Error> {
+    print(&card(arguments)?);
+    Ok(())
+}
+
+fn card(arguments: &Arguments) -> Result<String, Error> {
+    let law = arguments.law.as_deref().map(law).transpose()?;
+    let preset = preset(arguments, law)?;
+    let units = units(arguments, &preset)?;
+    let fibre = arguments.fibre.as_deref().map(direction).transpose()?;
+    let material = Material::new(&preset, &units, fibre)?;
+    if arguments.host != Host::LsDyna {
+        only_for_ls_dyna("--axes", arguments.axes)?;
+        only_for_ls_dyna("--mt", arguments.mt.is_some())?;
+    }
+    let id = id(arguments)?;
+    match arguments.host {
+        Host::LsDyna => {
+            let fibre = if arguments.axes { Fibre::Axes } else { Fibre::Global };
+            ls_dyna::card(&material, id, arguments.mt.map(number).transpose()?, fibre)
+        }
+        Host::Abaqus => abaqus::card(&material, Solver::Both),
+        Host::AbaqusStandard => abaqus::card(&material, Solver::Standard),
+        Host::AbaqusExplicit => abaqus::card(&material, Solver::Explicit),
+        Host::Openradioss => openradioss::card(&material, id),
+        Host::Calculix => Ok(calculix::card(&material)),
+        Host::Mtest => Ok(mtest::card(&material)),
+    }
+}
+
+fn law(text: &str) -> Result<LawName, Error> {
+    let known = [LawName::Hyperelastic, LawName::LinearElastic];
+    let names = known.map(LawName::text);
+    let found = known.into_iter().find(|law| law.text() == text);
+    found.ok_or_else(|| Error::Input(format!("--law {text}; allowed: {}", names.join(", "))))
+}
+
+/// The preset that the arguments name, which must be of the law, if one is given.
+fn preset(arguments: &Arguments, law: Option<LawName>) -> Result<Preset, Error> {
+    let preset = match (&arguments.preset, &arguments.properties) {
+        (Some(name), _) => Preset::find(name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?,
+        (None, Some(path)) => {
+            let file = path.display().to_string();
+            let text = std::fs::read_to_string(path)
+                .map_err(|reason| Error::Input(format!("--properties {file}: it cannot be read: {reason}")))?;
+            Preset::parse(&file, &text)?
+        }
+        (None, None) => {
+            let table = law.unwrap_or(LawName::Hyperelastic).table();
+            let first = PRESETS.iter().find(|preset| std::ptr::eq(preset.table, table));
+            first
+                .map(Preset::from)
+                .ok_or_else(|| Error::Input("--preset is missing; allowed: a name or a file".into()))?
+        }
+    };
+    match law {
+        Some(law) if law != preset.law => {
+            let (name, own) = (&preset.name, preset.law.text());
+            Err(Error::Input(format!("--law {}: {name} is of the law {own}; allowed: {own}", law.text())))
+        }
+        _ => Ok(preset),
+    }
+}
+
+/// The deck's units, or those of the yarn's file.
+fn units(arguments: &Arguments, preset: &Preset) -> Result<UnitSystem, Error> {
+    let allowed = UnitSystem::ALLOWED;
+    match &arguments.units {
+        Some(name) => {
+            UnitSystem::parse(name).ok_or_else(|| Error::Input(format!("--units {name}; allowed: {allowed}")))
+        }
+        None if preset.file().is_some() => Ok(preset.units),
+        None => Err(Error::Input(format!("--units is missing, and {} has none; allowed: {allowed}", preset.name))),
+    }
+}
+
+fn direction(text: &str) -> Result<[f64; 3], Error> {
+    let numbers: Vec<f64> = text.split(',').map_while(|number| number.trim().parse().ok()).collect();
+    let complete = text.split(',').count() == 3 && numbers.iter().all(|number| number.is_finite());
+    let numbers = <[f64; 3]>::try_from(numbers).ok().filter(|_| complete);
+    numbers.ok_or_else(|| Error::Input(format!("--fibre {text}; allowed: three finite numbers, X,Y,Z")))
+}
+
+fn number(mt: u32) -> Result<u32, Error> {
+    let allowed = NUMBERS.map(|number| number.to_string()).join(", ");
+    let other = "42 and 46 have other argument lists";
+    NUMBERS.contains(&mt).then_some(mt).ok_or_else(|| Error::Input(format!("--mt {mt}; allowed: {allowed} ({other})")))
+}
+
+/// As many digits as a field of ten columns has room for, with a blank before them.
+fn id(arguments: &Arguments) -> Result<u32, Error> {
+    match arguments.id {
+        Some(_) if !matches!(arguments.host, Host::LsDyna | Host::Openradioss) => {
+            Err(Error::Input("--id is for --host ls-dyna and openradioss only".into()))
+        }
+        Some(id) if !(1..=999_999_999).contains(&id) => {
+            Err(Error::Input(format!("--id {id}; allowed: 1 to 999999999")))
+        }
+        id => Ok(id.unwrap_or(1)),
+    }
+}
+
+fn only_for_ls_dyna(argument: &str, given: bool) -> Result<(), Error> {
+    if given { Err(Error::Input(format!("{argument} is for --host ls-dyna only"))) } else { Ok(()) }
+}

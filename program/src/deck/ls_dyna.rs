@@ -1,0 +1,98 @@
+//! LS-DYNA: `*MAT_USER_DEFINED_MATERIAL_MODELS`, eight fields of ten columns a line.
+//!
+//! Free format and long fields would not say more: a field between commas may not be longer than its columns, and long lines are
+//! not readable. A number keeps nine characters and a blank before it; what that rounds is named in a comment.
+
+use super::material::Material;
+use crate::common::error::Error;
+use crate::common::short_number::{EXACT, deviation, short};
+
+/// The numbers of materials whose routines have the argument list that the shims know.
+pub const NUMBERS: [u32; 8] = [41, 43, 44, 45, 47, 48, 49, 50];
+
+const FIELDS: usize = 8;
+const COLUMNS: usize = 10;
+
+/// The fibre direction: one for the material, in global axes, or that of the material axes, element by element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fibre {
+    Global,
+    Axes,
+}
+
+/// # Errors
+/// The material has no density.
+pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> Result<String, Error> {
+    let (interface, table, density) = (material.interface(), material.table(), material.density()?);
+    let mut values = material.values.clone();
+    if fibre == Fibre::Axes {
+        along_the_axes(material, &mut values);
+    }
+    let count = values.len();
+    let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()).collect();
+    let names: Vec<&str> = table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
+    let history = interface.state.len() + interface.kept;
+    let [ortho, hyper] = if fibre == Fibre::Axes { ["1", "-1"] } else { ["0", "1"] };
+
+    let mut card = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n", material.name);
+    for comment in material.comments() {
+        card += &format!("$ {comment}\n");
+    }
+    card += "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is the modulus along the fibre\n";
+    let rounded: Vec<&str> = [("ro", density)]
+        .into_iter()
+        .chain(names.iter().copied().zip(constants.iter().copied()))
+        .filter(|&(_, value)| deviation(&short(value, COLUMNS - 1), value) > EXACT)
+        .map(|(name, _)| name)
+        .collect();
+    if !rounded.is_empty() {
+        card += &format!("$ rounded to the columns of a field: {}\n", rounded.join(", "));
+    }
+    let [id, mt] = [id, number.unwrap_or(interface.ls_dyna)].map(|number| number.to_string());
+    let [lmc, bulk, shear, nhv] = [count + 2, count + 1, count + 2, history].map(|number| number.to_string());
+    let numbers = [&id, &number_of(density), &mt, &lmc, &nhv, ortho, &bulk, &shear].map(str::to_string);
+    card += &lines("mid ro mt lmc nhv iortho ibulk ig", &numbers);
+    card += &lines("ivect ifail itherm ihyper ieos lmca", &["0", "1", "0", hyper, "0", "0"].map(String::from));
+    if fibre == Fibre::Axes {
+        card += &axes(material);
+    }
+    for (names, constants) in names.chunks(FIELDS).zip(constants.chunks(FIELDS)) {
+        let numbers: Vec<String> = constants.iter().map(|&value| number_of(value)).collect();
+        card += &lines(&names.join(" "), &numbers);
+    }
+    Ok(card)
+}
+
+/// In the material axes the fibre is the first one; a second axis, if the law has one, is the second.
+fn along_the_axes(material: &Material, values: &mut [f64]) {
+    values[material.fibre()].copy_from_slice(&[1.0, 0.0, 0.0]);
+    if let Some(second) = values.get_mut(material.fibre().end..).filter(|rest| rest.iter().any(|&x| x != 0.0)) {
+        second.copy_from_slice(&[0.0, 1.0, 0.0]);
+    }
+}
+
+/// AOPT = 2: a is the fibre, and d with it spans the plane of the first two axes.
+fn axes(material: &Material) -> String {
+    let a = &material.values[material.fibre()];
+    let second = material.values.get(material.fibre().end..).filter(|rest| rest.iter().any(|&x| x != 0.0));
+    // Any vector across will do: z, or x for a fibre along z.
+    let across = if a[0] == 0.0 && a[1] == 0.0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let d = second.unwrap_or(&across);
+    let vector = |v: &[f64]| v.iter().map(|&x| number_of(x)).collect::<Vec<_>>();
+    let zero = || vec!["0.0".to_string(); 3];
+    let first = [vec!["2.0".to_string(), "1".to_string()], zero(), vector(a)].concat();
+    let second = [zero(), vector(d), vec!["0.0".to_string(), "0".to_string()]].concat();
+    lines("aopt macf xp yp zp a1 a2 a3", &first) + &lines("v1 v2 v3 d1 d2 d3 beta ievts", &second)
+}
+
+/// A comment with the names of the fields, and their line.
+fn lines(names: &str, fields: &[String]) -> String {
+    let names: String = names.split(' ').map(|name| format!("{name:>COLUMNS$}")).collect();
+    let fields: String = fields.iter().map(|field| format!("{field:>COLUMNS$}")).collect();
+    format!("$#{}\n{fields}\n", &names[2..])
+}
+
+/// A number with a blank before it.
+fn number_of(value: f64) -> String {
+    short(value, COLUMNS - 1)
+}

@@ -1,0 +1,113 @@
+//! The material of a card: values in the deck's units, and the comments that all cards have.
+
+use toron::host::units::UnitSystem;
+use toron::law::parameters::{DENSITY, Dimension, FIBRE, LINEAR_FIBRE, NUMBER, Property, STRESS};
+use toron::{Criterion, Rotation};
+
+use super::interface::Interface;
+use crate::common::error::Error;
+use crate::common::units::unit;
+use crate::material::model::Law;
+use crate::material::preset::{LawName, Preset};
+
+/// The columns of a number in cards that have room enough: twelve digits.
+pub const WIDE: usize = 19;
+
+/// A material that its law accepts.
+pub struct Material {
+    /// Letters, digits and - _ . only.
+    pub name: String,
+    /// The preset's file, or its name, for messages.
+    place: String,
+    /// Where the values come from, on one line.
+    source: String,
+    units: UnitSystem,
+    pub law: LawName,
+    /// In the order of the law's table.
+    pub values: Vec<f64>,
+    density: Option<f64>,
+}
+
+impl Material {
+    /// # Errors
+    /// A property that is missing, or values that the law refuses.
+    pub fn new(preset: &Preset, units: &UnitSystem, fibre: Option<[f64; 3]>) -> Result<Material, Error> {
+        let mut values = preset.complete(units)?;
+        let first = first_of_fibre(preset.law);
+        if let Some(fibre) = fibre {
+            values[first..first + 3].copy_from_slice(&fibre);
+        }
+        let law = Law::new(preset.law.table(), &values, Rotation::Fibre, Criterion::LargestPrincipal);
+        law.map_err(|error| match error {
+            toron::Error::Direction { .. } if fibre.is_some() => Error::Input(format!("--fibre: {error}")),
+            error => preset.law_error(&error),
+        })?;
+        let (name, source) = (preset.name.clone(), preset.source.clone());
+        let place = preset.file().unwrap_or(&name).to_string();
+        Ok(Material { name, place, source, units: *units, law: preset.law, values, density: preset.density_in(units) })
+    }
+
+    pub fn interface(&self) -> &'static Interface {
+        Interface::of(self.law)
+    }
+
+    pub fn table(&self) -> &'static [Property] {
+        self.law.table()
+    }
+
+    /// The density, which the hosts with a mass of their own need.
+    ///
+    /// # Errors
+    /// The material has none.
+    pub fn density(&self) -> Result<f64, Error> {
+        let message = "density is missing, which this host needs; allowed: a finite number > 0";
+        self.density.ok_or_else(|| Error::Input(format!("{}: {message}", self.place)))
+    }
+
+    /// The density, for the hosts that need it in some analyses only.
+    pub fn density_if_any(&self) -> Option<f64> {
+        self.density
+    }
+
+    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre.
+    pub fn bulk_and_shear(&self) -> [f64; 2] {
+        let along = self.values[0];
+        [0.5 * along, 0.375 * along]
+    }
+
+    /// Where the fibre's three components are among the values.
+    pub fn fibre(&self) -> std::ops::Range<usize> {
+        let first = first_of_fibre(self.law);
+        first..first + 3
+    }
+
+    /// What the card is, where its values come from, and their units.
+    pub fn comments(&self) -> [String; 3] {
+        let stresses = self.table().iter().filter(|property| property.dimension == STRESS);
+        let names: Vec<&str> = stresses.map(|property| property.name).collect();
+        let [length, mass, time] = self.units.names().map(ascii);
+        let (title, stress, density) = (self.interface().title, self.unit(STRESS), self.unit(DENSITY));
+        [
+            format!("{}: {}", self.name, self.source),
+            format!("toron, {title}, in {length}, {mass}, {time}"),
+            format!("{} in {stress}, density in {density}, all others are numbers", names.join(", ")),
+        ]
+    }
+
+    /// The unit of a value, in ASCII; empty for a number.
+    pub fn unit(&self, dimension: Dimension) -> String {
+        if dimension == NUMBER { String::new() } else { ascii(&unit(&self.units, dimension)) }
+    }
+}
+
+fn first_of_fibre(law: LawName) -> usize {
+    match law {
+        LawName::Hyperelastic => FIBRE,
+        LawName::LinearElastic => LINEAR_FIBRE,
+    }
+}
+
+/// Solvers read bytes: units without signs of their own.
+fn ascii(unit: &str) -> String {
+    unit.replace('²', "^2").replace('³', "^3").replace('µ', "u")
+}

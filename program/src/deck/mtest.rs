@@ -1,0 +1,18 @@
+//! MTest: the behaviour and a line for each of its properties.
+
+use std::fmt::Write;
+
+use super::material::{Material, WIDE};
+use crate::common::short_number::short;
+
+pub fn card(material: &Material) -> String {
+    let mut card = material.comments().map(|comment| format!("// {comment}\n")).concat();
+    let _ = writeln!(card, "@Behaviour<generic> 'libtoron_mgis.so' '{}';", material.interface().behaviour);
+    for (property, &value) in material.table().iter().zip(&material.values) {
+        let unit = material.unit(property.dimension);
+        let blank = if unit.is_empty() { "" } else { ", " };
+        let line = format!("@MaterialProperty<constant> '{}' {};", property.name, short(value, WIDE));
+        let _ = writeln!(card, "{line:<50}// {}{blank}{unit}", property.meaning);
+    }
+    card
+}
