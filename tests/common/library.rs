@@ -26,7 +26,14 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     let mut cargo = Command::new(env!("CARGO"));
     environment(&mut cargo);
     cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
-    let packages = ["toron-calculix", "toron-mgis", "toron-openradioss", "toron-openradioss-sp"];
+    let packages = [
+        "toron-abaqus",
+        "toron-abaqus-sp",
+        "toron-calculix",
+        "toron-mgis",
+        "toron-openradioss",
+        "toron-openradioss-sp",
+    ];
     run(cargo.args(packages.map(|package| format!("--package={package}"))), "cargo");
     for package in packages {
         let library = format!("lib{}.so", package.replace('-', "_"));

@@ -3,6 +3,7 @@
 #[path = "../../../tests/common/library.rs"]
 mod library;
 
+mod abaqus;
 mod c_programs;
 mod environment;
 mod felupe;

@@ -2,7 +2,7 @@
 //!
 //! Two parts of each deck are written by this test, with `TORON_WRITE_DOCS=1 cargo test -p toron-program one_element`: the material's
 //! card, which is what the command in its heading prints, and the numbers to expect, which the law gives along the deck's own motion.
-//! The decks of CalculiX for the hyperelastic law are run.
+//! The decks of CalculiX are run.
 
 mod abaqus;
 mod ls_dyna;
@@ -21,6 +21,7 @@ use crate::eval::evaluated;
 use crate::library::{ROOT, run};
 use model::{Deck, ROWS, Row};
 use toron::law::parameters::FIBRE;
+use toron::law::state::{FAILED, LINEAR_FAILED, LINEAR_WORK};
 use toron_program::material::preset::LawName;
 
 /// A host: folder, ending of its decks, sign of a comment, how a deck is read, and the deck's time at the end.
@@ -282,32 +283,39 @@ fn chords_are_as_wrong_as_the_decks_say() {
     }
 }
 
-/// CalculiX itself, with the decks as they are.
+/// CalculiX itself, with the decks as they are; it prints a table for each law.
 #[test]
 fn calculix_gives_the_numbers() {
-    for scene in SCENES {
+    for scene in SCENES.into_iter().chain(["both-laws"]) {
         let deck = calculix_deck(scene);
         let file = format!("../../examples/one-element/calculix/{scene}.inp");
         let results = Job { deck: &file, includes: &[], tangent: Tangent::Analytic }
             .run_edited(&format!("one-{scene}"), |deck| deck);
-        let rows = deck.rows(&deck.points[0]);
-        assert_eq!(rows.len(), ROWS.len());
-        for row in rows {
-            let printed = |title: &str| {
-                let tables = results.all(title);
-                let table = tables.iter().find(|table| (table.time - row.time).abs() < 1e-6);
-                table.unwrap_or_else(|| panic!("{title} at {}", row.time)).rows.clone()
-            };
-            let (stresses, states) = (printed("stresses"), printed("internal state"));
-            assert_eq!((stresses.len(), states.len()), (8, 8), "eight integration points");
-            for (stress, state) in stresses.iter().zip(&states) {
-                // Seven digits, and nine decimals of the motion times the stiffness of the fibre.
-                for (found, expected) in stress[2..6].iter().zip(row.stress) {
-                    assert!((found - expected).abs() < 1e-3, "{scene} at {}: {found}, not {expected}", row.time);
+        assert_eq!(deck.points.len(), if scene == "both-laws" { 2 } else { 1 });
+        for (number, point) in deck.points.iter().enumerate() {
+            let rows = deck.rows(point);
+            assert_eq!(rows.len(), ROWS.len());
+            for row in rows {
+                let printed = |title: &str| {
+                    let tables = results.all(title);
+                    let table = tables.iter().filter(|table| (table.time - row.time).abs() < 1e-6).nth(number);
+                    table.unwrap_or_else(|| panic!("{title} at {}", row.time)).rows.clone()
+                };
+                let (stresses, states) = (printed("stresses"), printed("internal state"));
+                assert_eq!((stresses.len(), states.len()), (8, 8), "eight integration points");
+                for (stress, state) in stresses.iter().zip(&states) {
+                    let state = &state[2..];
+                    // Seven digits, and nine decimals of the motion times the stiffness of the fibre.
+                    for (found, expected) in stress[2..6].iter().zip(row.stress) {
+                        assert!((found - expected).abs() < 1e-3, "{scene} at {}: {found}, not {expected}", row.time);
+                    }
+                    let (energy, failed) = match point.law {
+                        LawName::Hyperelastic => (state[..4].iter().sum::<f64>(), state[FAILED]),
+                        LawName::LinearElastic => (state[LINEAR_WORK], state[LINEAR_FAILED]),
+                    };
+                    assert_eq!(failed, f64::from(u8::from(row.failed)), "{scene} at {}", row.time);
+                    assert!(row.failed || (energy - row.energy).abs() < 1e-4, "{scene}: {energy}, not {}", row.energy);
                 }
-                let (energy, failed) = (state[2..6].iter().sum::<f64>(), state[2 + 9]);
-                assert_eq!(failed, f64::from(u8::from(row.failed)), "{scene} at {}", row.time);
-                assert!(row.failed || (energy - row.energy).abs() < 1e-4, "{scene}: {energy}, not {}", row.energy);
             }
         }
     }
