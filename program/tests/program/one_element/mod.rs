@@ -309,12 +309,17 @@ fn calculix_gives_the_numbers() {
                     for (found, expected) in stress[2..6].iter().zip(row.stress) {
                         assert!((found - expected).abs() < 1e-3, "{scene} at {}: {found}, not {expected}", row.time);
                     }
-                    let (energy, failed) = match point.law {
-                        LawName::Hyperelastic => (state[..4].iter().sum::<f64>(), state[FAILED]),
-                        LawName::LinearElastic => (state[LINEAR_WORK], state[LINEAR_FAILED]),
+                    // The work of the linear elastic law is a sum over the increments, of which CalculiX takes fewer.
+                    let (energy, failed, allowed) = match point.law {
+                        LawName::Hyperelastic => (state[..4].iter().sum::<f64>(), state[FAILED], 1e-4),
+                        LawName::LinearElastic => (state[LINEAR_WORK], state[LINEAR_FAILED], 1e-3),
                     };
                     assert_eq!(failed, f64::from(u8::from(row.failed)), "{scene} at {}", row.time);
-                    assert!(row.failed || (energy - row.energy).abs() < 1e-4, "{scene}: {energy}, not {}", row.energy);
+                    assert!(
+                        row.failed || (energy - row.energy).abs() < allowed,
+                        "{scene}: {energy}, not {}",
+                        row.energy
+                    );
                 }
             }
         }
