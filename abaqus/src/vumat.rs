@@ -23,6 +23,7 @@ type Real = f32;
 /// Abaqus's promise: the arrays have the sizes that its documentation of VUMAT says.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
+#[allow(clippy::useless_conversion)] // times of a job in single precision
 pub unsafe extern "C" fn vumat_(
     nblock: *const i32,
     ndir: *const i32,
