@@ -6,8 +6,8 @@
 ! and 11 or more state variables. One job may have both.
 !
 ! Solids (NDIR = 3; NSHR = 3, or 1 for plane strain and axisymmetric
-! ones); *DEPVAR, DELETE=11, for the linear elastic law DELETE=10: see
-! docs.
+! ones, with a material whose name ends in _PSTRAIN or _AXIS); *DEPVAR,
+! DELETE=11, for the linear elastic law DELETE=10: see docs.
 !
 ! Fixed form: statements in columns 7 to 72, continued in column 6, and
 ! nothing beyond. Compile it as .f; free form is not supported.
@@ -72,6 +72,13 @@
         end function
       end interface
 
+!     Plane stress and shells have the same numbers of components.
+      if (nshr == 1 .and. .not. announced()) then
+        call stop_for('NSHR = 1, as of plane stress, which the laws '//
+     &    'do not have; for plane strain and axisymmetric solids '//
+     &    'let the name of the material end in _PSTRAIN or _AXIS')
+        return
+      end if
       block%size = c_sizeof(block)
       block%nblock = int(nblock, c_int32_t)
       block%ndir = int(ndir, c_int32_t)
@@ -106,6 +113,20 @@
       if (status < 0 .and. status > -300) call refuse
 
       contains
+
+      logical function announced()
+      integer :: n
+      n = len_trim(cmname)
+      announced = .false.
+      if (n > 8) announced = cmname(n - 7:n) == '_PSTRAIN'
+      if (n > 5) announced = announced .or. cmname(n - 4:n) == '_AXIS'
+      end function
+
+      subroutine stop_for(text)
+      character(len=*), intent(in) :: text
+      message = text // c_null_char
+      call refuse
+      end subroutine
 
       subroutine refuse
       integer :: length, unit

@@ -204,7 +204,7 @@ fn what_a_umat_refuses() {
     assert_eq!(code, -203);
     assert!(message.starts_with("property 2 (e_2, "), "{message}");
     let (code, message) = refused(&OBLIQUE, [3, 1, 1], S);
-    assert_eq!(code, -204);
+    assert_eq!(code, status::FIBRE_OUT_OF_PLANE);
     assert!(message.starts_with("properties 5 to 7 (fibre direction) are 0.3, -0.5, 0.8; allowed: "), "{message}");
 }
 
@@ -379,7 +379,7 @@ fn vumats_in_the_plane() {
 fn what_a_vumat_refuses() {
     let rest = Matrix3::identity();
     let mut oblique = Job::new(1, 1, &OBLIQUE, S);
-    assert_eq!(oblique.step(linear_vumat_f64, [&rest, &rest], 1.0, &[0.0; 6]), -204);
+    assert_eq!(oblique.step(linear_vumat_f64, [&rest, &rest], 1.0, &[0.0; 6]), status::FIBRE_OUT_OF_PLANE);
     assert!(
         oblique.message.starts_with("properties 5 to 7 (fibre direction) are 0.3, -0.5, 0.8"),
         "{}",

@@ -1,6 +1,7 @@
 //! Abaqus's routines, looked up by name in the running program.
 
 use std::ffi::{CStr, c_char};
+use std::io::Write;
 
 use crate::CAPACITY;
 
@@ -23,7 +24,8 @@ pub unsafe fn refuse(status: i32, message: &[c_char; CAPACITY], material: *const
     let (name, text) =
         unsafe { (std::slice::from_raw_parts(material.cast::<u8>(), 80), CStr::from_ptr(message.as_ptr())) };
     let name = String::from_utf8_lossy(name);
-    println!(" toron, material {}: {}", name.trim_end(), text.to_string_lossy());
+    // An output that is closed must not keep the job from ending.
+    let _ = writeln!(std::io::stdout(), " toron, material {}: {}", name.trim_end(), text.to_string_lossy());
     // SAFETY: a null-terminated name; what has it takes no arguments.
     unsafe {
         let found = libc::dlsym(libc::RTLD_DEFAULT, routine.as_ptr());

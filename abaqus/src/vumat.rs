@@ -1,6 +1,6 @@
 //! The VUMAT of Abaqus/Explicit.
 
-use std::ffi::c_char;
+use std::ffi::{CStr, c_char};
 
 use toron::host::abaqus::Vumat;
 #[cfg(feature = "single")]
@@ -16,6 +16,21 @@ use crate::{CAPACITY, LINEAR_ELASTIC};
 type Real = f64;
 #[cfg(feature = "single")]
 type Real = f32;
+
+/// Of plane elements whose material does not say that they are no plane-stress ones, which have the same numbers of components.
+const PLANE_STRESS: &CStr =
+    c"NSHR = 1, as of plane stress, which the laws do not have; for plane strain and axisymmetric solids let \
+    the name of the material end in _PSTRAIN or _AXIS";
+
+/// Whether the material's name says that its elements are of plane strain or axisymmetric.
+///
+/// # Safety
+/// Abaqus's promise: `material` has 80 characters.
+unsafe fn is_announced(material: *const c_char) -> bool {
+    // SAFETY: the caller's promise.
+    let name = unsafe { std::slice::from_raw_parts(material.cast::<u8>(), 80) }.trim_ascii_end();
+    name.ends_with(b"_PSTRAIN") || name.ends_with(b"_AXIS")
+}
 
 /// Arguments as Abaqus passes them, and the hidden length of CMNAME, which is not read.
 ///
@@ -62,6 +77,10 @@ pub unsafe extern "C" fn vumat_(
     let mut message = [0; CAPACITY];
     // SAFETY: Abaqus's promise.
     unsafe {
+        if *nshr == 1 && !is_announced(cmname) {
+            message.iter_mut().zip(PLANE_STRESS.to_bytes_with_nul()).for_each(|(to, &from)| *to = from as c_char);
+            return refuse(toron::law::status::BAD_COUNT, &message, cmname, c"xplb_exit_");
+        }
         let block = Vumat {
             size: size_of::<Vumat<Real>>(),
             nblock: *nblock,

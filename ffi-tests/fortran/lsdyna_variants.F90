@@ -93,28 +93,36 @@ contains
     real, intent(in) :: properties(:)
     integer, intent(in) :: nhv, fibre
     integer, parameter :: nlq = 5
-    ! A turn by 60 degrees, nearly.
+    ! A turn by 60 degrees, nearly, and one by 10.
     real, parameter :: turned(9) = [0.5, 0.866, 0.0, -0.866, 0.5, 0.0, 0.0, 0.0, 1.0]
+    real, parameter :: a_little(9) = [0.9848, 0.1736, 0.0, -0.1736, 0.9848, 0.0, 0.0, 0.0, 1.0]
     real :: hsv(nhv + 9), hsvs(nlq, nhv + 9), sig(6), sigs(nlq, 6)
     logical :: failel, failels(nlq)
     integer :: refused
-    do refused = 0, 3
+    do refused = 0, 7
       stops = 0
       cm(:size(properties)) = properties
-      ! Along the axes; none; F missing, which the library reports; another direction.
+      ! Along the axes; no axes; F missing, which the library reports; another direction, twice; an element that is inverted, much too
+      ! large or not a number, which fails.
       if (refused > 0) cm(fibre:fibre + 2) = [0.0, 1.0, 0.0]
       hsv = 0
       hsv(nhv + 1:) = turned
       if (refused == 1) hsv(nhv + 1:) = one
       if (refused == 2) hsv(nhv + 1:) = 0
+      if (refused == 4) hsv(nhv + 1:) = a_little
+      if (refused > 4) hsv(nhv + 1:) = one
+      if (refused == 5) hsv(nhv + 1) = -1
+      if (refused == 6) hsv(nhv + 1) = 0.9 * huge(hsv(1))
+      if (refused == 7) call put_nan(hsv(nhv + 5))
       hsvs = 0
       hsvs(2:4, :) = spread(hsv, 1, 3)
       call scalar(umat, sig, hsv, failel, 'solid')
-      call check(stops == merge(0, 1, refused < 2), 'axes', refused)
+      call check(stops == merge(1, 0, refused > 1 .and. refused < 5), 'axes', refused)
+      call check(failel .or. refused < 5, 'it fails', refused)
       call vector(umatv, sigs, hsvs, failels, nlq)
-      call check(stops == merge(0, 2, refused < 2), 'axes of a vector', refused)
+      call check(stops == merge(2, 0, refused > 1 .and. refused < 5), 'axes of a vector', refused)
       if (refused == 2) call check_written(6, 'there is no deformation gradient')
-      if (refused == 3) call check_written(6, 'm_1, m_2, m_3 must be 1, 0, 0')
+      if (refused == 3 .or. refused == 4) call check_written(6, 'm_1, m_2, m_3 must be 1, 0, 0')
     end do
   end subroutine
 

@@ -16,6 +16,7 @@ program vumat_test
   integer, parameter :: column(6) = [1, 5, 9, 4, 8, 3]
   real(wp), allocatable, dimension(:) :: stretch, density, state_old, stress_new, state_new, energy_new, inelastic_new
   real(wp) :: props(11), step_time
+  character(len=80) :: material = 'FIBRE'
   integer, allocatable :: chosen(:)
   integer :: first, last, against_truth, i
 
@@ -101,7 +102,23 @@ contains
     call prepare
     stretch = real([1.01, 0.95, 1.0, 0.02], wp)
     props(9:11) = real([1, 0, 0], wp)
+    ! Elements of plane stress and shells have the same numbers.
+    stops = 0
     call call_vumat(11, nstatev, 1)
+    call check(stops == 1 .and. all(stress_new == mark), 'plane stress', 0)
+    call check_written(7, 'let the name of the material end in _PSTRAIN or _AXIS')
+    call prepare
+    stretch = real([1.01, 0.95, 1.0, 0.02], wp)
+    props(9:11) = real([1, 0, 0], wp)
+    material = 'YARN_AXIS'
+    call call_vumat(11, nstatev, 1)
+    call check(all(stress_new(1:4) == solid), 'axisymmetric', 0)
+    call prepare
+    stretch = real([1.01, 0.95, 1.0, 0.02], wp)
+    props(9:11) = real([1, 0, 0], wp)
+    material = 'YARN_PSTRAIN'
+    call call_vumat(11, nstatev, 1)
+    call check(stops == 1, 'plane strain', 0)
     call check(all(stress_new(1:4) == solid) .and. all(stress_new(5:) == mark), 'plane: four components', 0)
     call check(solid(1) > 0, 'plane: stress', 0)
   end subroutine
@@ -138,17 +155,15 @@ contains
   subroutine call_vumat(nprops, nstates, nshr)
     integer, intent(in) :: nprops, nstates, nshr
     real(wp), allocatable, dimension(:) :: zero, strain, stretch_old
-    character(len=80) :: cmname
     integer :: n
     n = size(chosen)
-    cmname = 'FIBRE'
     allocate (zero(9 * n), source=0.0_wp)
     strain = zero
     strain(1:n) = 1e-4_wp
     ! Every increment starts from rest.
     stretch_old = zero
     stretch_old(1:3 * n) = 1
-    call vumat(n, 3, nshr, nstates, 0, nprops, 0, step_time, step_time, zero, cmname, zero, zero, props, density, &
+    call vumat(n, 3, nshr, nstates, 0, nprops, 0, step_time, step_time, zero, material, zero, zero, props, density, &
       strain, zero, zero, stretch_old, zero, zero, zero, state_old, zero, zero, zero, stretch, zero, zero, &
       stress_new(guard + 1), state_new(guard + 1), energy_new(guard + 1), inelastic_new(guard + 1))
     call unframe(stress_new)

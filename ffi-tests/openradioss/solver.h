@@ -100,8 +100,12 @@ static material read_card(int number, const char *card)
     fputs(card, in);
     fclose(in);
     remove("SOone_run_0099.scr");
+    feclearexcept(FE_ALL_EXCEPT);
+    feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
     routine("st_lecm99_")(&ilaw, "one_run and more", &length, &number, m.uparam, &maxuparam, &m.nuparam, &m.nuvar, ifunc, &maxfunc,
                           &m.nfunc, m.parmat);
+    fedisableexcept(FE_ALL_EXCEPT);
+    CHECK(fetestexcept(FE_ALL_EXCEPT) == 0, "exceptions %x", (unsigned)fetestexcept(FE_ALL_EXCEPT));
     FILE *out = fopen("SOone_run_0099.scr", "r");
     if (out != NULL) {
         m.listing[fread(m.listing, 1, sizeof m.listing - 1, out)] = 0;

@@ -1,6 +1,7 @@
 //! Routines of the solver, looked up by name in the running program.
 
 use std::ffi::{CStr, c_char, c_void};
+use std::io::Write;
 
 use crate::Real;
 
@@ -16,7 +17,8 @@ fn routine(name: &CStr) -> Option<*mut c_void> {
 
 /// Writes a message to the standard output and, in the engine, to its listing, and ends the run as the solver itself does.
 pub fn stop(message: &str) {
-    println!(" toron: {message}");
+    // An output that is closed must not keep the run from ending.
+    let _ = writeln!(std::io::stdout(), " toron: {message}");
     if let Some(write) = routine(c"write_iout_") {
         // SAFETY: `WRITE_IOUT(LINE, LEN)` of the engine, with the hidden length of its character argument.
         unsafe {

@@ -4,6 +4,7 @@ use std::ffi::c_char;
 use std::fmt::Write;
 use std::fs;
 
+use toron::host::environment::in_default_environment;
 use toron::host::openradioss::{card::MOST_PARAMETERS, listing, read};
 
 use crate::Real;
@@ -39,18 +40,22 @@ pub unsafe extern "C" fn st_lecm99_(
         let name = |kind: &str| format!("{kind}{}_{:04}.scr", String::from_utf8_lossy(root), *ilaw);
         let mut values = [0.0; MOST_PARAMETERS];
         let room = usize::try_from(*maxuparam).unwrap_or(0).min(MOST_PARAMETERS);
-        let material = fs::read_to_string(name("SI"))
-            .map_err(|error| format!("{}: {error}", name("SI")))
-            .and_then(|text| fields(&text))
-            .and_then(|card| read(*number, &card, &mut values[..room]).map_err(|error| error.to_string()));
-        let material = match material {
+        let material = fs::read_to_string(name("SI")).map_err(|error| format!("{}: {error}", name("SI")));
+        // The solver may trap exceptions, which reading and checking numbers raises.
+        let material = in_default_environment(|| {
+            let card = fields(&material?)?;
+            let material = read(*number, &card, &mut values[..room]).map_err(|error| error.to_string())?;
+            let listing = text_of_listing(&values[..material.parameters]);
+            Ok::<_, String>((material, listing))
+        });
+        let (material, listing) = match material {
             Ok(material) => material,
             Err(message) => return stop(&format!("/MAT/USER{:02}: {message}", *number)),
         };
         uparam.copy_from_nonoverlapping(values.as_ptr(), material.parameters);
         (*nuparam, *nuvar, *nfunc) = (material.parameters as i32, material.variables as i32, 0);
         *parmat = material.modulus;
-        if let Err(error) = fs::write(name("SO"), text_of_listing(&values[..material.parameters])) {
+        if let Err(error) = fs::write(name("SO"), listing) {
             stop(&format!("{}: {error}", name("SO")));
         }
     }

@@ -225,32 +225,14 @@ impl Arguments<'_> {
         answer.state.iter_mut().skip(LINEAR_ELASTIC_STATE).zip(f).for_each(|(kept, &f)| *kept = f);
         let [s11, s22, s33, s12, s23, s31] = second_piola_kirchhoff(&cauchy, self.f);
         answer.stress = [s11, s22, s33, s12, s31, s23];
-        let [r1, r2, r3, r4, r5, r6] = entries;
-        // Halves first: a sum might overflow.
-        let mean = |x: f64, y: f64| 0.5 * x + 0.5 * y;
-        answer.stiffness = by_columns([
-            r1[0],
-            mean(r1[1], r2[0]),
-            mean(r1[2], r3[0]),
-            mean(r1[3], r4[0]),
-            mean(r1[4], r5[0]),
-            mean(r1[5], r6[0]),
-            r2[1],
-            mean(r2[2], r3[1]),
-            mean(r2[3], r4[1]),
-            mean(r2[4], r5[1]),
-            mean(r2[5], r6[1]),
-            r3[2],
-            mean(r3[3], r4[2]),
-            mean(r3[4], r5[2]),
-            mean(r3[5], r6[2]),
-            r4[3],
-            mean(r4[4], r5[3]),
-            mean(r4[5], r6[3]),
-            r5[4],
-            mean(r5[5], r6[4]),
-            r6[5],
-        ]);
+        // The symmetric part, its upper triangle by rows. Halves first: a sum might overflow.
+        let columns: [[f64; 6]; 6] =
+            core::array::from_fn(|c| entries.map(|row| row.get(c).copied().unwrap_or_default()));
+        let mut upper = [0.0; 21];
+        let pairs = entries.iter().zip(&columns).enumerate();
+        let pairs = pairs.flat_map(|(r, (row, column))| row.iter().zip(column).skip(r));
+        upper.iter_mut().zip(pairs).for_each(|(entry, (x, y))| *entry = 0.5 * x + 0.5 * y);
+        answer.stiffness = by_columns(upper);
         if nan_unless_finite(&answer.stress) != 0.0 {
             // The state must not advance without its stress.
             answer = Answer { state, status: status::OVERFLOW, ..Answer::EMPTY };

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::parameters::Property;
-use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, PROPERTY_DIRECTION, UNKNOWN_FIELD, meaning};
+use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, UNKNOWN_FIELD, meaning};
 
 /// An error, with the values that its message contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,8 +12,9 @@ pub enum Error {
     Count { code: i32, what: &'static str, found: i64, wanted: i64 },
     /// A property is not finite or out of bounds. `index` counts from 0.
     Property { code: i32, index: usize, property: &'static Property, value: f64 },
-    /// A direction among the properties is zero or parallel to another one; `index`, from 0, is that of its first component.
-    Direction { index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
+    /// A direction among the properties is zero, parallel to another one or out of a plane; `index`, from 0, is that of its first
+    /// component.
+    Direction { code: i32, index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
     /// A whole number among the arguments is outside its range.
     Range { code: i32, name: &'static str, value: i64, least: i64, greatest: i64 },
     /// A whole number among the arguments is none of those that have a meaning.
@@ -48,9 +49,9 @@ impl Error {
             | Error::Element { code, .. }
             | Error::Setting { code, .. }
             | Error::Range { code, .. }
+            | Error::Direction { code, .. }
             | Error::Plain(code) => code,
             Error::Size { .. } => BAD_SIZE,
-            Error::Direction { .. } => PROPERTY_DIRECTION,
             Error::Argument { .. } | Error::Choice { .. } => BAD_ARGUMENT,
             Error::Null { .. } => NULL_ARGUMENT,
             Error::NotPrepared { .. } => NOT_PREPARED,
@@ -81,7 +82,7 @@ impl Error {
                 sink("; allowed: ");
                 sink(property.allowed);
             }
-            Error::Direction { index, name, value, wanted } => {
+            Error::Direction { index, name, value, wanted, .. } => {
                 sink("properties ");
                 describe_integer(index as i64 + 1, sink);
                 sink(" to ");

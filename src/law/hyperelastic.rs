@@ -112,6 +112,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
         let &[k_el, k_tc, p, k_td, k_ld, _, _, _, m_1, m_2, m_3] = properties;
         if !frame.usable {
             return Err(Error::Direction {
+                code: status::PROPERTY_DIRECTION,
                 index: FIBRE,
                 name: "fibre direction",
                 value: [m_1.into(), m_2.into(), m_3.into()],

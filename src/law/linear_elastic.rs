@@ -108,7 +108,8 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
             return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
         };
         let direction = |index, name, value: [T; 3], wanted| {
-            Err(Error::Direction { index, name, value: [value[0].into(), value[1].into(), value[2].into()], wanted })
+            let (code, value) = (status::PROPERTY_DIRECTION, [value[0].into(), value[1].into(), value[2].into()]);
+            Err(Error::Direction { code, index, name, value, wanted })
         };
         let (frame, usable) = FibreFrame::new([m_1, m_2, m_3]);
         if !usable {

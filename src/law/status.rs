@@ -72,7 +72,7 @@ pub const TABLE: [(i32, &str, &str); 22] = [
     (
         FIBRE_OUT_OF_PLANE,
         "fibre_out_of_plane",
-        "the fibre direction (properties 9 to 11) is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
+        "a direction among the properties is neither in the plane of this plane-strain or axisymmetric element nor normal to it",
     ),
     (
         STATE_COUNT,

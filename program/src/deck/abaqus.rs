@@ -1,5 +1,5 @@
 //! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the laws runs follows from the
-//! number of properties.
+//! numbers of properties and of state variables.
 
 use std::fmt::Write;
 
@@ -7,6 +7,7 @@ use super::material::{Material, WIDE};
 use crate::common::error::Error;
 use crate::common::short_number::short;
 use crate::material::model::deletion_variable;
+use crate::material::preset::LawName;
 
 /// Which of the two solvers the card is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,9 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         }
     }
     let _ = write!(card, "*MATERIAL, NAME={}\n*DENSITY\n{},\n", name(material), short(material.density()?, WIDE));
-    card += &constants(material);
+    // The tangent of the linear elastic law is not symmetric.
+    let unsymmetric = solver == Solver::Standard && material.law == LawName::LinearElastic;
+    card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
         Solver::Explicit | Solver::Both => format!(", DELETE={}", deletion_variable(material.table()) + 1),
@@ -60,15 +63,15 @@ fn deletion(material: &Material) -> String {
     )
 }
 
-/// The properties, eight a line, with their names in a comment before them.
-pub fn constants(material: &Material) -> String {
+/// The properties, eight a line, with their names in a comment before them; `options` stands behind their number.
+pub fn constants(material: &Material, options: &str) -> String {
     let (table, values) = (material.table(), &material.values);
     let mut text = String::new();
     let names: Vec<&str> = table.iter().map(|property| property.name).collect();
     for names in names.chunks(8) {
         let _ = writeln!(text, "** {}", names.join(", "));
     }
-    let _ = writeln!(text, "*USER MATERIAL, CONSTANTS={}", values.len());
+    let _ = writeln!(text, "*USER MATERIAL, CONSTANTS={}{options}", values.len());
     for line in values.chunks(8) {
         let fields: Vec<String> = line.iter().map(|&value| short(value, WIDE)).collect();
         let _ = writeln!(text, "{}", fields.join(", "));

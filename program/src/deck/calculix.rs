@@ -17,7 +17,7 @@ pub fn card(material: &Material) -> String {
     if let Some(density) = material.density_if_any() {
         card += &format!("*DENSITY\n{}\n", short(density, WIDE));
     }
-    card += &constants(material);
+    card += &constants(material, "");
     if material.values.len().is_multiple_of(FULL) {
         card += "0.0\n";
     }

@@ -29,7 +29,7 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
         along_the_axes(material, &mut values);
     }
     let count = values.len();
-    let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()).collect();
+    let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()?).collect();
     let names: Vec<&str> = table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
     let history = interface.state.len() + interface.kept;
     let [ortho, hyper] = if fibre == Fibre::Axes { ["1", "-1"] } else { ["0", "1"] };
@@ -38,7 +38,8 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     for comment in material.comments() {
         card += &format!("$ {comment}\n");
     }
-    card += "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is the modulus along the fibre\n";
+    card +=
+        "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is that of the fastest wave at rest\n";
     let rounded: Vec<&str> = [("ro", density)]
         .into_iter()
         .chain(names.iter().copied().zip(constants.iter().copied()))

@@ -2,7 +2,7 @@
 
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, FIBRE, LINEAR_FIBRE, NUMBER, Property, STRESS};
-use toron::{Criterion, Rotation};
+use toron::{Criterion, Hyperelastic, LinearElastic, Rotation};
 
 use super::interface::Interface;
 use crate::common::error::Error;
@@ -69,10 +69,16 @@ impl Material {
         self.density
     }
 
-    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre.
-    pub fn bulk_and_shear(&self) -> [f64; 2] {
-        let along = self.values[0];
-        [0.5 * along, 0.375 * along]
+    /// Bulk and shear modulus whose wave, K + 4G/3, is the law's fastest one at rest; for yarns, that along the fibre.
+    ///
+    /// # Errors
+    /// The first property that is wrong.
+    pub fn bulk_and_shear(&self) -> Result<[f64; 2], Error> {
+        let moduli = match self.law {
+            LawName::Hyperelastic => Hyperelastic::new(&self.values).map(|law| law.bulk_and_shear()),
+            LawName::LinearElastic => LinearElastic::new(&self.values).map(|law| law.bulk_and_shear()),
+        };
+        moduli.map_err(|error| Error::Input(format!("{}: {error}", self.place)))
     }
 
     /// Where the fibre's three components are among the values.

@@ -188,6 +188,19 @@ fn read_by<'a>(card: &'a str, comment: &str) -> Vec<&'a str> {
     card.lines().filter(|line| !line.starts_with(comment)).collect()
 }
 
+/// LS-DYNA's time step follows from K + 4G/3, which must not be below the fastest wave of the law, along the fibre or not.
+#[test]
+fn a_card_has_the_fastest_wave() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fastest-wave");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let text = "units = \"mm-tonne-s\"\nlaw = \"linear-elastic\"\ndensity = 1e-9\n\
+                [properties]\ne_1 = 1000.0\ne_2 = 5000.0\ng = 3000.0\n";
+    let file = folder.join("stiff-across.toml");
+    std::fs::write(&file, text).expect("a file");
+    let card = card(&["--host", "ls-dyna", "--preset", file.to_str().expect("UTF-8")]);
+    assert_eq!(read_by(&card, "$").last(), Some(&"       0.0       0.0    3000.0    2250.0"), "{card}");
+}
+
 #[test]
 fn a_preset_prints_as_a_card() {
     let dyna = card(&["--host", "ls-dyna", "--units", "mm-tonne-s"]);

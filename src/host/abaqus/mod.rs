@@ -12,9 +12,10 @@
 //! | F inverted or not finite | state kept, PNEWDT ≤ ¼ | point failed and deleted |
 //! | tangent | DDSDDE(ntens, ntens): the Jaumann rate of τ, over J | none |
 //!
-//! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1); plane stress (2, 1) is refused. The
-//! laws are told apart by the number of properties: 11 for the hyperelastic one, 10 for the linear elastic one. The symbols `umat_` and
-//! `vumat_` that Abaqus looks for are in `fortran-shim/`, and in the libraries of `abaqus/`.
+//! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1). Plane stress is (2, 1) in Standard
+//! and refused; in Explicit it is (3, 1) too. The symbols `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`, and in the
+//! libraries of `abaqus/`. A material with 10 properties and 10 state variables has the linear elastic law there, every other one the
+//! hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`.
 
 mod umat;
 mod vumat;

@@ -5,7 +5,7 @@ use core::mem::MaybeUninit;
 use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
-use crate::host::border::{Message, check_plane, check_pointers, entry, out_of_plane, properties};
+use crate::host::border::{Message, check_plane, check_pointers, entry, oblique, out_of_plane, properties};
 use crate::host::c::level;
 use crate::host::structures::{read, structures};
 use crate::law::block::linear::LinearPointers;
@@ -14,7 +14,7 @@ use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::parameters::{self, LINEAR_ELASTIC_PROPERTIES, Property};
+use crate::law::parameters::{self, FIBRE, LINEAR_ELASTIC_PROPERTIES, Property};
 use crate::law::state::{
     ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ALIVE, LINEAR_ELASTIC_STATE,
     LINEAR_FAILED, LINEAR_WORK,
@@ -27,8 +27,9 @@ use crate::law::status;
 pub struct Vumat<T> {
     /// The size of this structure.
     pub size: size_t,
-    /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids), of state
-    /// variables (≥ 11, linear law ≥ 10) and of properties (11, linear law 10).
+    /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
+    /// caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (≥ 11, linear law ≥ 10) and of
+    /// properties (11, linear law 10).
     pub nblock: i32,
     pub ndir: i32,
     pub nshr: i32,
@@ -120,8 +121,9 @@ impl<T: Precision> VumatLaw<T> for Hyperelastic<T> {
     fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
         let law = Hyperelastic::new(properties)?;
         let &[.., m_1, m_2, m_3] = properties else { return Ok(law) }; // their number has been checked
-        if plane && out_of_plane([m_1.into(), m_2.into(), m_3.into()]) {
-            return Err(Error::Plain(status::FIBRE_OUT_OF_PLANE));
+        let fibre = [m_1.into(), m_2.into(), m_3.into()];
+        if plane && out_of_plane(fibre) {
+            return Err(oblique(FIBRE, "fibre direction", fibre));
         }
         Ok(law)
     }

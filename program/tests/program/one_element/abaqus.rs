@@ -41,7 +41,7 @@ fn known(solver: Solver) -> Vec<(&'static str, &'static [&'static str])> {
         ("NSET", &["NSET"]),
         ("MATERIAL", &["NAME"]),
         ("DENSITY", &[]),
-        ("USER MATERIAL", &["CONSTANTS"]),
+        ("USER MATERIAL", if solver == Solver::Standard { &["CONSTANTS", "UNSYMM"] } else { &["CONSTANTS"] }),
         ("DEPVAR", if solver == Solver::Explicit { &["DELETE"] } else { &[] }),
         (
             "SOLID SECTION",
