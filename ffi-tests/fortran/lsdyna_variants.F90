@@ -1,5 +1,5 @@
 ! Both laws of the shims for LS-DYNA in one program, the hyperelastic one as umat41 and utan41, the linear elastic one under the number
-! OTHER, with the arguments of R7 to R9 if TORON_R9 is defined; what is not to be read is NaN. A stretch along the fibre has closed forms.
+! OTHER, with the arguments of R7 to R9 if TORON_SHORT_LIST is defined; what is not to be read is NaN. A stretch along the fibre has closed forms.
 program lsdyna_variants_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use cases
@@ -135,7 +135,7 @@ contains
     integer :: nnpcrv(1)
     reject = .false.
     nnpcrv = 0
-#ifdef TORON_R9
+#ifdef TORON_SHORT_LIST
     call umat(cm, nan, sig, nan, hsv, nan, nan, etype, time, nan, failel, nan, nan, nan, nan, 1)
 #else
     call umat(cm, nan, sig, nan, hsv, nan, nan, etype, time, nan, failel, nan, nnpcrv, nan, nan, nan, 1_c_int64_t, reject)
@@ -151,7 +151,7 @@ contains
     integer :: nnpcrv(1)
     reject = .false.
     nnpcrv = 0
-#ifdef TORON_R9
+#ifdef TORON_SHORT_LIST
     call umatv(cm, nan, nan, nan, nan, nan, nan, sigs(1, 1), sigs(1, 2), sigs(1, 3), sigs(1, 4), sigs(1, 5), sigs(1, 6), nan, &
       hsvs, 2, 4, nan, nan, 'solid', time, nan, failels, nlq, nan, nan, nan, nan, [1, 1])
 #else
@@ -168,7 +168,7 @@ contains
     unsym = .false.
     failel = .false.
     nnpcrv = 0
-#ifdef TORON_R9
+#ifdef TORON_SHORT_LIST
     call utan(cm, nan, nan, nan, hsv, nan, nan, 'solid', nan, nan, es, nan, failel, nan, nan)
 #else
     call utan(cm, nan, nan, nan, hsv, nan, unsym, nan, 'solid', nan, nan, es, nan, nnpcrv, failel, nan, nan)
@@ -184,7 +184,7 @@ contains
     unsym = .false.
     failels = .false.
     nnpcrv = 0
-#ifdef TORON_R9
+#ifdef TORON_SHORT_LIST
     call utanv(cm, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, hsvs, 2, 4, nan, nan, 'solid', nan, nan, &
       dsave, nlq, nan, failels, nan, nan)
 #else

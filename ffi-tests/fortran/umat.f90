@@ -58,7 +58,7 @@ program umat_test
   call refused('number of state variables (*DEPVAR): 10 given, 11 needed', 11, 10, 3)
   call refused('NSHR (1 for plane strain and axisymmetric solids): 2 given, 3 needed', 11, 12, 2)
   props(9:11) = real([0.6, 0.0, 0.8], c_double)
-  call refused('; allowed: a direction in the plane of this element', 11, 12, 1)
+  call refused('; allowed: a direction in the plane (third component 0)', 11, 12, 1)
   call check_written(7, 'material FIBRE:')
   call linear
   call finish

@@ -61,7 +61,7 @@ pub(super) fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
 /// components that such an element does not have. `index` is that of its first component, from 0.
 #[cold]
 pub(super) fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
-    let wanted = "a direction in the plane of this element (third component 0) or normal to it";
+    let wanted = "a direction in the plane (third component 0) or normal to it";
     Error::Direction { code: status::FIBRE_OUT_OF_PLANE, index, name, value, wanted }
 }
 

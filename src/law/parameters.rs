@@ -92,7 +92,7 @@ pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
     },
     positive_or_zero("k_td", "k_td", STRESS, None, "transverse distortion stiffness"),
     positive_or_zero("k_ld", "k_ld", STRESS, Some(0.0), "longitudinal shear stiffness, 0: fibres slip freely"),
-    positive_or_zero("eps_lim", "ε_lim", NUMBER, Some(0.0), "fibre strain at failure, 0: no failure"),
+    positive_or_zero("eps_lim", "ε_lim", NUMBER, Some(0.0), "engineering fibre strain at failure, 0: no failure"),
     positive_or_zero("alpha", "α", NUMBER, Some(0.0), "weight of compaction in multiaxial failure, 0: uniaxial"),
     positive_or_zero("beta", "β", NUMBER, Some(0.0), "weight of distortion in multiaxial failure, 0: uniaxial"),
     component("m_1", "m1", 1.0, "fibre direction in the reference placement, any length"),

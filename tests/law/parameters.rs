@@ -85,7 +85,7 @@ fn messages_name_the_property_its_value_and_what_is_allowed() {
             5,
             f64::INFINITY,
             finite,
-            "property 6 (eps_lim, fibre strain at failure, 0: no failure) is infinity; allowed: a number from 0 to 1e25",
+            "property 6 (eps_lim, engineering fibre strain at failure, 0: no failure) is infinity; allowed: a number from 0 to 1e25",
         ),
         (
             6,

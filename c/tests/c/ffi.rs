@@ -148,7 +148,7 @@ fn shims_of_lsdyna() {
 #[test]
 fn shims_of_lsdyna_in_other_releases_and_under_other_numbers() {
     for number in [43, 44, 45, 47, 48, 49, 50] {
-        for release in [&[][..], &["-DTORON_R9"]] {
+        for release in [&[][..], &["-DTORON_SHORT_LIST"]] {
             // Each number with one set of kinds, all of them with some number.
             let kinds: &[&str] = [&[][..], &[INTEGERS_64, REALS_64], &[REALS_64], &[INTEGERS_64], &[TRAPS]][number % 5];
             let options = [release, kinds].concat();

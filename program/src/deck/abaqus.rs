@@ -26,6 +26,9 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
         Solver::Explicit => card += &deletion(material),
         Solver::Both => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
+            if material.law == LawName::LinearElastic {
+                card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n";
+            }
             card += &deletion(material);
         }
     }

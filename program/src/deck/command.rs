@@ -10,7 +10,7 @@ use super::abaqus::{self, Solver};
 use super::ls_dyna::{self, Fibre, NUMBERS};
 use super::material::Material;
 use super::{calculix, mtest, openradioss};
-use crate::common::console::print;
+use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::material::preset::{LawName, Preset};
 
@@ -49,7 +49,7 @@ pub struct Arguments {
     fibre: Option<String>,
     /// LS-DYNA, OpenRadioss: the material's number in the deck, and that of OpenRadioss's property; 1 without it.
     #[arg(long)]
-    id: Option<u32>,
+    id: Option<u64>,
     /// LS-DYNA: the fibre is the first material axis, element by element (IHYPER -1, IORTHO 1, AOPT 2), and not one direction for
     /// the material (IHYPER 1, IORTHO 0).
     #[arg(long)]
@@ -59,16 +59,20 @@ pub struct Arguments {
     mt: Option<u32>,
 }
 
-/// Prints the card.
+/// Prints the card, and to the standard error a warning of units that do not fit.
 ///
 /// # Errors
 /// The argument that is wrong, or what is wrong with the yarn.
 pub fn run(arguments: &Arguments) -> Result<(), Error> {
-    print(&card(arguments)?);
+    let (card, warning) = card(arguments)?;
+    print(&card);
+    if let Some(warning) = warning {
+        print_error(&format!("toron: warning: {warning}\n"));
+    }
     Ok(())
 }
 
-fn card(arguments: &Arguments) -> Result<String, Error> {
+fn card(arguments: &Arguments) -> Result<(String, Option<String>), Error> {
     let law = arguments.law.as_deref().map(law).transpose()?;
     let preset = preset(arguments, law)?;
     let units = units(arguments, &preset)?;
@@ -79,7 +83,7 @@ fn card(arguments: &Arguments) -> Result<String, Error> {
         only_for_ls_dyna("--mt", arguments.mt.is_some())?;
     }
     let id = id(arguments)?;
-    match arguments.host {
+    let card = match arguments.host {
         Host::LsDyna => {
             let fibre = if arguments.axes { Fibre::Axes } else { Fibre::Global };
             ls_dyna::card(&material, id, arguments.mt.map(number).transpose()?, fibre)
@@ -90,7 +94,8 @@ fn card(arguments: &Arguments) -> Result<String, Error> {
         Host::Openradioss => openradioss::card(&material, id),
         Host::Calculix => Ok(calculix::card(&material)),
         Host::Mtest => Ok(mtest::card(&material)),
-    }
+    };
+    Ok((card?, material.unit_warning()))
 }
 
 fn law(text: &str) -> Result<LawName, Error> {
@@ -161,7 +166,7 @@ fn id(arguments: &Arguments) -> Result<u32, Error> {
         Some(id) if !(1..=999_999_999).contains(&id) => {
             Err(Error::Input(format!("--id {id}; allowed: 1 to 999999999")))
         }
-        id => Ok(id.unwrap_or(1)),
+        id => Ok(id.map_or(1, |id| id as u32)), // of nine digits at most
     }
 }
 

@@ -38,8 +38,7 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     for comment in material.comments() {
         card += &format!("$ {comment}\n");
     }
-    card +=
-        "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is that of the fastest wave at rest\n";
+    card += "$ bulk and shear set time step and contact stiffness: bulk + 4/3 shear is that of the wave along the fibre, or of a faster one at rest\n";
     let rounded: Vec<&str> = [("ro", density)]
         .into_iter()
         .chain(names.iter().copied().zip(constants.iter().copied()))

@@ -7,6 +7,7 @@ use toron::{Criterion, Hyperelastic, LinearElastic, Rotation};
 use super::interface::Interface;
 use crate::common::error::Error;
 use crate::common::units::unit;
+use crate::material::fibre_wave::FibreWave;
 use crate::material::model::Law;
 use crate::material::preset::{LawName, Preset};
 
@@ -69,7 +70,7 @@ impl Material {
         self.density
     }
 
-    /// Bulk and shear modulus whose wave, K + 4G/3, is the law's fastest one at rest; for yarns, that along the fibre.
+    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre or, of the linear elastic law, a faster one.
     ///
     /// # Errors
     /// The first property that is wrong.
@@ -79,6 +80,12 @@ impl Material {
             LawName::LinearElastic => LinearElastic::new(&self.values).map(|law| law.bulk_and_shear()),
         };
         moduli.map_err(|error| Error::Input(format!("{}: {error}", self.place)))
+    }
+
+    /// What is to be said of a wave along the fibre that no fibre has: a density or a stiffness is in other units.
+    pub fn unit_warning(&self) -> Option<String> {
+        let stiffness = self.values.first().copied()?;
+        FibreWave::along(self.law, stiffness, self.density?, &self.units)?.unit_warning(&self.units)
     }
 
     /// Where the fibre's three components are among the values.

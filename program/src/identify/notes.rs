@@ -4,6 +4,7 @@ use super::data::DataSet;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
 use crate::material::fibre_wave::FibreWave;
+use crate::material::preset::LawName;
 
 /// An interval that reaches this far to one side, over the value, tells little.
 const WIDE: f64 = 0.5;
@@ -56,7 +57,7 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
 /// A wave along the fibre that no fibre has: a density or a stiffness is in other units.
 fn unit_warning(problem: &Problem, fit: &Fit) -> Option<String> {
     let k_el = fit.values[Parameter::KEl.index()]?;
-    FibreWave::hyperelastic(k_el, problem.density?, &problem.units)?.unit_warning(&problem.units)
+    FibreWave::along(LawName::Hyperelastic, k_el, problem.density?, &problem.units)?.unit_warning(&problem.units)
 }
 
 /// Which parameters nothing tells, and what would.

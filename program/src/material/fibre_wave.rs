@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::model::{Law, Material};
+use super::preset::LawName;
 use crate::common::units::{SPEED, number};
 use toron::host::units::UnitSystem;
 
@@ -23,19 +24,22 @@ pub struct FibreWave {
 impl FibreWave {
     /// The wave of a material in these units; none without a density or without stiffness.
     pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
-        let (stiffness, formula) = match material.law {
-            Law::Hyperelastic(_) => ("k_el", "√(k_el/density)"),
-            Law::LinearElastic { .. } => ("e_1", "√(e_1/density)"),
+        let (law, stiffness) = match material.law {
+            Law::Hyperelastic(_) => (LawName::Hyperelastic, "k_el"),
+            Law::LinearElastic { .. } => (LawName::LinearElastic, "e_1"),
         };
-        let speed = (material.property(stiffness)? / material.density?).sqrt();
-        (speed > 0.0).then(|| FibreWave { formula, stiffness, speed: speed / units.from_si(1000.0, SPEED) })
+        Self::along(law, material.property(stiffness)?, material.density?, units)
     }
 
-    /// The wave in a yarn of this stiffness and density, which are in these units.
-    pub fn hyperelastic(k_el: f64, density: f64, units: &UnitSystem) -> Option<FibreWave> {
-        let speed = (k_el / density).sqrt();
+    /// The wave in a yarn of this law with this stiffness along the fibre and this density, which are in these units.
+    pub fn along(law: LawName, stiffness: f64, density: f64, units: &UnitSystem) -> Option<FibreWave> {
+        let (name, formula) = match law {
+            LawName::Hyperelastic => ("k_el", "√(k_el/density)"),
+            LawName::LinearElastic => ("e_1", "√(e_1/density)"),
+        };
+        let speed = (stiffness / density).sqrt();
         let speed_in_km = speed / units.from_si(1000.0, SPEED);
-        (speed > 0.0).then_some(FibreWave { formula: "√(k_el/density)", stiffness: "k_el", speed: speed_in_km })
+        (speed > 0.0).then_some(FibreWave { formula, stiffness: name, speed: speed_in_km })
     }
 
     /// A warning where no fibre has this speed: the units are likely wrong.
