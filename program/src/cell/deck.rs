@@ -44,10 +44,12 @@ pub struct Task<'a> {
 pub fn text(task: &Task) -> String {
     let mut deck = Deck { text: String::new(), task, starts: starts(task.model) };
     deck.mesh();
+    deck.layers();
     deck.springs();
     deck.materials();
     deck.contacts();
     deck.sets();
+    deck.first_step();
     deck.step();
     deck.text
 }
@@ -110,6 +112,16 @@ impl Deck<'_> {
         }
     }
 
+    /// Plane strain: what lies behind moves as the front does, and not along the fibres. Half the unknowns.
+    fn layers(&mut self) {
+        self.line("*BOUNDARY\nALL, 3, 3\n*EQUATION");
+        for node in 0..self.task.model.nodes.len() {
+            for axis in 1..=2 {
+                self.line(format_args!("2\n{}, {axis}, 1., {}, {axis}, -1.", self.back(node), front(node)));
+            }
+        }
+    }
+
     /// From each sprung node to a node that moves affinely.
     fn springs(&mut self) {
         let model = self.task.model;
@@ -120,13 +132,11 @@ impl Deck<'_> {
             }
             self.line(format_args!("*ELEMENT, TYPE=SPRING2, ELSET=SPRINGS{axis}"));
             for (number, &node) in model.sprung.iter().enumerate() {
-                for end in [front(node), self.back(node)] {
-                    self.line(format_args!("{next}, {end}, {}", self.ghost(number)));
-                    next += 1;
-                }
+                self.line(format_args!("{next}, {}, {}", front(node), self.ghost(number)));
+                next += 1;
             }
-            // Half at the front, half behind. CalculiX takes a number such as 5e-2 here for no number.
-            let stiffness = 0.5 * SPRING / STRESS_UNIT;
+            // CalculiX takes a number such as 5e-2 here for no number.
+            let stiffness = SPRING / STRESS_UNIT;
             self.line(format_args!("*SPRING, ELSET=SPRINGS{axis}\n{axis}, {axis}\n{stiffness:.9}"));
         }
     }
@@ -185,7 +195,7 @@ impl Deck<'_> {
         for (number, support) in model.supports.iter().enumerate() {
             self.line(format_args!("*NSET, NSET={}", support_name(number)));
             for &node in &support.nodes {
-                self.line(format_args!("{}, {}", front(node), self.back(node)));
+                self.line(format_args!("{},", front(node)));
             }
         }
         if !model.sprung.is_empty() {
@@ -196,26 +206,24 @@ impl Deck<'_> {
         }
     }
 
+    /// Nothing moves. In its first step CalculiX takes what overlaps at the start of an increment for an initial overlap, which
+    /// it lets go as the step goes on: contact would have its stiffness at the end of the load only. TIMERESET: the load's time
+    /// starts from 0.
+    fn first_step(&mut self) {
+        self.line("*STEP, NLGEOM\n*STATIC, TIMERESET\n1., 1.");
+        self.boundary([1.0, 1.0]);
+        // Energies are to be had in a later step only if they are in the first.
+        self.line(format_args!("*EL PRINT, ELSET={FIBRES}, TOTALS=ONLY\nELSE\n*END STEP"));
+    }
+
     fn step(&mut self) {
         let model = self.task.model;
-        let stretches = self.task.load.stretches(self.task.last_stretch);
         let increment = 1.0 / self.task.increments as f64;
         self.line(format_args!("*STEP, NLGEOM, INC={MOST_INCREMENTS}\n*STATIC"));
         let first = if model.sprung.is_empty() { increment } else { FIRST_OF_BOX * increment };
         self.line(format_args!("{first:.12}, 1., {SMALLEST:e}, {increment:.12}"));
         self.line(format_args!("*CONTROLS, PARAMETERS=CONTACT\n0.001, 0.1, 100, {ITERATIONS}"));
-        self.line("*BOUNDARY\nALL, 3, 3");
-        for (number, support) in model.supports.iter().enumerate() {
-            let (axis, moved) = (support.axis + 1, (stretches[support.axis] - 1.0) * support.at);
-            self.line(format_args!("{}, {axis}, {axis}, {moved:.12e}", support_name(number)));
-        }
-        for (number, &node) in model.sprung.iter().enumerate() {
-            let ghost = self.ghost(number);
-            self.line(format_args!("{ghost}, 3, 3"));
-            for (axis, (stretch, place)) in stretches.into_iter().zip(model.nodes[node]).enumerate() {
-                self.line(format_args!("{ghost}, {0}, {0}, {1:.12e}", axis + 1, (stretch - 1.0) * place));
-            }
-        }
+        self.boundary(self.task.load.stretches(self.task.last_stretch));
         for set in [FIBRES, MIDDLE] {
             self.line(format_args!("*EL PRINT, ELSET={set}, TOTALS=ONLY\nELSE"));
         }
@@ -226,6 +234,22 @@ impl Deck<'_> {
             self.line(format_args!("*NODE PRINT, NSET={SPRUNG}\nU"));
         }
         self.line("*NODE FILE, NSET=FRONT\nU\n*EL FILE, NSET=FRONT\nS\n*END STEP");
+    }
+
+    /// Where the supports and the springs' fixed ends are at the end of a step.
+    fn boundary(&mut self, stretches: [f64; 2]) {
+        let model = self.task.model;
+        self.line("*BOUNDARY");
+        for (number, support) in model.supports.iter().enumerate() {
+            let (axis, moved) = (support.axis + 1, (stretches[support.axis] - 1.0) * support.at + 0.0);
+            self.line(format_args!("{}, {axis}, {axis}, {moved:.12e}", support_name(number)));
+        }
+        for (number, &node) in model.sprung.iter().enumerate() {
+            let ghost = self.ghost(number);
+            for (axis, (stretch, place)) in stretches.into_iter().zip(model.nodes[node]).enumerate() {
+                self.line(format_args!("{ghost}, {0}, {0}, {1:.12e}", axis + 1, (stretch - 1.0) * place));
+            }
+        }
     }
 }
 

@@ -1,14 +1,13 @@
 //! A load on the section: deck, CalculiX, energies and the deformed section at the end.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::time::Duration;
 
 use super::deck::{self, STRESS_UNIT, Task, front};
 use super::energies::{self, Increment};
 use super::model::Model;
 use super::scene::{Load, Scene};
-use super::solver::{self, Printed};
+use super::solver::{Job, Printed};
 use crate::common::error::Error;
 
 /// The stretch is known to the seven digits that CalculiX prints of the time.
@@ -43,19 +42,13 @@ pub fn task<'a>(scene: &'a Scene, model: &'a Model, load: Load) -> Task<'a> {
     Task { model, fibre, friction, load, last_stretch: scene.last_stretch(load), increments }
 }
 
-/// Runs a load on so many threads.
+/// Runs a load.
 ///
 /// # Errors
 /// CalculiX cannot be started, or leaves nothing of what it was asked for.
-pub fn run(
-    program: &Path,
-    task: &Task,
-    text: &str,
-    threads: usize,
-    progress: &mut dyn FnMut(f64),
-) -> Result<Outcome, Error> {
+pub fn run(job: &Job, task: &Task, text: &str, progress: &mut dyn FnMut(f64)) -> Result<Outcome, Error> {
     let name = task.load.name();
-    let printed = solver::run(program, text, threads, progress)?;
+    let printed = job.run(text, progress)?;
     let in_load = |message: String| Error::Evaluation(format!("load {name}: {message}"));
     let (increments, missing) = energies::increments(task, &printed.tables);
     let why = printed.failure.clone().or(missing);

@@ -15,6 +15,7 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use toron_program::cell::arrangement;
 use toron_program::cell::disc::Disc;
@@ -23,6 +24,7 @@ use toron_program::cell::model::Model;
 use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
+use toron_program::cell::solver::Job;
 
 use crate::calculix_decks::SOLVER;
 
@@ -44,8 +46,11 @@ fn outcome(scene: &Scene, load: Load) -> Outcome {
 }
 
 fn on_model(scene: &Scene, model: &Model, load: Load) -> Outcome {
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
     let task = run::task(scene, model, load);
-    let outcome = run::run(&SOLVER, &task, &run::deck(&task), 1, &mut |_| {}).expect("CalculiX runs");
+    let output = crate::library::folder(&format!("cell-{}", NUMBER.fetch_add(1, Ordering::Relaxed)));
+    let job = Job { program: &SOLVER, output: &output, name: load.name(), threads: 1 };
+    let outcome = run::run(&job, &task, &run::deck(&task), &mut |_| {}).expect("CalculiX runs");
     assert_eq!(outcome.failure, None);
     outcome
 }
