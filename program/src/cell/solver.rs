@@ -128,10 +128,11 @@ impl Job<'_> {
 /// Waits for the end, looking into the file where each increment has its line.
 fn wait(mut child: Child, increments: &Path, progress: &mut dyn FnMut(f64)) -> std::io::Result<ExitStatus> {
     loop {
-        if let Some(status) = child.try_wait()? {
+        let status = child.try_wait()?;
+        progress(reached(&std::fs::read_to_string(increments).unwrap_or_default()));
+        if let Some(status) = status {
             return Ok(status);
         }
-        progress(reached(&std::fs::read_to_string(increments).unwrap_or_default()));
         std::thread::sleep(LOOK);
     }
 }
