@@ -24,11 +24,6 @@ const OPENED: f64 = 0.0;
 /// By what CalculiX divides the contact's stiffness when it takes an increment again. Its own 100 lets the fibres run into each
 /// other so far that they do not come back.
 const RELAXATION: usize = 1;
-/// The residual force at the worst node, over the mean force, that ends the iterations of a box from the tenth on (CalculiX: 2 %),
-/// and the last correction over the increment's largest displacement (CalculiX: 1 %). An edge that turns a corner of a polygon
-/// opens and closes for ever; it is one of thousands.
-const RESIDUAL_OF_BOX: f64 = 0.2;
-const CORRECTION_OF_BOX: f64 = 0.1;
 /// Increments in all, with those that CalculiX takes again; and the smallest, as a part of the load.
 const MOST_INCREMENTS: usize = 2000;
 const SMALLEST: f64 = 1e-6;
@@ -240,9 +235,6 @@ impl Deck<'_> {
         let first = if model.sprung.is_empty() { increment } else { FIRST_OF_BOX * increment };
         self.line(format_args!("{first:.12}, 1., {SMALLEST:e}, {increment:.12}"));
         self.line(format_args!("*CONTROLS, PARAMETERS=CONTACT\n0.001, {OPENED:.1}, {RELAXATION}, {ITERATIONS}"));
-        if !model.sprung.is_empty() {
-            self.line(format_args!("*CONTROLS, PARAMETERS=FIELD\n0.005, {CORRECTION_OF_BOX}, , , {RESIDUAL_OF_BOX}"));
-        }
         self.boundary(self.task.load.stretches(self.task.last_stretch));
         for set in [FIBRES, MIDDLE] {
             self.line(format_args!("*EL PRINT, ELSET={set}, TOTALS=ONLY\nELSE"));
