@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::time::Instant;
 
 use indicatif::ProgressDrawTarget;
 use rayon::prelude::*;
@@ -9,13 +10,16 @@ use rayon::prelude::*;
 use super::model::Model;
 use super::run::{self, Outcome};
 use super::scene::{Arrangement, Load, Scene};
-use super::{arrangement, output, picture, report, solver};
-use crate::common::console::print;
+use super::solver::{self, Job};
+use super::{arrangement, output, picture, report};
+use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress;
 
 /// Ticks of the progress bar for each load.
 const TICKS: f64 = 1000.0;
+/// Lines for each load where there is no terminal for the bar.
+const LINES: f64 = 10.0;
 
 /// Runs the loads of a section and writes what came of them to the directory `output`; returns the path of the file that the
 /// identification reads.
@@ -72,8 +76,16 @@ fn run_loads(program: &Path, scene: &Scene, model: &Model, output: &Path) -> Vec
     let length = (TICKS * scene.loads.len() as f64) as u64;
     let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let done = Mutex::new(vec![0.0; scene.loads.len()]);
+    let start = Instant::now();
     let one = |(number, &load): (usize, &Load)| {
+        let mut lines = 0;
         let mut progress = |part: f64| {
+            // Where there is no terminal for the bar, there are lines.
+            if bar.is_hidden() && part >= f64::from(lines + 1) / LINES {
+                lines = (part * LINES) as u32;
+                let seconds = start.elapsed().as_secs();
+                print_error(&format!("{}: {:.0} % of the load, {seconds} s\n", load.name(), 100.0 * part));
+            }
             if let Ok(mut done) = done.lock() {
                 done[number] = part;
                 bar.set_position((TICKS * done.iter().sum::<f64>()) as u64);
@@ -107,7 +119,8 @@ fn run_load(
         Arrangement::Cell(_) => 1,
         Arrangement::Box(_) => std::thread::available_parallelism().map_or(1, usize::from),
     };
-    let outcome = run::run(program, &task, &deck, threads, progress)?;
+    let job = Job { program, output, name: load.name(), threads };
+    let outcome = run::run(&job, &task, &deck, progress)?;
     output::write(&file("csv"), &output::table(scene, &outcome))?;
     picture::write(&file("svg"), &file("png"), scene, model, &outcome)?;
     Ok(outcome)

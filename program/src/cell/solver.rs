@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use super::printed::{self, Table};
@@ -67,10 +66,11 @@ pub struct Printed {
 struct Scratch(PathBuf);
 
 impl Scratch {
-    fn new() -> std::io::Result<Self> {
-        static NUMBER: AtomicUsize = AtomicUsize::new(0);
-        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let folder = std::env::temp_dir().join(format!("toron-cell-{}-{number}", std::process::id()));
+    /// Empty: that of a run that was killed may still be there.
+    fn new(folder: PathBuf) -> std::io::Result<Self> {
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder)?;
+        }
         std::fs::create_dir_all(&folder)?;
         Ok(Scratch(folder))
     }
@@ -82,40 +82,57 @@ impl Drop for Scratch {
     }
 }
 
-/// Runs a deck on so many threads, to whatever end it comes. `progress` is told the part of the load that has been taken.
-///
-/// # Errors
-/// The program cannot be started, or its files cannot be read.
-pub fn run(program: &Path, deck: &str, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Printed, Error> {
-    let file_error = |error: std::io::Error| Error::Input(format!("a folder for CalculiX: {error}"));
-    let scratch = Scratch::new().map_err(file_error)?;
-    let file = |ending: &str| scratch.0.join(format!("{JOB}.{ending}"));
-    std::fs::write(file("inp"), deck).map_err(file_error)?;
-    let log = File::create(file("log")).map_err(file_error)?;
-    let mut command = Command::new(program);
-    command.arg(JOB).current_dir(&scratch.0).env("OMP_NUM_THREADS", threads.to_string()).stdin(Stdio::null());
-    command.stderr(log.try_clone().map_err(file_error)?).stdout(log);
-    let start = Instant::now();
-    let child = command.spawn().map_err(|error| Error::Input(format!("{}: {error}", program.display())))?;
-    let status = wait(child, &file("sta"), progress).map_err(file_error)?;
-    let read = |ending: &str| std::fs::read(file(ending)).map(|text| String::from_utf8_lossy(&text).into_owned());
-    let fields = read("frd").unwrap_or_default();
-    Ok(Printed {
-        tables: printed::tables(&read("dat").unwrap_or_default()),
-        displacements: printed::last_field(&fields, "DISP"),
-        stresses: printed::last_field(&fields, "STRESS"),
-        failure: failure(status, &read("log").unwrap_or_default()),
-        elapsed: start.elapsed(),
-    })
+/// A run of CalculiX: the program, the directory and the name of its files there, and how many threads it may use.
+pub struct Job<'a> {
+    pub program: &'a Path,
+    pub output: &'a Path,
+    pub name: &'a str,
+    pub threads: usize,
+}
+
+impl Job<'_> {
+    /// Runs a deck to whatever end it comes, in the folder `NAME.ccx`, which is then removed. What CalculiX says goes to
+    /// `NAME.log`, which stays where the run fails. `progress` is told the part of the load that has been taken.
+    ///
+    /// # Errors
+    /// The program cannot be started, or its files cannot be written or read.
+    pub fn run(&self, deck: &str, progress: &mut dyn FnMut(f64)) -> Result<Printed, Error> {
+        let [folder, log] = ["ccx", "log"].map(|ending| self.output.join(format!("{}.{ending}", self.name)));
+        let file_error = |error: std::io::Error| Error::Input(format!("{}: {error}", folder.display()));
+        let scratch = Scratch::new(folder.clone()).map_err(file_error)?;
+        let file = |ending: &str| scratch.0.join(format!("{JOB}.{ending}"));
+        std::fs::write(file("inp"), deck).map_err(file_error)?;
+        let said = File::create(&log).map_err(file_error)?;
+        let mut command = Command::new(self.program);
+        command.arg(JOB).current_dir(&scratch.0).env("OMP_NUM_THREADS", self.threads.to_string()).stdin(Stdio::null());
+        command.stderr(said.try_clone().map_err(file_error)?).stdout(said);
+        let start = Instant::now();
+        let child = command.spawn().map_err(|error| Error::Input(format!("{}: {error}", self.program.display())))?;
+        let status = wait(child, &file("sta"), progress).map_err(file_error)?;
+        let read = |path: &Path| std::fs::read(path).map(|text| String::from_utf8_lossy(&text).into_owned());
+        let fields = read(&file("frd")).unwrap_or_default();
+        let failure = failure(status, &read(&log).unwrap_or_default());
+        if failure.is_none() {
+            std::fs::remove_file(&log).map_err(file_error)?;
+        }
+        Ok(Printed {
+            tables: printed::tables(&read(&file("dat")).unwrap_or_default()),
+            displacements: printed::last_field(&fields, "DISP"),
+            stresses: printed::last_field(&fields, "STRESS"),
+            failure: failure.map(|why| format!("{why}; all it said is in {}", log.display())),
+            elapsed: start.elapsed(),
+        })
+    }
 }
 
 /// Waits for the end, looking into the file where each increment has its line.
 fn wait(mut child: Child, increments: &Path, progress: &mut dyn FnMut(f64)) -> std::io::Result<ExitStatus> {
     loop {
-        if let Some(status) = child.try_wait()? {
+        let status = child.try_wait()?;
+        progress(reached(&std::fs::read_to_string(increments).unwrap_or_default()));
+        if let Some(status) = status {
             return Ok(status);
         }
-        progress(reached(&std::fs::read_to_string(increments).unwrap_or_default()));
         std::thread::sleep(LOOK);
     }
 }
