@@ -10,7 +10,7 @@
 //! | p, 2.05 to 2.25 | 2.2, thesis | the same; 2.08 on finer meshes |
 //! | energies of 8 elements against 12, 1 % | the finer mesh | the demand on the mesh |
 //! | approach of two cylinders, 3 % | Johnson, Contact Mechanics (1985), Eq. 5.58 | the demand on the contact |
-//! | energy of a box's middle, 10 % | the cell's at the middle's own strain, same mesh | its fibres are not all strained alike; a softer contact |
+//! | energy of a box's middle, 5 % | the cell's at the middle's own strain, same mesh | its fibres are not all strained alike; a softer contact |
 //! | work of the supports, 1.5 % | the strain energy | penalty of the contact, and the trapezoidal rule over 24 increments |
 
 use std::f64::consts::PI;
@@ -369,27 +369,6 @@ fn the_box_of_the_thesis() {
         );
         assert!(share < 1e-3);
         assert!(i_tc.abs() < walls[0].abs());
-        assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
-    }
-}
-
-/// Disorder leaves voids, and fibres that bear nothing: softer than the cell, the same along x and y but for the few fibres.
-#[test]
-#[ignore = "takes minutes"]
-fn a_random_packing_is_pressed() {
-    let scene = Scene::read(&example("random-packing.toml")).expect("the scene is valid");
-    let cell = last(&outcome(&Scene { elements: scene.elements, ..self::scene() }, Load::Compaction)).energy;
-    for load in [Load::Compaction, Load::AlongRows, Load::AcrossRows] {
-        let outcome = outcome(&scene, load);
-        let (last, share) = (last(&outcome), largest_spring_share(&outcome));
-        println!(
-            "{}: W {:.4}, whole {:.4}, springs {share:.1e}, {:?}",
-            load.name(),
-            last.energy,
-            last.whole,
-            outcome.elapsed
-        );
-        assert!(share < 1e-3);
-        assert!(last.whole > 0.0 && last.whole < cell);
+        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     }
 }
