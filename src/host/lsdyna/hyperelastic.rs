@@ -5,8 +5,8 @@ use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 
-use super::{Elements, HYPERELASTIC, check_elements};
-use crate::host::border::{Message, check_pointers, entry, properties, store};
+use super::{CHUNK, Elements, HYPERELASTIC, element_range, store_moduli};
+use crate::host::border::{Message, check_pointers, entry, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
@@ -38,7 +38,6 @@ unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, E
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
 unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) -> Result<i32, Error> {
-    const CHUNK: usize = 64;
     let Elements { leading_dimension: stride, .. } = *elements;
     let mut worst = status::OK;
     let mut done = 0;
@@ -46,7 +45,7 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
         let start = elements.first + done;
         let n = CHUNK.min(elements.count - done);
         let mut codes = [status::OK; CHUNK];
-        let row = |variable: usize| elements.history.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
+        let row = |variable: usize| elements.variable(variable, start);
         let pointers = Pointers {
             deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
             energies_old: row(ENERGIES),
@@ -61,17 +60,8 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
         };
         // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
         worst = worst.min(unsafe { law.raw_block(&pointers) }?);
-        for (i, &code) in codes.iter().take(n).enumerate() {
-            // SAFETY: the element is one of the block.
-            unsafe {
-                let failed = row(FAILED).add(i);
-                if code != status::OK {
-                    *failed = T::splat(1.0);
-                    *row(ALIVE).add(i) = T::splat(0.0);
-                }
-                *elements.failed.add(start + i) = c_int::from(!(*failed).lt(T::splat(0.5)));
-            }
-        }
+        // SAFETY: the elements are those of the block.
+        unsafe { elements.mark_failed(&HYPERELASTIC, start, codes.get(..n).unwrap_or(&codes)) };
         done += n;
     }
     Ok(worst)
@@ -185,35 +175,20 @@ pub unsafe extern "C" fn umat_f32(
 
 /// # Safety
 /// As for `toron_lsdyna_umat_vector_f64`.
-#[allow(clippy::too_many_arguments)]
 unsafe fn vector<T: Precision>(
     cm: *const T,
     stress: [*mut T; 6],
     hsvs: *mut T,
     nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
+    range: [i32; 3],
     failels: *mut c_int,
 ) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm"), (hsvs, "hsvs")])?;
-    check_pointers(&[(failels.cast_const(), "failels")])?;
-    let [s1, s2, s3, s4, s5, s6] = stress.map(<*mut T>::cast_const);
-    check_pointers(&[(s1, "sig1"), (s2, "sig2"), (s3, "sig3"), (s4, "sig4"), (s5, "sig5"), (s6, "sig6")])?;
-    check_elements(lft, llt, nlq)?;
-    let elements = Elements {
-        stress,
-        history: hsvs,
-        leading_dimension: nlq as usize,
-        first: (lft - 1) as usize,
-        count: (llt - lft + 1) as usize,
-        failed: failels,
-    };
+    check_pointers(&[(cm, "cm")])?;
+    let elements = Elements::new(stress, hsvs, range, failels)?;
     // SAFETY: the caller's promise.
     unsafe {
         let law = law(cm, nhv)?;
-        let first = elements.history.wrapping_add(elements.first);
-        if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *first.wrapping_add(j * elements.leading_dimension)) {
+        if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *elements.variable(j, elements.first)) {
             return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
         }
         evaluate(&law, &elements)
@@ -246,7 +221,7 @@ pub unsafe extern "C" fn umat_vector_f64(
     // SAFETY: the caller's promise.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels)
+            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
         })
     }
 }
@@ -277,7 +252,7 @@ pub unsafe extern "C" fn umat_vector_f32(
     // SAFETY: the caller's promise.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels)
+            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
         })
     }
 }
@@ -344,21 +319,18 @@ unsafe fn vector_tangent<T: Precision>(
     cm: *const T,
     hsvs: *const T,
     nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
+    range: [i32; 3],
     dsave: *mut T,
 ) -> Result<i32, Error> {
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-    check_elements(lft, llt, nlq)?;
-    let (start, stride) = ((lft - 1) as usize, nlq as usize);
+    let [start, count, stride] = element_range(range)?;
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
     let pointers = Pointers {
         deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
         failure_old: row(FAILURE_INDEX),
         tangent: dsave.wrapping_add(start),
         measure: Measure::Truesdell,
-        ..Pointers::without_arrays((llt - lft + 1) as usize, stride)
+        ..Pointers::without_arrays(count, stride)
     };
     // SAFETY: the caller's promise.
     unsafe {
@@ -387,7 +359,7 @@ pub unsafe extern "C" fn utan_vector_f64(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave)) }
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
 }
 
 /// `toron_lsdyna_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
@@ -407,7 +379,7 @@ pub unsafe extern "C" fn utan_vector_f32(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, lft, llt, nlq, dsave)) }
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
 }
 
 /// `toron_lsdyna_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
@@ -423,18 +395,10 @@ pub unsafe extern "C" fn bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(bulk.cast_const(), "bulk"), (shear, "shear")])?;
-        // SAFETY: the caller's promise.
+    let moduli = move || {
+        // SAFETY: the caller's promise, here and below.
         let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
-        let [k, g] = law.bulk_and_shear();
-        // SAFETY: not null, and the caller's promise.
-        unsafe {
-            store(&[k], bulk);
-            store(&[g], shear);
-        }
-        Ok(status::OK)
+        Ok(law.bulk_and_shear())
     };
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || store_moduli(moduli, bulk, shear)) }
 }

@@ -4,23 +4,20 @@ use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 
-use super::{Elements, LINEAR_ELASTIC, check_elements};
-use crate::host::border::{Message, check_pointers, entry, properties, start_at_rest, store};
+use super::{CHUNK, Elements, LINEAR_ELASTIC, element_range, store_moduli};
+use crate::host::border::{Message, check_pointers, entry, properties, start_at_rest};
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{Precision, components};
 use crate::law::error::Error;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::parameters::{self, LINEAR_ELASTIC_PROPERTIES};
-use crate::law::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
+use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
 /// Where F of the last step is kept, and where LS-DYNA writes F, in the history from 0.
 const F_OLD: usize = LINEAR_ELASTIC_STATE;
 const F: usize = LINEAR_ELASTIC_STATE + 9;
-
-/// The elements that are evaluated at once.
-const CHUNK: usize = 64;
 
 /// The law with the properties of the card. Refuses a history that cannot be this law's.
 ///
@@ -47,42 +44,34 @@ unsafe fn law<T: Precision>(
 /// As for `toron_lsdyna_linear_umat_vector_f64`.
 unsafe fn evaluate<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
     let Elements { leading_dimension: stride, first, count, .. } = *elements;
-    let row = |variable: usize, start: usize| {
-        elements.history.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start))
-    };
     // SAFETY: the caller's promise, here and below.
-    let law = unsafe { law(cm, nhv, count, |j| *row(j, first)) }?;
+    let law = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
     let (mut worst, mut done) = (status::OK, 0);
     while done < count {
         let (start, n) = (first + done, CHUNK.min(count - done));
+        let row = |variable: usize| elements.variable(variable, start);
         let mut codes = [status::OK; CHUNK];
-        let f_old = components_of(row(F_OLD, start), stride);
+        let f_old = components_of(row(F_OLD), stride);
         unsafe { start_at_rest(f_old, n) };
         let pointers = LinearPointers {
             f_old: f_old.map(<*mut T>::cast_const),
-            f_new: components(row(F, start), stride),
-            state_old: row(0, start),
-            state_new: row(0, start),
+            f_new: components(row(F), stride),
+            state_old: row(0),
+            state_new: row(0),
             stress: elements.stress.map(|component| component.wrapping_add(start)),
             status: codes.as_mut_ptr(),
             ..LinearPointers::without_arrays(n, stride)
         };
         worst = worst.min(unsafe { law.raw_block(&pointers) }?);
         for (i, &code) in codes.iter().take(n).enumerate() {
-            // SAFETY: the element is one of the block.
-            unsafe {
-                let failed = row(LINEAR_FAILED, start).add(i);
-                if code == status::OK {
-                    for (c, old) in f_old.into_iter().enumerate() {
-                        *old.add(i) = *row(F + c, start).add(i);
-                    }
-                } else {
-                    *failed = T::splat(1.0);
-                    *row(LINEAR_ALIVE, start).add(i) = T::splat(0.0);
+            if code == status::OK {
+                for (c, old) in f_old.into_iter().enumerate() {
+                    unsafe { *old.add(i) = *row(F + c).add(i) };
                 }
-                *elements.failed.add(start + i) = c_int::from(!(*failed).lt(T::splat(0.5)));
             }
         }
+        // SAFETY: the elements are those of the block.
+        unsafe { elements.mark_failed(&LINEAR_ELASTIC, start, codes.get(..n).unwrap_or(&codes)) };
         done += n;
     }
     Ok(worst)
@@ -193,16 +182,11 @@ unsafe fn vector<T: Precision>(
     stress: [*mut T; 6],
     hsvs: *mut T,
     nhv: i32,
-    [lft, llt, nlq]: [i32; 3],
+    range: [i32; 3],
     failels: *mut c_int,
 ) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm"), (hsvs, "hsvs")])?;
-    check_pointers(&[(failels.cast_const(), "failels")])?;
-    let [s1, s2, s3, s4, s5, s6] = stress.map(<*mut T>::cast_const);
-    check_pointers(&[(s1, "sig1"), (s2, "sig2"), (s3, "sig3"), (s4, "sig4"), (s5, "sig5"), (s6, "sig6")])?;
-    check_elements(lft, llt, nlq)?;
-    let (first, count) = ((lft - 1) as usize, (llt - lft + 1) as usize);
-    let elements = Elements { stress, history: hsvs, leading_dimension: nlq as usize, first, count, failed: failels };
+    check_pointers(&[(cm, "cm")])?;
+    let elements = Elements::new(stress, hsvs, range, failels)?;
     // SAFETY: the caller's promise.
     unsafe { evaluate(cm, nhv, &elements) }
 }
@@ -269,6 +253,14 @@ pub unsafe extern "C" fn linear_umat_vector_f32(
     }
 }
 
+/// # Safety
+/// As for `toron_lsdyna_linear_utan_f64`.
+unsafe fn scalar_tangent<T: Precision>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
+    // SAFETY: the caller's promise.
+    unsafe { tangent(cm, hsv, nhv, [0, 1, 1], es) }
+}
+
 /// `toron_lsdyna_linear_utan_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
@@ -282,13 +274,22 @@ pub unsafe extern "C" fn linear_utan_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-        // SAFETY: the caller's promise.
-        unsafe { tangent(cm, hsv, nhv, [0, 1, 1], es) }
-    };
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
+}
+
+/// # Safety
+/// As for `toron_lsdyna_linear_utan_vector_f64`.
+unsafe fn vector_tangent<T: Precision>(
+    cm: *const T,
+    hsvs: *const T,
+    nhv: i32,
+    range: [i32; 3],
+    dsave: *mut T,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
+    // SAFETY: the caller's promise.
+    unsafe { tangent(cm, hsvs, nhv, element_range(range)?, dsave) }
 }
 
 /// `toron_lsdyna_linear_utan_vector_f64` of the C interface; package `toron-c` documents its arguments.
@@ -307,14 +308,8 @@ pub unsafe extern "C" fn linear_utan_vector_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-        check_elements(lft, llt, nlq)?;
-        // SAFETY: the caller's promise.
-        unsafe { tangent(cm, hsvs, nhv, [(lft - 1) as usize, (llt - lft + 1) as usize, nlq as usize], dsave) }
-    };
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
 }
 
 /// `toron_lsdyna_linear_utan_f32` of the C interface; package `toron-c` documents its arguments.
@@ -330,13 +325,8 @@ pub unsafe extern "C" fn linear_utan_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-        // SAFETY: the caller's promise.
-        unsafe { tangent(cm, hsv, nhv, [0, 1, 1], es) }
-    };
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
 }
 
 /// `toron_lsdyna_linear_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
@@ -355,14 +345,8 @@ pub unsafe extern "C" fn linear_utan_vector_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-        check_elements(lft, llt, nlq)?;
-        // SAFETY: the caller's promise.
-        unsafe { tangent(cm, hsvs, nhv, [(lft - 1) as usize, (llt - lft + 1) as usize, nlq as usize], dsave) }
-    };
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
 }
 
 /// `toron_lsdyna_linear_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
@@ -378,18 +362,10 @@ pub unsafe extern "C" fn linear_bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[(bulk.cast_const(), "bulk"), (shear, "shear")])?;
-        // SAFETY: the caller's promise.
+    let moduli = move || {
+        // SAFETY: the caller's promise, here and below.
         let law = LinearElastic::new(unsafe { properties(values, count, &parameters::LINEAR_ELASTIC) }?)?;
-        let [k, g] = law.bulk_and_shear();
-        // SAFETY: not null, and the caller's promise.
-        unsafe {
-            store(&[k], bulk);
-            store(&[g], shear);
-        }
-        Ok(status::OK)
+        Ok(law.bulk_and_shear())
     };
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe { entry(Message { text: message, capacity }, move || store_moduli(moduli, bulk, shear)) }
 }

@@ -32,6 +32,7 @@ pub use linear_elastic::{
 
 use core::ffi::c_int;
 
+use crate::host::border::{check_pointers, store};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
@@ -59,6 +60,9 @@ const LINEAR_ELASTIC: History = History {
     variables: LINEAR_ELASTIC_STATE + 9,
 };
 
+/// The elements that a vectorised routine evaluates at once.
+const CHUNK: usize = 64;
+
 /// `count` elements of a vector block from `first` on, counted from 0.
 struct Elements<T> {
     stress: [*mut T; 6],
@@ -69,8 +73,50 @@ struct Elements<T> {
     failed: *mut c_int,
 }
 
-/// Checks the elements of a vector block and their leading dimension.
-fn check_elements(lft: i32, llt: i32, nlq: i32) -> Result<(), Error> {
+impl<T: Scalar> Elements<T> {
+    /// The elements that the arguments of a vectorised material routine name. Refuses a null pointer or a wrong range.
+    fn new(
+        stress: [*mut T; 6],
+        history: *mut T,
+        [lft, llt, nlq]: [i32; 3],
+        failed: *mut c_int,
+    ) -> Result<Elements<T>, Error> {
+        check_pointers(&[(history, "hsvs")])?;
+        check_pointers(&[(failed, "failels")])?;
+        let [s1, s2, s3, s4, s5, s6] = stress;
+        check_pointers(&[(s1, "sig1"), (s2, "sig2"), (s3, "sig3"), (s4, "sig4"), (s5, "sig5"), (s6, "sig6")])?;
+        let [first, count, leading_dimension] = element_range([lft, llt, nlq])?;
+        Ok(Elements { stress, history, leading_dimension, first, count, failed })
+    }
+
+    /// Variable `j` of element `i`; the next element's is behind it.
+    #[inline(always)]
+    fn variable(&self, j: usize, i: usize) -> *mut T {
+        self.history.wrapping_add(j.wrapping_mul(self.leading_dimension).wrapping_add(i))
+    }
+
+    /// Marks those of the elements from `start` on as failed that have failed or whose status says that they could not be evaluated.
+    ///
+    /// # Safety
+    /// `codes` has the status of elements of the block, whose history and `failed` may be written.
+    #[inline(always)]
+    unsafe fn mark_failed(&self, history: &History, start: usize, codes: &[i32]) {
+        let (failed, alive) = (self.variable(history.failed, start), self.variable(history.alive, start));
+        for (i, &code) in codes.iter().enumerate() {
+            // SAFETY: the caller's promise.
+            unsafe {
+                if code != status::OK {
+                    *failed.add(i) = T::splat(1.0);
+                    *alive.add(i) = T::splat(0.0);
+                }
+                *self.failed.add(start + i) = c_int::from(!(*failed.add(i)).lt(T::splat(0.5)));
+            }
+        }
+    }
+}
+
+/// The first element of a vector block counted from 0, their number and their leading dimension.
+fn element_range([lft, llt, nlq]: [i32; 3]) -> Result<[usize; 3], Error> {
     let wrong = |name: &'static str, value: i32, least: i64| {
         let value = i64::from(value);
         Err(Error::Range { code: status::BAD_COUNT, name, value, least, greatest: i64::MAX })
@@ -90,7 +136,26 @@ fn check_elements(lft: i32, llt: i32, nlq: i32) -> Result<(), Error> {
             wanted,
         });
     }
-    Ok(())
+    Ok([(lft - 1) as usize, (llt - lft + 1) as usize, nlq as usize])
+}
+
+/// Stores the moduli that the card asks for, for contact and the time step.
+///
+/// # Safety
+/// Each pointer that is not null may be written.
+unsafe fn store_moduli(
+    moduli: impl FnOnce() -> Result<[f64; 2], Error>,
+    bulk: *mut f64,
+    shear: *mut f64,
+) -> Result<i32, Error> {
+    check_pointers(&[(bulk, "bulk"), (shear, "shear")])?;
+    let [k, g] = moduli()?;
+    // SAFETY: not null, and the caller's promise.
+    unsafe {
+        store(&[k], bulk);
+        store(&[g], shear);
+    }
+    Ok(status::OK)
 }
 
 impl History {
