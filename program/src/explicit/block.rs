@@ -142,20 +142,23 @@ pub struct ElementBlock<T> {
 }
 
 impl<T: Number> ElementBlock<T> {
-    pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
-        let shapes = Shapes::<T>::new(elements, coordinates, of.hourglass);
+    pub fn new(
+        elements: &[[u32; 8]],
+        fibre: &[[f64; 3]],
+        first: usize,
+        coordinates: &[[f64; 3]],
+        medium: usize,
+        of: &Medium<T>,
+    ) -> Self {
+        let shapes = Shapes::<T>::new(elements, fibre, coordinates, of.hourglass);
         let (stride, one) = (shapes.stride, T::from_f64(1.0));
-        let mut f_old = vec![T::default(); 9 * stride];
-        for diagonal in [0, 4, 8] {
-            f_old[diagonal * stride..(diagonal + 1) * stride].fill(one);
-        }
         ElementBlock {
             first,
             medium,
             state: vec![T::default(); of.state().0 * stride],
             intact: vec![one; stride],
             viscosity: Viscosity::new(&shapes),
-            f_old,
+            f_old: shapes.at_rest(),
             shapes,
         }
     }

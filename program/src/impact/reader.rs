@@ -11,7 +11,7 @@ use super::smith::{LARGEST_STRAIN, Tension};
 use crate::common::error::Error;
 use crate::common::toml_file::Source;
 use crate::common::units::number;
-use crate::explicit::contact::Cylinder;
+use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mesh::{Section, Yarn};
 use crate::material::fibre_wave::FibreWave;
@@ -254,7 +254,8 @@ impl Reader<'_> {
         if file.striker() == StrikerName::Driven {
             return Ok(Striker::Driven);
         }
-        let cylinder = Cylinder {
+        let cylinder = Rigid {
+            shape: Shape::Cylinder,
             radius: self.positive("radius", &file.radius)?,
             stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
             friction: self.zero_or_more("friction", &file.friction, 0.0)?,

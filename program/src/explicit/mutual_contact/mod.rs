@@ -1,0 +1,317 @@
+//! Contact of bodies with one another: the nodes of each surface against the faces of the others, by a penalty and Coulomb
+//! friction.
+//!
+//! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each with half of
+//! the stiffness. A node's force is divided among the face's corners in the proportion of its place on the face, so that
+//! momentum is kept to rounding. Which nodes are near which faces is found anew when something may have come near that was not.
+//!
+//! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
+
+mod face;
+mod search;
+mod surface;
+
+use rayon::prelude::*;
+
+use super::body::Body;
+use super::lanes::Number;
+use face::Place;
+use search::Grid;
+pub use surface::Surface;
+
+/// The parameters of contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Pressure by depth of penetration: the same contact whatever the mesh.
+    pub stiffness: f64,
+    /// Coulomb's coefficient.
+    pub friction: f64,
+    /// How near a node must be to a face, beyond half of its diagonal, to be looked at in every step until the next search.
+    pub margin: f64,
+    /// Deeper nodes have not come through this face.
+    pub deepest: f64,
+}
+
+/// A node near a face of another body.
+#[derive(Clone, Debug)]
+struct Pair {
+    node: u32,
+    /// The other body, and the face of it that the node was last nearest to.
+    master: u32,
+    face: u32,
+    place: Place,
+    /// Force by depth.
+    stiffness: f64,
+    /// The friction force on the node, at the end of the last step.
+    friction: [f64; 3],
+    /// Energy in its penetration and its sticking.
+    stored: f64,
+    /// What the node exerts on the face: none where its stiffness is 0.
+    on_face: OnFace,
+}
+
+/// A force on the corners of a face.
+#[derive(Clone, Copy, Debug, Default)]
+struct OnFace {
+    force: [f64; 3],
+    weights: [f64; 4],
+    stiffness: f64,
+}
+
+/// What belongs to a body.
+#[derive(Debug, Default)]
+struct Side {
+    surface: Surface,
+    /// Its nodes near the faces of others.
+    pairs: Vec<Pair>,
+    /// Which pairs have it as their master: body and number.
+    incoming: Vec<(u32, u32)>,
+    /// Of each node, the stiffnesses that act on it.
+    touching: Vec<f64>,
+    stored: f64,
+    dissipated: f64,
+    frequency: f64,
+}
+
+/// The contact of all bodies, and what it has done so far.
+#[derive(Debug)]
+pub struct MutualContact {
+    parameters: Parameters,
+    sides: Vec<Side>,
+    /// How far something may have moved since the last search; none has been made where this is not finite.
+    moved: f64,
+    pub searches: u64,
+    /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
+    pub stored: f64,
+    pub dissipated: f64,
+    released: f64,
+    /// A bound of the square of the frequency that it adds to the bodies'.
+    pub frequency: f64,
+}
+
+impl MutualContact {
+    /// Of as many surfaces as there are bodies.
+    pub fn new(parameters: Parameters, surfaces: Vec<Surface>) -> Self {
+        let sides = surfaces.into_iter().map(|surface| Side {
+            touching: vec![0.0; surface.area.len()],
+            surface,
+            ..Side::default()
+        });
+        MutualContact {
+            parameters,
+            sides: sides.collect(),
+            moved: f64::INFINITY,
+            searches: 0,
+            stored: 0.0,
+            dissipated: 0.0,
+            released: 0.0,
+            frequency: 0.0,
+        }
+    }
+
+    /// Adds the forces of the contact to those of the bodies.
+    pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
+        let follow = |(side, body): (&mut Side, &Body<T>)| side.surface.follow(body);
+        let farthest: Vec<f64> = self.sides.par_iter_mut().zip(&*bodies).map(follow).collect();
+        // Two that move towards each other.
+        self.moved += 2.0 * farthest.into_iter().fold(0.0, f64::max);
+        if self.moved >= self.parameters.margin || !self.moved.is_finite() {
+            self.search();
+        }
+        self.press(bodies);
+        self.collect(bodies);
+        let sum = |value: fn(&Side) -> f64| self.sides.iter().map(value).sum::<f64>();
+        self.stored = self.released + sum(|side| side.stored);
+        self.dissipated = sum(|side| side.dissipated);
+        self.frequency = self.sides.iter().map(|side| side.frequency).fold(0.0, f64::max);
+    }
+
+    /// Finds the nodes near faces; pairs that go on keep their friction.
+    fn search(&mut self) {
+        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
+        let grid = Grid::new(&surfaces, self.parameters.margin);
+        let parameters = self.parameters;
+        let near = |(number, side): (usize, &Side)| {
+            let mut pairs = Vec::new();
+            for &node in &side.surface.nodes {
+                grid.near(number, side.surface.positions[node as usize], |master, face| {
+                    pairs.push(Pair {
+                        node,
+                        master,
+                        face,
+                        place: Place::default(),
+                        stiffness: 0.5 * parameters.stiffness * side.surface.area[node as usize],
+                        friction: [0.0; 3],
+                        stored: 0.0,
+                        on_face: OnFace::default(),
+                    });
+                });
+            }
+            pairs
+        };
+        let found: Vec<Vec<Pair>> = self.sides.par_iter().enumerate().map(near).collect();
+        for (side, mut pairs) in self.sides.iter_mut().zip(found) {
+            let key = |pair: &Pair| (pair.node, pair.master);
+            for old in side.pairs.iter().filter(|pair| pair.on_face.stiffness > 0.0) {
+                match pairs.binary_search_by_key(&key(old), key) {
+                    Ok(place) => pairs[place] = old.clone(),
+                    Err(place) => pairs.insert(place, old.clone()),
+                }
+            }
+            side.pairs = pairs;
+            side.incoming.clear();
+        }
+        for body in 0..self.sides.len() {
+            for number in 0..self.sides[body].pairs.len() {
+                let master = self.sides[body].pairs[number].master as usize;
+                self.sides[master].incoming.push((body as u32, number as u32));
+            }
+        }
+        self.moved = 0.0;
+        self.searches += 1;
+    }
+
+    /// Presses the nodes of every body out of the others' faces.
+    fn press<T: Number>(&mut self, bodies: &mut [Body<T>]) {
+        let Parameters { friction, deepest, .. } = self.parameters;
+        let mut taken: Vec<(Vec<Pair>, Vec<f64>)> = self
+            .sides
+            .iter_mut()
+            .map(|side| (std::mem::take(&mut side.pairs), std::mem::take(&mut side.touching)))
+            .collect();
+        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
+        let press = |(number, ((pairs, touching), body)): (usize, (&mut (Vec<Pair>, Vec<f64>), &mut Body<T>))| {
+            touching.fill(0.0);
+            let (mut stored, mut dissipated) = (0.0, 0.0);
+            let own = surfaces[number];
+            for pair in pairs {
+                let (node, master) = (pair.node as usize, surfaces[pair.master as usize]);
+                let (force, loss) = pair.update(own, master, friction, deepest);
+                dissipated += loss;
+                stored += pair.stored;
+                let Some(force) = force else { continue };
+                touching[node] += pair.stiffness;
+                for i in 0..3 {
+                    body.forces[node][i] += T::from_f64(force[i]);
+                }
+            }
+            (stored, dissipated)
+        };
+        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
+        for ((side, (pairs, touching)), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
+            (side.pairs, side.touching, side.stored) = (pairs, touching, stored);
+            side.dissipated += dissipated;
+        }
+    }
+
+    /// Gives every body what others' nodes exert on its faces, and bounds the frequency: no eigenvalue of M⁻¹K is larger than the
+    /// largest sum over a row of sizes. A spring between a node and a face has the sizes 1 and, over the corners, again 1.
+    fn collect<T: Number>(&mut self, bodies: &mut [Body<T>]) {
+        let mut taken: Vec<Vec<f64>> = self.sides.iter_mut().map(|side| std::mem::take(&mut side.touching)).collect();
+        let sides = &self.sides;
+        let collect = |(number, (touching, body)): (usize, (&mut Vec<f64>, &mut Body<T>))| {
+            let side = &sides[number];
+            for &(other, pair) in &side.incoming {
+                let pair = &sides[other as usize].pairs[pair as usize];
+                let OnFace { force, weights, stiffness } = pair.on_face;
+                if stiffness == 0.0 {
+                    continue;
+                }
+                for (weight, corner) in weights.into_iter().zip(side.surface.faces[pair.face as usize]) {
+                    let corner = corner as usize;
+                    touching[corner] += weight.abs() * stiffness;
+                    for i in 0..3 {
+                        body.forces[corner][i] -= T::from_f64(weight * force[i]);
+                    }
+                }
+            }
+            let mut frequency: f64 = 0.0;
+            for &node in &side.surface.nodes {
+                let node = node as usize;
+                if touching[node] > 0.0 {
+                    frequency = frequency.max(2.0 * touching[node] / body.mass[node]);
+                }
+            }
+            frequency
+        };
+        let frequencies: Vec<f64> = taken.par_iter_mut().zip(bodies).enumerate().map(collect).collect();
+        for ((side, touching), frequency) in self.sides.iter_mut().zip(taken).zip(frequencies) {
+            (side.touching, side.frequency) = (touching, frequency);
+        }
+    }
+
+    /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them.
+    pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
+        let side = &mut self.sides[number];
+        side.surface.remove(body);
+        let gone = side.surface.gone.clone();
+        let loose = side.pairs.iter_mut().filter(|pair| body.is_loose(pair.node as usize));
+        let mut released = loose.map(Pair::leave).sum::<f64>();
+        for other in &mut self.sides {
+            let on_it =
+                other.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);
+            released += on_it.map(Pair::leave).sum::<f64>();
+        }
+        self.released += released;
+    }
+}
+
+impl Pair {
+    /// Moves the node and the face to their new places; returns the force on the node, if it is inside, and what slipping has
+    /// dissipated.
+    ///
+    /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
+    /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
+    fn update(&mut self, own: &Surface, master: &Surface, friction: f64, deepest: f64) -> (Option<[f64; 3]>, f64) {
+        let node = self.node as usize;
+        let old = self.friction;
+        if self.stiffness == 0.0 {
+            return (None, 0.0);
+        }
+        let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
+        let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
+        let Some(met) = inside else {
+            if self.on_face.stiffness == 0.0 {
+                return (None, 0.0);
+            }
+            // It left: what the sticking held is lost.
+            let lost = 0.5 * dot(old, old) / self.stiffness;
+            self.friction = [0.0; 3];
+            self.stored = 0.0;
+            self.on_face = OnFace::default();
+            return (None, lost);
+        };
+        let corners = master.faces[self.face as usize];
+        let mut slip = own.moved[node];
+        for (weight, corner) in met.weights.into_iter().zip(corners) {
+            for i in 0..3 {
+                slip[i] -= weight * master.moved[corner as usize][i];
+            }
+        }
+        let force = self.stiffness * met.depth;
+        let trial = [0, 1, 2].map(|i| old[i] - self.stiffness * slip[i]);
+        let along = dot(trial, met.normal);
+        let trial = [0, 1, 2].map(|i| trial[i] - along * met.normal[i]);
+        let (size, limit) = (dot(trial, trial).sqrt(), friction * force);
+        self.friction = if size > limit { trial.map(|t| t * (limit / size)) } else { trial };
+        let elastic = |friction: [f64; 3]| 0.5 * dot(friction, friction) / self.stiffness;
+        let (before, after) = (elastic(old), elastic(self.friction));
+        let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
+        self.stored = 0.5 * force * met.depth + after;
+        let total = [0, 1, 2].map(|i| force * met.normal[i] + self.friction[i]);
+        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
+        (Some(total), work - (after - before))
+    }
+
+    /// Lets go for good; returns what was stored.
+    fn leave(&mut self) -> f64 {
+        self.on_face = OnFace::default();
+        self.friction = [0.0; 3];
+        self.stiffness = 0.0;
+        std::mem::take(&mut self.stored)
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

@@ -1,0 +1,126 @@
+//! Which faces are near a point: columns of a grid over the two directions in which the bodies are largest.
+
+use super::surface::Surface;
+
+/// The faces' centres, sorted into columns.
+pub struct Grid {
+    axes: [usize; 2],
+    low: [f64; 2],
+    /// How wide a column is, no less than the reach, and how many there are.
+    width: [f64; 2],
+    columns: [usize; 2],
+    /// No point of a face is farther from its centre than this, less the margin.
+    reach: f64,
+    /// Where each column's entries begin, and their end.
+    starts: Vec<u32>,
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    centre: [f64; 3],
+    body: u32,
+    face: u32,
+}
+
+impl Grid {
+    /// Of all faces that are there.
+    pub fn new(surfaces: &[&Surface], margin: f64) -> Grid {
+        let mut unsorted = Vec::new();
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let mut largest: f64 = 0.0;
+        for (body, surface) in surfaces.iter().enumerate() {
+            for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.gone[face]) {
+                let corners = corners.map(|corner| surface.positions[corner as usize]);
+                let centre = [0, 1, 2].map(|i| 0.25 * corners.iter().map(|corner| corner[i]).sum::<f64>());
+                for corner in corners {
+                    largest = largest.max(square([0, 1, 2].map(|i| corner[i] - centre[i])));
+                }
+                for i in 0..3 {
+                    (low[i], high[i]) = (low[i].min(centre[i]), high[i].max(centre[i]));
+                }
+                unsorted.push(Entry { centre, body: body as u32, face: face as u32 });
+            }
+        }
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&i, &j| (high[j] - low[j]).total_cmp(&(high[i] - low[i])));
+        let axes = [axes[0], axes[1]];
+        let reach = largest.sqrt() + margin;
+        // No more columns than faces: a body that has been torn to pieces may be scattered far.
+        let most = (unsorted.len() as f64).sqrt().ceil().max(1.0);
+        let width = axes.map(|i| reach.max((high[i] - low[i]) / most));
+        let columns = [0, 1].map(|k| ((high[axes[k]] - low[axes[k]]) / width[k]).max(0.0) as usize + 1);
+        let low = axes.map(|i| low[i]);
+        let mut grid = Grid { axes, low, width, columns, reach, starts: Vec::new(), entries: Vec::new() };
+        grid.sort(&unsorted);
+        grid
+    }
+
+    fn sort(&mut self, unsorted: &[Entry]) {
+        let [columns, rows] = self.columns;
+        self.starts = vec![0; columns * rows + 1];
+        let column_of = |entry: &Entry| {
+            let [x, y] = self.column(entry.centre);
+            y * columns + x
+        };
+        let places: Vec<usize> = unsorted.iter().map(column_of).collect();
+        for &place in &places {
+            self.starts[place + 1] += 1;
+        }
+        for i in 0..columns * rows {
+            self.starts[i + 1] += self.starts[i];
+        }
+        let mut next = self.starts.clone();
+        self.entries = vec![Entry::default(); unsorted.len()];
+        for (&place, &entry) in places.iter().zip(unsorted) {
+            self.entries[next[place] as usize] = entry;
+            next[place] += 1;
+        }
+    }
+
+    fn column(&self, point: [f64; 3]) -> [usize; 2] {
+        [0, 1].map(|k| {
+            let place = (point[self.axes[k]] - self.low[k]) / self.width[k];
+            (place.max(0.0) as usize).min(self.columns[k] - 1)
+        })
+    }
+
+    /// Tells the nearest face of every other body that is near a point, in the order of the bodies.
+    pub fn near(&self, own: usize, point: [f64; 3], mut found: impl FnMut(u32, u32)) {
+        /// Bodies that a point is near to at once; more are not looked at.
+        const MOST: usize = 8;
+        let [x, y] = self.column(point);
+        let mut nearest = [(u32::MAX, f64::INFINITY, 0); MOST];
+        let mut count = 0;
+        for row in y.saturating_sub(1)..=(y + 1).min(self.columns[1] - 1) {
+            let first = row * self.columns[0] + x.saturating_sub(1);
+            let last = row * self.columns[0] + (x + 1).min(self.columns[0] - 1);
+            for entry in &self.entries[self.starts[first] as usize..self.starts[last + 1] as usize] {
+                if entry.body as usize == own {
+                    continue;
+                }
+                let distance = square([0, 1, 2].map(|i| entry.centre[i] - point[i]));
+                if distance > self.reach * self.reach {
+                    continue;
+                }
+                match nearest[..count].iter_mut().find(|(body, ..)| *body == entry.body) {
+                    Some(best) if best.1 <= distance => {}
+                    Some(best) => *best = (entry.body, distance, entry.face),
+                    None if count < MOST => {
+                        nearest[count] = (entry.body, distance, entry.face);
+                        count += 1;
+                    }
+                    None => {}
+                }
+            }
+        }
+        nearest[..count].sort_unstable_by_key(|&(body, ..)| body);
+        for &(body, _, face) in &nearest[..count] {
+            found(body, face);
+        }
+    }
+}
+
+fn square(v: [f64; 3]) -> f64 {
+    v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+}

@@ -1,0 +1,87 @@
+//! The surface of a body: faces, their neighbours, and where their nodes are.
+
+use std::collections::HashMap;
+
+use crate::explicit::body::Body;
+use crate::explicit::lanes::Number;
+use crate::explicit::mesh::Mesh;
+
+/// No face.
+pub const NONE: u32 = u32::MAX;
+
+/// The faces of a body that may touch others.
+#[derive(Clone, Debug, Default)]
+pub struct Surface {
+    /// Counter-clockwise as seen from outside.
+    pub faces: Vec<[u32; 4]>,
+    /// The element of each.
+    pub elements: Vec<u32>,
+    /// Beyond the edges from each corner to the next, or [`NONE`].
+    pub neighbours: Vec<[u32; 4]>,
+    /// Whether its element has been deleted.
+    pub gone: Vec<bool>,
+    /// The nodes of the faces in their order.
+    pub nodes: Vec<u32>,
+    /// Of all nodes of the body: their share of the faces, where they are, and how they have moved in the last step.
+    pub area: Vec<f64>,
+    pub positions: Vec<[f64; 3]>,
+    pub moved: Vec<[f64; 3]>,
+}
+
+impl Surface {
+    /// These faces of a body's elements.
+    pub fn new(mesh: &Mesh, faces: Vec<[u32; 4]>, elements: Vec<u32>) -> Surface {
+        let mut beside: HashMap<[u32; 2], (u32, usize)> = HashMap::new();
+        let mut neighbours = vec![[NONE; 4]; faces.len()];
+        let mut area = vec![0.0; mesh.nodes.len()];
+        for (number, face) in faces.iter().enumerate() {
+            for edge in 0..4 {
+                let (a, b) = (face[edge], face[(edge + 1) % 4]);
+                if let Some((other, at)) = beside.insert([a.min(b), a.max(b)], (number as u32, edge)) {
+                    neighbours[number][edge] = other;
+                    neighbours[other as usize][at] = number as u32;
+                }
+            }
+            let corners = face.map(|corner| nalgebra::Vector3::from(mesh.nodes[corner as usize]));
+            let share = 0.125 * (corners[2] - corners[0]).cross(&(corners[3] - corners[1])).norm();
+            for &corner in face {
+                area[corner as usize] += share;
+            }
+        }
+        let mut nodes: Vec<u32> = faces.iter().flatten().copied().collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Surface {
+            gone: vec![false; faces.len()],
+            positions: mesh.nodes.clone(),
+            moved: vec![[0.0; 3]; mesh.nodes.len()],
+            faces,
+            elements,
+            neighbours,
+            nodes,
+            area,
+        }
+    }
+
+    /// Takes the nodes' places over; returns how far the one has moved that has moved farthest.
+    pub fn follow<T: Number>(&mut self, body: &Body<T>) -> f64 {
+        let mut farthest: f64 = 0.0;
+        for &node in &self.nodes {
+            let node = node as usize;
+            let now = body.position(node);
+            let before = std::mem::replace(&mut self.positions[node], now);
+            let moved = [0, 1, 2].map(|i| now[i] - before[i]);
+            self.moved[node] = moved;
+            farthest = farthest.max(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
+        }
+        farthest.sqrt()
+    }
+
+    /// Takes out the faces of deleted elements and the nodes without any.
+    pub fn remove<T: Number>(&mut self, body: &Body<T>) {
+        for (gone, &element) in self.gone.iter_mut().zip(&self.elements) {
+            *gone = !body.is_intact(element as usize);
+        }
+        self.nodes.retain(|&node| !body.is_loose(node as usize));
+    }
+}
