@@ -124,6 +124,18 @@ impl<T: Number> Body<T> {
         !self.sums.deleted.is_empty()
     }
 
+    /// Deletes elements as if they had failed.
+    #[cfg(test)]
+    pub fn delete(&mut self, elements: &[usize]) {
+        for &element in elements {
+            let place = self.blocks.partition_point(|block| block.first <= element) - 1;
+            let first = self.blocks[place].first;
+            self.blocks[place].intact[element - first] = T::default();
+        }
+        self.sums.deleted = elements.to_vec();
+        self.release_nodes();
+    }
+
     /// Whether no element is left at a node.
     pub fn is_loose(&self, node: usize) -> bool {
         self.intact_elements[node] == 0

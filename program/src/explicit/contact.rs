@@ -225,7 +225,7 @@ mod tests {
         assert_close(on_sphere, -16.0);
         let mut forces = [[0.0; 3]];
         contact.apply(0.0, 0.0, &[[0.0, 1e-3, 0.0]], &mut forces);
-        assert!((forces[0][1] + 0.1 - 0.02).abs() < 1e-3, "spring less what presses outwards: {forces:?}");
+        assert!(f64::abs(forces[0][1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {forces:?}");
     }
 
     #[test]

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use super::body::Body;
 use super::lanes::Number;
 use face::Place;
-use search::Grid;
-pub use surface::Surface;
+use search::{Grid, Near};
+pub use surface::{Surface, outer_faces};
 
 /// The parameters of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,8 +32,26 @@ pub struct Parameters {
     pub deepest: f64,
 }
 
+impl Parameters {
+    /// The place on these faces of a surface, or on those around them, that is nearest to a point; `None` if it cannot come into
+    /// contact there before the next search.
+    fn nearest(&self, surface: &Surface, faces: &[Near], point: [f64; 3]) -> Option<(u32, Place)> {
+        let mut nearest = None;
+        let mut least = f64::INFINITY;
+        for near in faces {
+            let (mut face, mut place) = (near.face, Place::default());
+            // A point beyond the surface's border may come back.
+            let depth = face::meet(surface, &mut face, &mut place, point).map_or(self.margin, |met| met.depth);
+            if depth >= -self.margin && depth < self.deepest && depth.abs() < least {
+                (nearest, least) = (Some((face, place)), depth.abs());
+            }
+        }
+        nearest
+    }
+}
+
 /// A node near a face of another body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Pair {
     node: u32,
     /// The other body, and the face of it that the node was last nearest to.
@@ -132,20 +150,17 @@ impl MutualContact {
         let grid = Grid::new(&surfaces, self.parameters.margin);
         let parameters = self.parameters;
         let near = |(number, side): (usize, &Side)| {
-            let mut pairs = Vec::new();
+            let (mut pairs, mut faces) = (Vec::new(), Vec::new());
             for &node in &side.surface.nodes {
-                grid.near(number, side.surface.positions[node as usize], |master, face| {
-                    pairs.push(Pair {
-                        node,
-                        master,
-                        face,
-                        place: Place::default(),
-                        stiffness: 0.5 * parameters.stiffness * side.surface.area[node as usize],
-                        friction: [0.0; 3],
-                        stored: 0.0,
-                        on_face: OnFace::default(),
-                    });
-                });
+                let point = side.surface.positions[node as usize];
+                grid.near(number, point, &mut faces);
+                for of_body in faces.chunk_by(|a, b| a.body == b.body) {
+                    let master = of_body[0].body;
+                    let stiffness = 0.5 * parameters.stiffness * side.surface.area[node as usize];
+                    if let Some((face, place)) = parameters.nearest(surfaces[master as usize], of_body, point) {
+                        pairs.push(Pair { node, master, face, place, stiffness, ..Pair::default() });
+                    }
+                }
             }
             pairs
         };
@@ -315,3 +330,6 @@ impl Pair {
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests;

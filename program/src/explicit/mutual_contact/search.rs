@@ -16,6 +16,17 @@ pub struct Grid {
     entries: Vec<Entry>,
 }
 
+/// Faces of a body that are looked at for a point: at an edge the one whose centre is nearest may not be the one that is.
+const FACES: usize = 3;
+
+/// A face near a point, and the square of its centre's distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Near {
+    pub body: u32,
+    pub face: u32,
+    distance: f64,
+}
+
 #[derive(Clone, Copy, Default)]
 struct Entry {
     centre: [f64; 3],
@@ -85,39 +96,29 @@ impl Grid {
         })
     }
 
-    /// Tells the nearest face of every other body that is near a point, in the order of the bodies.
-    pub fn near(&self, own: usize, point: [f64; 3], mut found: impl FnMut(u32, u32)) {
-        /// Bodies that a point is near to at once; more are not looked at.
-        const MOST: usize = 8;
+    /// The faces of other bodies whose centre is nearest to a point, [`FACES`] of each, those of a body one after another; bodies in
+    /// their order.
+    pub fn near(&self, own: usize, point: [f64; 3], found: &mut Vec<Near>) {
+        found.clear();
         let [x, y] = self.column(point);
-        let mut nearest = [(u32::MAX, f64::INFINITY, 0); MOST];
-        let mut count = 0;
         for row in y.saturating_sub(1)..=(y + 1).min(self.columns[1] - 1) {
             let first = row * self.columns[0] + x.saturating_sub(1);
             let last = row * self.columns[0] + (x + 1).min(self.columns[0] - 1);
             for entry in &self.entries[self.starts[first] as usize..self.starts[last + 1] as usize] {
-                if entry.body as usize == own {
-                    continue;
-                }
                 let distance = square([0, 1, 2].map(|i| entry.centre[i] - point[i]));
-                if distance > self.reach * self.reach {
-                    continue;
-                }
-                match nearest[..count].iter_mut().find(|(body, ..)| *body == entry.body) {
-                    Some(best) if best.1 <= distance => {}
-                    Some(best) => *best = (entry.body, distance, entry.face),
-                    None if count < MOST => {
-                        nearest[count] = (entry.body, distance, entry.face);
-                        count += 1;
-                    }
-                    None => {}
+                if entry.body as usize != own && distance <= self.reach * self.reach {
+                    found.push(Near { body: entry.body, distance, face: entry.face });
                 }
             }
         }
-        nearest[..count].sort_unstable_by_key(|&(body, ..)| body);
-        for &(body, _, face) in &nearest[..count] {
-            found(body, face);
-        }
+        found.sort_unstable_by(|a, b| {
+            a.body.cmp(&b.body).then(a.distance.total_cmp(&b.distance)).then(a.face.cmp(&b.face))
+        });
+        let mut count = 0;
+        found.dedup_by(|next, last| {
+            count = if next.body == last.body { count + 1 } else { 0 };
+            count >= FACES
+        });
     }
 }
 

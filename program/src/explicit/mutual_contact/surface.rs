@@ -22,7 +22,8 @@ pub struct Surface {
     pub gone: Vec<bool>,
     /// The nodes of the faces in their order.
     pub nodes: Vec<u32>,
-    /// Of all nodes of the body: their share of the faces, where they are, and how they have moved in the last step.
+    /// Of all nodes of the body: their share of the faces, as the size of a sum of vectors, so that on an edge what faces another
+    /// body counts once; where they are, and how they have moved in the last step.
     pub area: Vec<f64>,
     pub positions: Vec<[f64; 3]>,
     pub moved: Vec<[f64; 3]>,
@@ -33,7 +34,7 @@ impl Surface {
     pub fn new(mesh: &Mesh, faces: Vec<[u32; 4]>, elements: Vec<u32>) -> Surface {
         let mut beside: HashMap<[u32; 2], (u32, usize)> = HashMap::new();
         let mut neighbours = vec![[NONE; 4]; faces.len()];
-        let mut area = vec![0.0; mesh.nodes.len()];
+        let mut area = vec![nalgebra::Vector3::zeros(); mesh.nodes.len()];
         for (number, face) in faces.iter().enumerate() {
             for edge in 0..4 {
                 let (a, b) = (face[edge], face[(edge + 1) % 4]);
@@ -43,7 +44,7 @@ impl Surface {
                 }
             }
             let corners = face.map(|corner| nalgebra::Vector3::from(mesh.nodes[corner as usize]));
-            let share = 0.125 * (corners[2] - corners[0]).cross(&(corners[3] - corners[1])).norm();
+            let share = 0.125 * (corners[2] - corners[0]).cross(&(corners[3] - corners[1]));
             for &corner in face {
                 area[corner as usize] += share;
             }
@@ -59,7 +60,7 @@ impl Surface {
             elements,
             neighbours,
             nodes,
-            area,
+            area: area.iter().map(nalgebra::Vector3::norm).collect(),
         }
     }
 
@@ -84,4 +85,22 @@ impl Surface {
         }
         self.nodes.retain(|&node| !body.is_loose(node as usize));
     }
+}
+
+/// The faces that one element alone has, counter-clockwise as seen from outside, with their elements.
+pub fn outer_faces(elements: &[[u32; 8]]) -> Vec<([u32; 4], u32)> {
+    /// Of a hexahedron whose corner c stands on the upper side of axis i where bit i of c is set.
+    const FACES: [[usize; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let mut count: HashMap<[u32; 4], u32> = HashMap::new();
+    let key = |mut face: [u32; 4]| {
+        face.sort_unstable();
+        face
+    };
+    let faces = |element: &[u32; 8]| FACES.map(|face| face.map(|corner| element[corner]));
+    for face in elements.iter().flat_map(faces) {
+        *count.entry(key(face)).or_default() += 1;
+    }
+    let outer =
+        elements.iter().enumerate().flat_map(|(number, element)| faces(element).map(|face| (face, number as u32)));
+    outer.filter(|(face, _)| count[&key(*face)] == 1).collect()
 }
