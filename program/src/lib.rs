@@ -11,6 +11,7 @@
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
 //!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].
 
@@ -27,3 +28,4 @@ pub mod load_path;
 pub mod material;
 pub mod params;
 pub mod picture;
+pub mod weave;

@@ -10,3 +10,4 @@ pub mod toml_error;
 pub mod toml_file;
 pub mod unit_expression;
 pub mod units;
+pub mod vtk;

@@ -1,0 +1,151 @@
+//! The least distance between two quadrangles in space.
+
+use nalgebra::Vector3;
+
+pub type Point = Vector3<f64>;
+pub type Quad = [Point; 4];
+
+/// Both ways of cutting a quadrangle into triangles: one that is not plane lies between them.
+const TRIANGLES: [[usize; 3]; 4] = [[0, 1, 2], [0, 2, 3], [0, 1, 3], [1, 2, 3]];
+const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]];
+
+/// The least distance of the triangles of two quadrangles, 0 where they meet, or `bound` if it is not below that.
+pub fn quads(a: &Quad, b: &Quad, bound: f64) -> f64 {
+    if boxes_apart(a, b) >= bound {
+        return bound;
+    }
+    let mut least = bound * bound;
+    let of = |quad: &Quad, triangle: [usize; 3]| triangle.map(|corner| quad[corner]);
+    let pairs = [(a, b), (b, a)];
+    for (one, other) in pairs {
+        for triangle in TRIANGLES.map(|triangle| of(other, triangle)) {
+            for point in one {
+                least = least.min(point_to_triangle(point, &triangle));
+            }
+            if EDGES.iter().any(|edge| meet(&one[edge[0]], &one[edge[1]], &triangle)) {
+                return 0.0;
+            }
+        }
+    }
+    for edge in EDGES {
+        for other in EDGES {
+            let [one, other] = [edge.map(|i| a[i]), other.map(|i| b[i])];
+            least = least.min(segment_to_segment(&one, &other));
+        }
+    }
+    least.sqrt()
+}
+
+/// The distance of the boxes around two quadrangles.
+fn boxes_apart(a: &Quad, b: &Quad) -> f64 {
+    let range = |quad: &Quad, axis: usize| {
+        let values = quad.map(|point| point[axis]);
+        [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let gap = |axis: usize| {
+        let [one, other] = [range(a, axis), range(b, axis)];
+        (one[0] - other[1]).max(other[0] - one[1]).max(0.0)
+    };
+    [0, 1, 2].map(|axis| gap(axis) * gap(axis)).iter().sum::<f64>().sqrt()
+}
+
+/// The square of a point's distance to a triangle (Ericson, Real-Time Collision Detection, section 5.1.5).
+fn point_to_triangle(point: &Point, [a, b, c]: &[Point; 3]) -> f64 {
+    let normal = (b - a).cross(&(c - a));
+    let inside = |from: &Point, to: &Point| (to - from).cross(&(point - from)).dot(&normal) >= 0.0;
+    if inside(a, b) && inside(b, c) && inside(c, a) {
+        let size = normal.norm_squared();
+        return if size > 0.0 { (point - a).dot(&normal).powi(2) / size } else { (point - a).norm_squared() };
+    }
+    let edge = |from: &Point, to: &Point| point_to_segment(point, from, to);
+    edge(a, b).min(edge(b, c)).min(edge(c, a))
+}
+
+fn point_to_segment(point: &Point, from: &Point, to: &Point) -> f64 {
+    let along = to - from;
+    let share = ((point - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (point - from - along * share).norm_squared()
+}
+
+/// The square of the distance of two segments: between their lines where both feet are inside, else from an end.
+fn segment_to_segment([a, b]: &[Point; 2], [c, d]: &[Point; 2]) -> f64 {
+    let ends = [(a, c, d), (b, c, d), (c, a, b), (d, a, b)];
+    let least = ends.iter().map(|(end, from, to)| point_to_segment(end, from, to)).fold(f64::INFINITY, f64::min);
+    let [u, v, w] = [b - a, d - c, a - c];
+    let [uu, uv, vv, uw, vw] = [u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w)];
+    let determinant = uu * vv - uv * uv;
+    if determinant <= 1e-14 * uu * vv {
+        return least; // Parallel: the least distance is found at an end too.
+    }
+    let [s, t] = [(uv * vw - vv * uw) / determinant, (uu * vw - uv * uw) / determinant];
+    if (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t) {
+        return least.min((w + u * s - v * t).norm_squared());
+    }
+    least
+}
+
+/// Whether a segment goes through a triangle.
+fn meet(from: &Point, to: &Point, [a, b, c]: &[Point; 3]) -> bool {
+    let normal = (b - a).cross(&(c - a));
+    let [below, above] = [(from - a).dot(&normal), (to - a).dot(&normal)];
+    if below * above > 0.0 || below == above {
+        return false;
+    }
+    let point = from + (to - from) * (below / (below - above));
+    [(a, b), (b, c), (c, a)].iter().all(|(p, q)| (*q - *p).cross(&(point - *p)).dot(&normal) >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn quad(points: [[f64; 3]; 4]) -> Quad {
+        points.map(Point::from)
+    }
+
+    const UNIT: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn distances_of_faces_edges_and_corners() {
+        let shifted = |by: [f64; 3]| quad(UNIT.map(|point| [0, 1, 2].map(|i| point[i] + by[i])));
+        let a = quad(UNIT);
+        for (by, distance) in
+            [([0.3, 0.4, 0.2], 0.2), ([1.3, 0.4, 0.4], 0.5), ([1.0, 2.0, 2.0], 5_f64.sqrt()), ([0.5, 0.5, 0.0], 0.0)]
+        {
+            assert!((quads(&a, &shifted(by), 10.0) - distance).abs() < 1e-14, "{by:?}");
+        }
+        assert_eq!(quads(&a, &shifted([0.0, 0.0, 3.0]), 2.0), 2.0, "no more than the bound");
+        let edge_on = quad([[0.2, 0.5, 0.1], [0.8, 0.5, 0.1], [0.8, 0.5, 1.0], [0.2, 0.5, 1.0]]);
+        assert!((quads(&a, &edge_on, 10.0) - 0.1).abs() < 1e-15);
+        let through = quad([[0.2, 0.5, -0.1], [0.8, 0.5, -0.1], [0.8, 0.5, 1.0], [0.2, 0.5, 1.0]]);
+        assert_eq!(quads(&a, &through, 10.0), 0.0);
+    }
+
+    proptest! {
+        /// No pair of points on them is nearer, and some pair is nearly as near.
+        #[test]
+        fn as_near_as_the_nearest_points(values in proptest::collection::vec(-1.0..1.0_f64, 18)) {
+            let point = |i: usize| Point::new(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+            // Two parallelograms.
+            let plane = |i: usize| [point(i), point(i + 1), point(i + 1) + point(i + 2) - point(i), point(i + 2)];
+            let [a, b] = [plane(0), plane(3)];
+            let distance = quads(&a, &b, 100.0);
+            let steps = 12;
+            let on = |q: &Quad, i: i32, j: i32| {
+                let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(steps));
+                q[0] + (q[1] - q[0]) * s + (q[3] - q[0]) * t
+            };
+            let grid = |q: &Quad| -> Vec<Point> {
+                (0..=steps).flat_map(|i| (0..=steps).map(move |j| (i, j))).map(|(i, j)| on(q, i, j)).collect()
+            };
+            let others = grid(&b);
+            let pairs = grid(&a).into_iter().flat_map(|p| others.iter().map(move |q| (p - q).norm()));
+            let sampled = pairs.fold(f64::INFINITY, f64::min);
+            let size = [&a, &b].map(|q| (q[1] - q[0]).norm() + (q[3] - q[0]).norm()).iter().sum::<f64>();
+            prop_assert!(distance <= sampled + 1e-12);
+            prop_assert!(sampled <= distance + 0.5 * size / f64::from(steps));
+        }
+    }
+}
