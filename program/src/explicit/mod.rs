@@ -8,6 +8,7 @@
 pub mod block;
 pub mod body;
 pub mod contact;
+pub mod control_keys;
 pub mod element;
 pub mod energies;
 pub mod instructions;
