@@ -1,0 +1,152 @@
+//! A case from its first step to its last.
+
+use std::time::{Duration, Instant};
+
+use super::measure::{Sample, measure};
+use super::model::{share, solver};
+use super::scene::{Case, Scene};
+use crate::common::error::Error;
+use crate::common::units::number;
+use crate::explicit::energies::Cost;
+use crate::explicit::lanes::Number;
+use crate::explicit::solver::Solver;
+use crate::weave::model::Model;
+
+/// A run whose total energy moves by more than this part of itself is not stable.
+const LARGEST_IMBALANCE: f64 = 0.05;
+/// Times closer than this part of a case's time are the same.
+const ROUNDING: f64 = 1e-9;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    Time,
+    /// The sphere turns back.
+    Stopped,
+    /// It has gone through, and nothing has touched it for some time.
+    Left,
+    /// The run could not go on.
+    Failed,
+}
+
+/// What came of a case.
+#[derive(Debug)]
+pub struct Outcome {
+    pub samples: Vec<Sample>,
+    pub end: End,
+    /// Why it could not go on.
+    pub failure: Option<Error>,
+    pub elements: usize,
+    pub cost: Cost,
+    pub searches: u64,
+    pub wall: Duration,
+}
+
+impl Outcome {
+    /// How far the total energy has moved at most, as a part of what it was.
+    pub fn imbalance(&self) -> f64 {
+        imbalance(&self.samples)
+    }
+}
+
+fn imbalance(samples: &[Sample]) -> f64 {
+    let Some(first) = samples.first() else { return 0.0 };
+    let start = first.energies.total();
+    let off = samples.iter().map(|sample| (sample.energies.total() - start).abs() / start);
+    off.fold(0.0, crate::explicit::lanes::largest)
+}
+
+/// Receives the progress and the frames of a run.
+pub trait Observer {
+    /// After each sample.
+    fn progress(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) {}
+}
+
+impl Observer for () {}
+
+/// Runs a case.
+///
+/// # Errors
+/// A material that the host cannot use.
+pub fn run(scene: &Scene, case: &Case, panel: &Model, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    if case.single_precision {
+        Ok(Run { scene, case, panel, solver: solver::<f32>(scene, case, panel)? }.run(observer))
+    } else {
+        Ok(Run { scene, case, panel, solver: solver::<f64>(scene, case, panel)? }.run(observer))
+    }
+}
+
+struct Run<'a, T> {
+    scene: &'a Scene,
+    case: &'a Case,
+    panel: &'a Model,
+    solver: Solver<T>,
+}
+
+impl<T: Number> Run<'_, T> {
+    fn run(mut self, observer: &mut dyn Observer) -> Outcome {
+        let begun = Instant::now();
+        let mut samples = Vec::new();
+        let end = self.steps(&mut samples, observer);
+        Outcome {
+            samples,
+            end: *end.as_ref().unwrap_or(&End::Failed),
+            failure: end.err(),
+            elements: self.panel.elements.len(),
+            cost: self.solver.cost,
+            searches: self.solver.mutual.as_ref().map_or(0, |contact| contact.searches),
+            wall: begun.elapsed(),
+        }
+    }
+
+    fn steps(&mut self, samples: &mut Vec<Sample>, observer: &mut dyn Observer) -> Result<End, Error> {
+        let start = self.solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
+        let share = share(self.scene);
+        self.solver.all_outputs = false;
+        let (mut next, mut last_contact) = (0.0, 0.0);
+        loop {
+            let time = self.solver.time;
+            let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
+            let end = self.end(reached(self.case.end), time - last_contact);
+            let sampled = reached(next) || end.is_some();
+            let left = if reached(self.case.end) { self.case.end } else { self.case.end - time };
+            self.solver.accelerate(sampled, left).map_err(|error| self.error(&error.to_string()))?;
+            if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
+                last_contact = time;
+            }
+            if sampled {
+                let sample = measure(self.panel, &self.solver, share, start);
+                samples.push(sample);
+                next += self.case.sample;
+                let imbalance = imbalance(samples);
+                observer.progress(time / self.case.end, &sample, imbalance);
+                if imbalance.is_nan() || imbalance > LARGEST_IMBALANCE {
+                    let moved = number(100.0 * imbalance);
+                    return Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")));
+                }
+            }
+            if let Some(end) = end {
+                return Ok(end);
+            }
+            self.solver.displace();
+        }
+    }
+
+    /// Whether the run is over; `free` is how long nothing has touched the sphere.
+    fn end(&self, at_end: bool, free: f64) -> Option<End> {
+        let sphere = self.solver.projectile.as_ref()?;
+        if sphere.velocity >= 0.0 {
+            return Some(End::Stopped);
+        }
+        // In which it goes on by its own radius.
+        let gone = free * -sphere.velocity > self.case.sphere.radius;
+        if gone {
+            return Some(End::Left);
+        }
+        at_end.then_some(End::Time)
+    }
+
+    fn error(&self, reason: &str) -> Error {
+        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
+    }
+}
