@@ -193,8 +193,10 @@ impl<T: Number> Body<T> {
     }
 
     /// The current position of a node.
+    #[inline(always)]
     pub fn position(&self, node: usize) -> [f64; 3] {
-        std::array::from_fn(|i| self.mesh.nodes[node][i] + self.displacement[node][i].into())
+        let ([x, y, z], [u, v, w]) = (self.mesh.nodes[node], self.displacement[node]);
+        [x + u.into(), y + v.into(), z + w.into()]
     }
 
     /// The block of an element, and its place there.

@@ -19,5 +19,6 @@ pub mod mutual_contact;
 pub mod projectile;
 pub mod solver;
 pub mod stress;
+pub mod vector;
 pub mod viscosity;
 pub mod vtu;

@@ -68,7 +68,7 @@ impl Observer for () {}
 ///
 /// # Errors
 /// A material that the host cannot use.
-pub fn run(scene: &Scene, case: &Case, panel: &Model, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+pub fn run(scene: &Scene, case: &Case, panel: &Model, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
     if case.single_precision {
         Ok(Run { scene, case, panel, solver: solver::<f32>(scene, case, panel)? }.run(observer))
     } else {
@@ -84,10 +84,11 @@ struct Run<'a, T> {
 }
 
 impl<T: Number> Run<'_, T> {
-    fn run(mut self, observer: &mut dyn Observer) -> Outcome {
+    fn run(mut self, observer: &mut (dyn Observer + Send)) -> Outcome {
         let begun = Instant::now();
         let mut samples = Vec::new();
-        let end = self.steps(&mut samples, observer);
+        // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
+        let end = rayon::scope(|_| self.steps(&mut samples, observer));
         Outcome {
             samples,
             end: *end.as_ref().unwrap_or(&End::Failed),
@@ -99,7 +100,7 @@ impl<T: Number> Run<'_, T> {
         }
     }
 
-    fn steps(&mut self, samples: &mut Vec<Sample>, observer: &mut dyn Observer) -> Result<End, Error> {
+    fn steps(&mut self, samples: &mut Vec<Sample>, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let start = self.solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
         let share = share(self.scene);
         self.solver.all_outputs = false;

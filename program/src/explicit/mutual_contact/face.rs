@@ -1,6 +1,7 @@
 //! A point and the faces of a surface: the place on them that is nearest to it.
 
 use super::surface::{NONE, Surface};
+use crate::explicit::vector::{Vector, add, cross, dot, minus, times};
 
 /// A place on a face, from −1 to 1 both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,7 +16,7 @@ pub struct Met {
     /// Along the normal, inwards.
     pub depth: f64,
     /// The face's outward unit normal there.
-    pub normal: [f64; 3],
+    pub normal: Vector,
     /// The corners' shares of that place.
     pub weights: [f64; 4],
 }
@@ -30,14 +31,13 @@ const BORDER: f64 = 1e-2;
 
 /// Finds the place nearest to a point, from the given one on, on that face or those around it; `None` where the point lies beyond
 /// the surface's border.
-pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: [f64; 3]) -> Option<Met> {
+pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: Vector) -> Option<Met> {
     let mut before = NONE;
     for _ in 0..MOVES {
         if surface.gone[*face as usize] {
             return None;
         }
-        let corners = surface.faces[*face as usize].map(|corner| surface.positions[corner as usize]);
-        let patch = Patch::new(corners);
+        let patch = Patch::new(surface, *face);
         patch.project(place, point);
         let Place { xi, eta } = *place;
         let edge = match (xi.abs() > 1.0 || eta.abs() > 1.0, xi.abs() >= eta.abs()) {
@@ -76,35 +76,40 @@ pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: [f64; 3
 
 /// The bilinear surface through four corners: mean + ξ a + η b + ξη c.
 struct Patch {
-    mean: [f64; 3],
-    a: [f64; 3],
-    b: [f64; 3],
-    c: [f64; 3],
+    mean: Vector,
+    a: Vector,
+    b: Vector,
+    c: Vector,
 }
 
 impl Patch {
-    fn new([p, q, r, s]: [[f64; 3]; 4]) -> Patch {
-        let sum = |signs: [f64; 4]| {
-            [0, 1, 2].map(|i| 0.25 * (signs[0] * p[i] + signs[1] * q[i] + signs[2] * r[i] + signs[3] * s[i]))
-        };
+    #[inline(always)]
+    fn new(surface: &Surface, face: u32) -> Patch {
+        let [p, q, r, s] = surface.faces[face as usize];
+        let at = |corner: u32| surface.positions[corner as usize];
+        let (p, q, r, s) = (at(p), at(q), at(r), at(s));
+        // Differences first: the corners' coordinates are large beside them.
+        let (pq, sr) = (minus(q, p), minus(r, s));
+        let (ps, qr) = (minus(s, p), minus(r, q));
         Patch {
-            mean: sum([1.0; 4]),
-            a: sum([-1.0, 1.0, 1.0, -1.0]),
-            b: sum([-1.0, -1.0, 1.0, 1.0]),
-            c: sum([1.0, -1.0, 1.0, -1.0]),
+            mean: times(0.25, add(add(add(p, 1.0, q), 1.0, r), 1.0, s)),
+            a: times(0.25, add(pq, 1.0, sr)),
+            b: times(0.25, add(ps, 1.0, qr)),
+            c: times(0.25, minus(sr, pq)),
         }
     }
 
     /// The vector from a point to a place, and the tangents there.
-    fn at(&self, Place { xi, eta }: Place, point: [f64; 3]) -> [[f64; 3]; 3] {
-        let Patch { mean, a, b, c } = self;
-        let along = [0, 1, 2].map(|i| a[i] + eta * c[i]);
-        let across = [0, 1, 2].map(|i| b[i] + xi * c[i]);
-        [[0, 1, 2].map(|i| mean[i] + xi * along[i] + eta * b[i] - point[i]), along, across]
+    #[inline(always)]
+    fn at(&self, Place { xi, eta }: Place, point: Vector) -> [Vector; 3] {
+        let along = add(self.a, eta, self.c);
+        let across = add(self.b, xi, self.c);
+        [add(add(minus(self.mean, point), xi, along), eta, self.b), along, across]
     }
 
     /// Newton's method for the nearest place, without the patch's curvature.
-    fn project(&self, place: &mut Place, point: [f64; 3]) {
+    #[inline(always)]
+    fn project(&self, place: &mut Place, point: Vector) {
         for _ in 0..STEPS {
             let [away, along, across] = self.at(*place, point);
             let [aa, bb, ab] = [dot(along, along), dot(across, across), dot(along, across)];
@@ -121,11 +126,12 @@ impl Patch {
     }
 
     /// None on a face that has shrunk to a line.
-    fn met(&self, place: Place, point: [f64; 3]) -> Option<Met> {
+    #[inline(always)]
+    fn met(&self, place: Place, point: Vector) -> Option<Met> {
         let [away, along, across] = self.at(place, point);
         let normal = cross(along, across);
         let size = dot(normal, normal).sqrt();
-        let normal = normal.map(|n| n / size);
+        let normal = times(1.0 / size, normal);
         let Place { xi, eta } = place;
         let weights = [
             0.25 * (1.0 - xi) * (1.0 - eta),
@@ -135,12 +141,4 @@ impl Patch {
         ];
         (size > 0.0).then(|| Met { depth: dot(away, normal), normal, weights })
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

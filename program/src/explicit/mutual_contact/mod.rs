@@ -15,6 +15,7 @@ use rayon::prelude::*;
 
 use super::body::Body;
 use super::lanes::Number;
+use super::vector::{Vector, add, dot, times};
 use face::Place;
 use search::{Grid, Near};
 pub use surface::{Surface, outer_faces};
@@ -35,7 +36,7 @@ pub struct Parameters {
 impl Parameters {
     /// The place on these faces of a surface, or on those around them, that is nearest to a point; `None` if it cannot come into
     /// contact there before the next search.
-    fn nearest(&self, surface: &Surface, faces: &[Near], point: [f64; 3]) -> Option<(u32, Place)> {
+    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place)> {
         let mut nearest = None;
         let mut least = f64::INFINITY;
         for near in faces {
@@ -60,8 +61,10 @@ struct Pair {
     place: Place,
     /// Force by depth.
     stiffness: f64,
+    /// The node cannot touch the face before this much of motion.
+    free_until: f64,
     /// The friction force on the node, at the end of the last step.
-    friction: [f64; 3],
+    friction: Vector,
     /// Energy in its penetration and its sticking.
     stored: f64,
     /// What the node exerts on the face: none where its stiffness is 0.
@@ -71,7 +74,7 @@ struct Pair {
 /// A force on the corners of a face.
 #[derive(Clone, Copy, Debug, Default)]
 struct OnFace {
-    force: [f64; 3],
+    force: Vector,
     weights: [f64; 4],
     stiffness: f64,
 }
@@ -168,9 +171,10 @@ impl MutualContact {
         for (side, mut pairs) in self.sides.iter_mut().zip(found) {
             let key = |pair: &Pair| (pair.node, pair.master);
             for old in side.pairs.iter().filter(|pair| pair.on_face.stiffness > 0.0) {
-                match pairs.binary_search_by_key(&key(old), key) {
-                    Ok(place) => pairs[place] = old.clone(),
-                    Err(place) => pairs.insert(place, old.clone()),
+                let old = Pair { free_until: 0.0, ..old.clone() };
+                match pairs.binary_search_by_key(&key(&old), key) {
+                    Ok(place) => pairs[place] = old,
+                    Err(place) => pairs.insert(place, old),
                 }
             }
             side.pairs = pairs;
@@ -188,7 +192,7 @@ impl MutualContact {
 
     /// Presses the nodes of every body out of the others' faces.
     fn press<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        let Parameters { friction, deepest, .. } = self.parameters;
+        let (parameters, moved) = (self.parameters, self.moved);
         let mut taken: Vec<(Vec<Pair>, Vec<f64>)> = self
             .sides
             .iter_mut()
@@ -200,8 +204,11 @@ impl MutualContact {
             let (mut stored, mut dissipated) = (0.0, 0.0);
             let own = surfaces[number];
             for pair in pairs {
+                if moved < pair.free_until {
+                    continue;
+                }
                 let (node, master) = (pair.node as usize, surfaces[pair.master as usize]);
-                let (force, loss) = pair.update(own, master, friction, deepest);
+                let (force, loss) = pair.update(own, master, parameters, moved);
                 dissipated += loss;
                 stored += pair.stored;
                 let Some(force) = force else { continue };
@@ -272,12 +279,18 @@ impl MutualContact {
 }
 
 impl Pair {
-    /// Moves the node and the face to their new places; returns the force on the node, if it is inside, and what slipping has
-    /// dissipated.
+    /// Looks where the node is on the face; returns the force on it, if it is inside, and what slipping has dissipated. `moved` is
+    /// how far something may have moved since the last search.
     ///
     /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
     /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
-    fn update(&mut self, own: &Surface, master: &Surface, friction: f64, deepest: f64) -> (Option<[f64; 3]>, f64) {
+    fn update(
+        &mut self,
+        own: &Surface,
+        master: &Surface,
+        Parameters { friction, deepest, .. }: Parameters,
+        moved: f64,
+    ) -> (Option<Vector>, f64) {
         let node = self.node as usize;
         let old = self.friction;
         if self.stiffness == 0.0 {
@@ -286,6 +299,8 @@ impl Pair {
         let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
+            // Beyond the surface's border it may touch an edge at once.
+            self.free_until = met.map_or(0.0, |met| moved - met.depth);
             if self.on_face.stiffness == 0.0 {
                 return (None, 0.0);
             }
@@ -296,24 +311,21 @@ impl Pair {
             self.on_face = OnFace::default();
             return (None, lost);
         };
-        let corners = master.faces[self.face as usize];
         let mut slip = own.moved[node];
-        for (weight, corner) in met.weights.into_iter().zip(corners) {
-            for i in 0..3 {
-                slip[i] -= weight * master.moved[corner as usize][i];
-            }
+        let corners = master.faces[self.face as usize];
+        for k in 0..4 {
+            slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
         }
         let force = self.stiffness * met.depth;
-        let trial = [0, 1, 2].map(|i| old[i] - self.stiffness * slip[i]);
-        let along = dot(trial, met.normal);
-        let trial = [0, 1, 2].map(|i| trial[i] - along * met.normal[i]);
+        let trial = add(old, -self.stiffness, slip);
+        let trial = add(trial, -dot(trial, met.normal), met.normal);
         let (size, limit) = (dot(trial, trial).sqrt(), friction * force);
-        self.friction = if size > limit { trial.map(|t| t * (limit / size)) } else { trial };
-        let elastic = |friction: [f64; 3]| 0.5 * dot(friction, friction) / self.stiffness;
-        let (before, after) = (elastic(old), elastic(self.friction));
+        self.friction = if size > limit { times(limit / size, trial) } else { trial };
+        let per_stiffness = 0.5 / self.stiffness;
+        let (before, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
         let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
         self.stored = 0.5 * force * met.depth + after;
-        let total = [0, 1, 2].map(|i| force * met.normal[i] + self.friction[i]);
+        let total = add(self.friction, force, met.normal);
         self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
         (Some(total), work - (after - before))
     }
@@ -325,10 +337,6 @@ impl Pair {
         self.stiffness = 0.0;
         std::mem::take(&mut self.stored)
     }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Which faces are near a point: columns of a grid over the two directions in which the bodies are largest.
 
 use super::surface::Surface;
+use crate::explicit::vector::{add, dot, minus, times};
 
 /// The faces' centres, sorted into columns.
 pub struct Grid {
@@ -42,10 +43,14 @@ impl Grid {
         let mut largest: f64 = 0.0;
         for (body, surface) in surfaces.iter().enumerate() {
             for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.gone[face]) {
-                let corners = corners.map(|corner| surface.positions[corner as usize]);
-                let centre = [0, 1, 2].map(|i| 0.25 * corners.iter().map(|corner| corner[i]).sum::<f64>());
-                for corner in corners {
-                    largest = largest.max(square([0, 1, 2].map(|i| corner[i] - centre[i])));
+                let mut sum = [0.0; 3];
+                for &corner in corners {
+                    sum = add(sum, 1.0, surface.positions[corner as usize]);
+                }
+                let centre = times(0.25, sum);
+                for &corner in corners {
+                    let from = minus(surface.positions[corner as usize], centre);
+                    largest = largest.max(dot(from, from));
                 }
                 for i in 0..3 {
                     (low[i], high[i]) = (low[i].min(centre[i]), high[i].max(centre[i]));
@@ -90,10 +95,13 @@ impl Grid {
     }
 
     fn column(&self, point: [f64; 3]) -> [usize; 2] {
-        [0, 1].map(|k| {
-            let place = (point[self.axes[k]] - self.low[k]) / self.width[k];
-            (place.max(0.0) as usize).min(self.columns[k] - 1)
-        })
+        [self.along(point, 0), self.along(point, 1)]
+    }
+
+    #[inline(always)]
+    fn along(&self, point: [f64; 3], k: usize) -> usize {
+        let place = (point[self.axes[k]] - self.low[k]) / self.width[k];
+        (place.max(0.0) as usize).min(self.columns[k] - 1)
     }
 
     /// The faces of other bodies whose centre is nearest to a point, [`FACES`] of each, those of a body one after another; bodies in
@@ -105,7 +113,8 @@ impl Grid {
             let first = row * self.columns[0] + x.saturating_sub(1);
             let last = row * self.columns[0] + (x + 1).min(self.columns[0] - 1);
             for entry in &self.entries[self.starts[first] as usize..self.starts[last + 1] as usize] {
-                let distance = square([0, 1, 2].map(|i| entry.centre[i] - point[i]));
+                let from = minus(entry.centre, point);
+                let distance = dot(from, from);
                 if entry.body as usize != own && distance <= self.reach * self.reach {
                     found.push(Near { body: entry.body, distance, face: entry.face });
                 }
@@ -120,8 +129,4 @@ impl Grid {
             count >= FACES
         });
     }
-}
-
-fn square(v: [f64; 3]) -> f64 {
-    v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
 }

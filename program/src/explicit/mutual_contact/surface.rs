@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::explicit::body::Body;
 use crate::explicit::lanes::Number;
 use crate::explicit::mesh::Mesh;
+use crate::explicit::vector::{dot, minus};
 
 /// No face.
 pub const NONE: u32 = u32::MAX;
@@ -70,10 +71,9 @@ impl Surface {
         for &node in &self.nodes {
             let node = node as usize;
             let now = body.position(node);
-            let before = std::mem::replace(&mut self.positions[node], now);
-            let moved = [0, 1, 2].map(|i| now[i] - before[i]);
-            self.moved[node] = moved;
-            farthest = farthest.max(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]);
+            let moved = minus(now, self.positions[node]);
+            (self.positions[node], self.moved[node]) = (now, moved);
+            farthest = farthest.max(dot(moved, moved));
         }
         farthest.sqrt()
     }
