@@ -46,6 +46,7 @@ impl Source<'_> {
                 given.get_ref().0
             }
         };
-        Ok(Control { hourglass: self.zero_or_more("hourglass", hourglass, HOURGLASS)?, linear, quadratic, shape })
+        let hourglass = self.zero_or_more("hourglass", hourglass, HOURGLASS)?;
+        Ok(Control { hourglass, linear, quadratic, shape, by_direction: false })
     }
 }

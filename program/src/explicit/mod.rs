@@ -22,3 +22,4 @@ pub mod stress;
 pub mod vector;
 pub mod viscosity;
 pub mod vtu;
+pub mod wave_bounds;

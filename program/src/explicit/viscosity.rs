@@ -148,7 +148,7 @@ mod tests {
     use toron::{Criterion, Rotation};
 
     const STEP: f64 = 1e-8;
-    const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3 };
+    const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3, by_direction: false };
     /// Of the brick below: along the fibre, and the side of a square as large as the section.
     const LENGTH: f64 = 2e-3;
     const BREADTH: f64 = 0.6e-3;

@@ -10,6 +10,7 @@ use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
 use crate::common::toml_file::Source;
 use crate::explicit::contact::{Rigid, Shape};
+use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
@@ -135,7 +136,7 @@ impl Reader<'_> {
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
             },
-            control: self.source.control(&file.hourglass, &file.viscosity)?,
+            control: Control { by_direction: true, ..self.source.control(&file.hourglass, &file.viscosity)? },
             end,
             sample,
             frames: self.frames()?,
