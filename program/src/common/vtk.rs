@@ -13,7 +13,13 @@ pub fn vectors(text: &mut String, name: &str, values: impl Iterator<Item = [f64;
 }
 
 /// An array of so many components a point or cell.
-pub fn array<V: Display>(text: &mut String, name: &str, kind: &str, components: usize, values: impl Iterator<Item = V>) {
+pub fn array<V: Display>(
+    text: &mut String,
+    name: &str,
+    kind: &str,
+    components: usize,
+    values: impl Iterator<Item = V>,
+) {
     let _ = writeln!(
         text,
         "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"

@@ -25,7 +25,8 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));
     std::fs::write(&mesh, vtu::unstructured_grid(&model)).map_err(|error| file_error(&mesh, &error))?;
     picture::write(&svg, &png, &scene, &model)?;
-    let _ = writeln!(text, "\nFiles in {}: weave.vtu for ParaView, the picture weave.svg and weave.png", output.display());
+    let _ =
+        writeln!(text, "\nFiles in {}: weave.vtu for ParaView, the picture weave.svg and weave.png", output.display());
     print(&text);
     Ok(())
 }

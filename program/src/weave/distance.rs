@@ -38,15 +38,17 @@ pub fn quads(a: &Quad, b: &Quad, bound: f64) -> f64 {
 
 /// The distance of the boxes around two quadrangles.
 fn boxes_apart(a: &Quad, b: &Quad) -> f64 {
-    let range = |quad: &Quad, axis: usize| {
-        let values = quad.map(|point| point[axis]);
-        [values.iter().copied().fold(f64::INFINITY, f64::min), values.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
-    };
     let gap = |axis: usize| {
         let [one, other] = [range(a, axis), range(b, axis)];
         (one[0] - other[1]).max(other[0] - one[1]).max(0.0)
     };
     [0, 1, 2].map(|axis| gap(axis) * gap(axis)).iter().sum::<f64>().sqrt()
+}
+
+/// The least and the largest coordinate of a quadrangle.
+pub fn range(quad: &Quad, axis: usize) -> [f64; 2] {
+    let [a, b, c, d] = quad.each_ref().map(|point| point[axis]);
+    [a.min(b).min(c).min(d), a.max(b).max(c).max(d)]
 }
 
 /// The square of a point's distance to a triangle (Ericson, Real-Time Collision Detection, section 5.1.5).

@@ -63,7 +63,8 @@ fn edges(model: &Model, element: &[u32; 8], corner: usize) -> [Vector3<f64>; 3] 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.
 fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
     let yarns = || model.yarns.iter().filter(|yarn| yarn.family == family);
-    let volume: f64 = yarns().flat_map(|yarn| model.elements[yarn.elements.clone()].iter()).map(|e| volume(model, e)).sum();
+    let volume: f64 =
+        yarns().flat_map(|yarn| model.elements[yarn.elements.clone()].iter()).map(|e| volume(model, e)).sum();
     let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
     let layers: f64 = yarns().map(|yarn| width(yarn) * yarn.layers as f64).sum();
     volume / (layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch)
@@ -78,7 +79,13 @@ fn volume(model: &Model, element: &[u32; 8]) -> f64 {
         let derivative = |along: usize| -> Vector3<f64> {
             let weight = |corner: usize| -> f64 {
                 let factor = |axis: usize| match (axis == along, corner >> axis & 1 == 1) {
-                    (true, upper) => if upper { 1.0 } else { -1.0 },
+                    (true, upper) => {
+                        if upper {
+                            1.0
+                        } else {
+                            -1.0
+                        }
+                    }
                     (false, true) => place[axis],
                     (false, false) => 1.0 - place[axis],
                 };

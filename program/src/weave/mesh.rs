@@ -44,7 +44,8 @@ impl Model {
         let layers = (last - first) as usize;
         let per_section = (columns + 1) * (rows + 1);
         for layer in 0..layers {
-            let direction = direction(geometry, family, place.number, pattern_station(weave, panel, first + layer as i64));
+            let direction =
+                direction(geometry, family, place.number, pattern_station(weave, panel, first + layer as i64));
             for column in 0..columns {
                 for row in 0..rows {
                     let node = |corner: usize| {
@@ -82,14 +83,7 @@ impl Model {
         self.yarns.push(yarn);
     }
 
-    fn add_section(
-        &mut self,
-        geometry: &Geometry,
-        panel: &Panel,
-        place: &Place,
-        station: i64,
-        lines: Range<usize>,
-    ) {
+    fn add_section(&mut self, geometry: &Geometry, panel: &Panel, place: &Place, station: i64, lines: Range<usize>) {
         let (weave, family) = (&geometry.weave, place.family);
         let along = weave.step(family) * station as f64;
         let of_pattern = pattern_station(weave, panel, station);
@@ -125,14 +119,13 @@ impl Model {
 
     fn find_crossings(&mut self, geometry: &Geometry, places: &[Place]) {
         let weave = &geometry.weave;
-        let reaches = |place: &Place, coordinate: f64| {
-            coordinate.abs() <= weave.step(place.family) * place.layers as f64
-        };
+        let reaches =
+            |place: &Place, coordinate: f64| coordinate.abs() <= weave.step(place.family) * place.layers as f64;
         let warps = places.iter().take_while(|place| place.family == Family::Warp).count();
         for (warp, i) in places[..warps].iter().enumerate() {
             for (weft, j) in places[warps..].iter().enumerate() {
                 if reaches(j, i.coordinate) && reaches(i, j.coordinate) {
-                    self.crossings.push(Crossing { 
+                    self.crossings.push(Crossing {
                         warp,
                         weft: warps + weft,
                         place: [j.coordinate, i.coordinate],

@@ -75,11 +75,13 @@ impl Panel {
         if !elements.is_finite() || elements > 4.0 * MOST_ELEMENTS {
             return Err(format!("the panel has about {elements:.1e} elements; allowed: up to {MOST_ELEMENTS:.0e}"));
         }
-        let places: Vec<Place> = Family::BOTH.into_iter().flat_map(|family| self.family(weave, family, bounds)).collect();
+        let places: Vec<Place> =
+            Family::BOTH.into_iter().flat_map(|family| self.family(weave, family, bounds)).collect();
         if Family::BOTH.iter().any(|family| !places.iter().any(|place| place.family == *family)) {
             return Err("the panel is so small that it has no yarns of one family; allowed: some pitches".to_string());
         }
-        let sections: usize = places.iter().map(|place| place.layers * self.halves() / (1 + usize::from(place.halved))).sum();
+        let sections: usize =
+            places.iter().map(|place| place.layers * self.halves() / (1 + usize::from(place.halved))).sum();
         if (sections * weave.columns * weave.rows) as f64 > MOST_ELEMENTS {
             return Err(format!("the panel has more than {MOST_ELEMENTS:.0e} elements; allowed: up to so many"));
         }
@@ -123,8 +125,7 @@ impl Panel {
 
     fn family(&self, weave: &Weave, family: Family, bounds: [f64; 2]) -> Vec<Place> {
         let (pitch, step) = (weave.thread(family).pitch, weave.step(family));
-        let [bound_along, bound_across] =
-            if family == Family::Warp { bounds } else { [bounds[1], bounds[0]] };
+        let [bound_along, bound_across] = if family == Family::Warp { bounds } else { [bounds[1], bounds[0]] };
         let shift = if self.centre == Centre::Gap { 0.5 } else { 0.0 };
         let last = (bound_across / pitch - shift + ROUNDING).floor() as i64;
         // The mirror image of a number: that of 0 in a gap is -1.

@@ -22,7 +22,8 @@ impl Pattern {
         let wanted = "allowed: plain, or rows of o (over) and u (under), one a warp yarn, all of one length";
         let count = rows.first().map_or(0, |row| row.len());
         if count == 0 || count > MOST_YARNS || rows.len() > MOST_YARNS || rows.iter().any(|row| row.len() != count) {
-            let message = format!("pattern has no rows, rows of different lengths, or more than {MOST_YARNS}; {wanted}");
+            let message =
+                format!("pattern has no rows, rows of different lengths, or more than {MOST_YARNS}; {wanted}");
             return Err(message);
         }
         let letter = |letter: char| match letter {

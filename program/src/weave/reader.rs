@@ -66,8 +66,7 @@ impl Scene {
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
         let material = file.material.as_ref();
-        let material =
-            material.map(|table| source.material(table.get_ref(), &units, table.span())).transpose()?;
+        let material = material.map(|table| source.material(table.get_ref(), &units, table.span())).transpose()?;
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
             woven: source.woven(&file.weave, &units)?,
@@ -82,7 +81,8 @@ impl Source<'_> {
     pub fn woven(&self, table: &Spanned<WeaveFile>, units: &UnitSystem) -> Result<Woven, Error> {
         let file = table.get_ref();
         let base = file.preset.as_ref().map(|name| self.weave_preset(name, units)).transpose()?;
-        let warp = self.thread(Family::Warp, file.warp.as_ref(), base.as_ref().map(|base| &base.threads[0]), table.span())?;
+        let warp =
+            self.thread(Family::Warp, file.warp.as_ref(), base.as_ref().map(|base| &base.threads[0]), table.span())?;
         let of_weft = base.as_ref().map_or(&warp, |base| &base.threads[1]);
         let weft = self.thread(Family::Weft, file.weft.as_ref(), Some(of_weft), table.span())?;
         let clearance = match &file.clearance {
@@ -101,7 +101,8 @@ impl Source<'_> {
             return Err(self.error(along.span(), &format!("along is {}; allowed: an even number", weave.along)));
         }
         for (family, given) in Family::BOTH.into_iter().zip([&file.warp, &file.weft]) {
-            let given = given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
+            let given =
+                given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
             let place = given.map_or(table.span(), Spanned::span);
             weave.check_thread(family).map_err(|message| self.error(place, &message))?;
         }
@@ -164,9 +165,8 @@ impl Source<'_> {
 
     fn panel(&self, table: &Spanned<PanelFile>, weave: &Weave) -> Result<Panel, Error> {
         let file = table.get_ref();
-        let missing = |key: &str, allowed: &str| {
-            self.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"))
-        };
+        let missing =
+            |key: &str, allowed: &str| self.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"));
         let foreign = match file.shape {
             ShapeName::Circle => file.half.as_ref().map(|half| (half.span(), "half, of a rectangle; allowed: radius")),
             ShapeName::Rectangle => {
@@ -184,10 +184,7 @@ impl Source<'_> {
             ShapeName::Rectangle => {
                 let half = file.half.as_ref().ok_or_else(|| missing("half", "half sizes along x and y, each > 0"))?;
                 let [x, y] = half.get_ref().0;
-                Outline::Rectangle([
-                    self.positive("half", x, half.span())?,
-                    self.positive("half", y, half.span())?,
-                ])
+                Outline::Rectangle([self.positive("half", x, half.span())?, self.positive("half", y, half.span())?])
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
@@ -198,7 +195,13 @@ impl Source<'_> {
     }
 
     /// A whole number in this range, or the default.
-    fn number(&self, key: &str, value: &Option<Spanned<i64>>, [least, most]: [usize; 2], default: usize) -> Result<usize, Error> {
+    fn number(
+        &self,
+        key: &str,
+        value: &Option<Spanned<i64>>,
+        [least, most]: [usize; 2],
+        default: usize,
+    ) -> Result<usize, Error> {
         let Some(value) = value else { return Ok(default) };
         let number = usize::try_from(*value.get_ref()).ok().filter(|number| (least..=most).contains(number));
         number.ok_or_else(|| {

@@ -27,7 +27,10 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
         ("thickness", format!("{} {length}", number(figures.thickness))),
         ("volume over area", format!("{} {length}", number(figures.volume_by_area))),
         ("areal density", areal_density),
-        ("least Jacobian", format!("{} {length}³, scaled {}", number(figures.least_jacobian), number(figures.least_scaled_jacobian))),
+        (
+            "least Jacobian",
+            format!("{} {length}³, scaled {}", number(figures.least_jacobian), number(figures.least_scaled_jacobian)),
+        ),
         ("shortest edge", format!("{} {length}", number(figures.shortest_edge))),
     ];
     let mut text = format!("{}\n\n", scene.title);
