@@ -24,39 +24,48 @@ impl Weave {
         let least = |amplitude: f64, of: fn(&Geometry, [i64; 2]) -> f64| {
             let geometry = Geometry::new(self, amplitude);
             let values = crossings.iter().map(|&crossing| of(&geometry, crossing));
-            let excess = values.fold(f64::INFINITY, f64::min) - self.clearance;
-            if geometry.steepest() > STEEPEST { Err(no_room(&geometry)) } else { Ok(excess) }
+            values.fold(f64::INFINITY, f64::min) - self.clearance
         };
-        // Of straight yarns upon each other the upright gap would be 0 at the first amplitude.
+        let room = |amplitude: f64| {
+            let geometry = Geometry::new(self, amplitude);
+            if geometry.steepest() > STEEPEST { Err(no_room(&geometry)) } else { Ok(geometry) }
+        };
+        // The second is that of straight yarns upon each other: one that bends needs more.
         let start = [0.125 * height, 0.25 * height + 0.5 * self.clearance];
-        let of_gap = root(start, accuracy, |amplitude| least(amplitude, upright_gap))?;
+        let of_gap = root(start, accuracy, |amplitude| least(amplitude, upright_gap), &room)?;
         // The distance is hardly less than the upright gap, and takes much longer.
         let start = [of_gap, of_gap * (1.0 + STEP)];
-        let amplitude = root(start, accuracy, |amplitude| least(amplitude, separation))?;
-        Ok(Geometry::new(self, amplitude))
+        room(root(start, accuracy, |amplitude| least(amplitude, separation), &room)?)
     }
 }
 
 /// By this part the second trial of an amplitude is larger than the first.
 const STEP: f64 = 1e-3;
 
-/// Where a function that grows is 0, from two places of which the first is below.
-fn root([low, high]: [f64; 2], accuracy: f64, of: impl Fn(f64) -> Result<f64, String>) -> Result<f64, String> {
-    let mut low = (low, of(low)?);
+/// Where a function that grows is 0, from two places of which the first is below; the search for one above ends where
+/// there is no room.
+fn root(
+    [low, high]: [f64; 2],
+    accuracy: f64,
+    of: impl Fn(f64) -> f64,
+    room: &impl Fn(f64) -> Result<Geometry, String>,
+) -> Result<f64, String> {
+    let mut low = (low, of(low));
     if low.1.abs() < accuracy {
         return Ok(low.0);
     }
-    let mut high = (high, of(high)?);
+    let mut high = (high, of(high));
     while high.1 < 0.0 {
+        room(high.0)?;
         let step = 2.0 * (high.0 - low.0);
         low = high;
         high.0 += step;
-        high.1 = of(high.0)?;
+        high.1 = of(high.0);
     }
     // Regula falsi with the step of Illinois.
     for _ in 0..MOST_TRIALS {
         let place = high.0 - high.1 * (high.0 - low.0) / (high.1 - low.1);
-        let value = of(place)?;
+        let value = of(place);
         if value.abs() < accuracy {
             return Ok(place);
         }
@@ -169,7 +178,7 @@ fn faces(geometry: &Geometry, family: Family, [yarn, crossed]: [i64; 2], side: f
         let half = columns.half_heights[line] * geometry.upright(family, yarn, first + station);
         let height = geometry.centre(family, yarn, first + station) + level * half;
         let [along, across] = [geometry.weave.step(family) * station as f64, columns.places[line]];
-        if family == Family::Warp { Point::new(along, -across, height) } else { Point::new(across, along, height) }
+        if family == Family::Warp { [along, -across, height] } else { [across, along, height] }
     };
     let last = columns.places.len() - 1;
     let strip = |edges: [(usize, f64); 2]| -> Vec<Quad> {
