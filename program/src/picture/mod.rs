@@ -6,6 +6,7 @@
 mod font;
 pub mod page;
 pub mod panel;
+pub mod ruler;
 pub mod sheet;
 pub mod style;
 mod svg;

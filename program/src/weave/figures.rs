@@ -63,37 +63,41 @@ fn edges(model: &Model, element: &[u32; 8], corner: usize) -> [Vector3<f64>; 3] 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.
 fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
     let yarns = || model.yarns.iter().filter(|yarn| yarn.family == family);
-    let volume: f64 =
-        yarns().flat_map(|yarn| model.elements[yarn.elements.clone()].iter()).map(|e| volume(model, e)).sum();
+    let derivatives = derivatives();
+    let volume: f64 = yarns()
+        .flat_map(|yarn| model.elements[yarn.elements.clone()].iter())
+        .map(|e| volume(model, e, &derivatives))
+        .sum();
     let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
     let layers: f64 = yarns().map(|yarn| width(yarn) * yarn.layers as f64).sum();
     volume / (layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch)
 }
 
-/// The volume of a trilinear element, by Gauss's points.
-fn volume(model: &Model, element: &[u32; 8]) -> f64 {
-    let nodes = element.map(|node| Vector3::from(model.nodes[node as usize]));
+/// Derivatives of the corners' weights along the three axes, at the eight points of Gauss.
+type Derivatives = [[[f64; 8]; 3]; 8];
+
+fn derivatives() -> Derivatives {
     let offset = 0.5 / 3_f64.sqrt();
-    let at_point = |point: usize| {
-        let place = [0, 1, 2].map(|axis| if point >> axis & 1 == 1 { 0.5 + offset } else { 0.5 - offset });
-        let derivative = |along: usize| -> Vector3<f64> {
-            let weight = |corner: usize| -> f64 {
-                let factor = |axis: usize| match (axis == along, corner >> axis & 1 == 1) {
-                    (true, upper) => {
-                        if upper {
-                            1.0
-                        } else {
-                            -1.0
-                        }
-                    }
-                    (false, true) => place[axis],
-                    (false, false) => 1.0 - place[axis],
-                };
-                factor(0) * factor(1) * factor(2)
-            };
-            (0..8).map(|corner| nodes[corner] * weight(corner)).sum()
-        };
-        derivative(0).cross(&derivative(1)).dot(&derivative(2))
+    let upper = |number: usize, axis: usize| number >> axis & 1 == 1;
+    let factor = |point: usize, corner: usize, axis: usize| {
+        let near = upper(point, axis) == upper(corner, axis);
+        if near { 0.5 + offset } else { 0.5 - offset }
     };
-    (0..8).map(at_point).sum::<f64>() / 8.0
+    let weight = |point: usize, along: usize, corner: usize| {
+        let others = [(along + 1) % 3, (along + 2) % 3].map(|axis| factor(point, corner, axis));
+        others[0] * others[1] * if upper(corner, along) { 1.0 } else { -1.0 }
+    };
+    std::array::from_fn(|point| std::array::from_fn(|along| std::array::from_fn(|corner| weight(point, along, corner))))
+}
+
+/// The volume of a trilinear element.
+fn volume(model: &Model, element: &[u32; 8], derivatives: &Derivatives) -> f64 {
+    let nodes = element.map(|node| Vector3::from(model.nodes[node as usize]));
+    let at_point = |weights: &[[f64; 8]; 3]| {
+        let [a, b, c] = weights.each_ref().map(|weights| {
+            weights.iter().zip(&nodes).fold(Vector3::zeros(), |sum, (&weight, node)| sum + node * weight)
+        });
+        a.cross(&b).dot(&c)
+    };
+    derivatives.iter().map(at_point).sum::<f64>() / 8.0
 }

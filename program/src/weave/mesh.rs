@@ -48,22 +48,16 @@ impl Model {
                 direction(geometry, family, place.number, pattern_station(weave, panel, first + layer as i64));
             for column in 0..columns {
                 for row in 0..rows {
-                    let node = |corner: usize| {
+                    let corners = std::array::from_fn(|corner| {
                         let [along, up, across] = [0, 1, 2].map(|axis| corner >> axis & 1);
-                        starts[0] + (layer + along) * per_section + (column + across) * (rows + 1) + row + up
-                    };
-                    self.elements.push(std::array::from_fn(|corner| node(corner) as u32));
+                        let line = (column + across) * (rows + 1) + row + up;
+                        (starts[0] + (layer + along) * per_section + line) as u32
+                    });
+                    let left = lines.start + column == 0;
+                    let right = lines.start + column + 1 == weave.columns;
+                    self.add_faces(corners, [row + 1 == rows, row == 0, left, right]);
+                    self.elements.push(corners);
                     self.fibre.push(direction);
-                    let outer = [
-                        (row + 1 == rows, UPPER, Side::Upper),
-                        (row == 0, LOWER, Side::Lower),
-                        (lines.start + column == 0, LEFT, Side::Left),
-                        (lines.start + column + 1 == weave.columns, RIGHT, Side::Right),
-                    ];
-                    let element = (self.elements.len() - 1) as u32;
-                    for (_, corners, side) in outer.into_iter().filter(|(is_outer, ..)| *is_outer) {
-                        self.faces.push(Face { nodes: corners.map(|corner| node(corner) as u32), element, side });
-                    }
                 }
             }
         }
@@ -81,6 +75,15 @@ impl Model {
         };
         self.add_to_sets(&yarn, panel.part);
         self.yarns.push(yarn);
+    }
+
+    /// The faces of the next element that are on the yarn's surface: upper, lower, left, right.
+    fn add_faces(&mut self, corners: [u32; 8], outer: [bool; 4]) {
+        let element = self.elements.len() as u32;
+        let sides = [(UPPER, Side::Upper), (LOWER, Side::Lower), (LEFT, Side::Left), (RIGHT, Side::Right)];
+        for ((face, side), _) in sides.into_iter().zip(outer).filter(|(_, outer)| *outer) {
+            self.faces.push(Face { nodes: face.map(|corner| corners[corner]), element, side });
+        }
     }
 
     fn add_section(&mut self, geometry: &Geometry, panel: &Panel, place: &Place, station: i64, lines: Range<usize>) {

@@ -22,4 +22,5 @@ mod newton;
 mod one_element;
 mod parallel;
 mod presets;
+mod weave;
 mod yarn_between_plates;
