@@ -9,7 +9,7 @@
 //! - distortion: ¼ k_td ((a/sinh a) eᵃ + a) ≤ ¾ k_td cosh a;
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
 //!
-//! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law without Poisson's ratios A is E1, and B the other moduli
+//! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1, and B the other moduli
 //! and twice the largest stress, which the spin of its frame takes along.
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
@@ -54,7 +54,7 @@ impl WaveBounds {
                 k_td: property("k_td"),
                 k_ld: property("k_ld"),
             },
-            Law::LinearElastic { .. } if ["nu_12", "nu_23"].iter().all(|name| property(name) == 0.0) => {
+            Law::LinearElastic { .. } => {
                 WaveBounds::LinearElastic { along: property("e_1"), across: property("e_2") + 2.0 * property("g") }
             }
             _ => WaveBounds::Isotropic,
@@ -118,4 +118,93 @@ fn size<T: Number>(mut value: Lanes<T>) -> Lanes<T> {
         value.0[l] = if value.0[l] < T::default() { -value.0[l] } else { value.0[l] };
     }
     value
+}
+
+#[cfg(test)]
+mod tests {
+    use fastrand::Rng;
+    use nalgebra::{Matrix3, Vector3};
+
+    use super::*;
+    use crate::explicit::element::{Measures, Shapes};
+    use toron::law::parameters;
+    use toron::{Criterion, Rotation};
+
+    fn material(preset: &str, k_ld: f64) -> Material {
+        let preset = parameters::preset(preset).expect("it exists");
+        let mut values = preset.values.to_vec();
+        for (value, property) in values.iter_mut().zip(preset.table) {
+            match property.name {
+                "k_ld" => *value = k_ld,
+                "eps_lim" | "sigma_lim" | "alpha" | "beta" => *value = 0.0,
+                _ => {}
+            }
+        }
+        let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        Material { law, values, density: Some(preset.density), label: String::new() }
+    }
+
+    /// A and B at a deformation gradient with this stress.
+    fn bounds(material: &Material, f: &Matrix3<f64>, stress: &[f64; 6]) -> [f64; 2] {
+        let nodes: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
+        let mut measures = Measures::new(shapes.stride);
+        let repeat = |values: &[f64]| values.iter().flat_map(|&value| vec![value; shapes.stride]).collect::<Vec<_>>();
+        let (f, stress) = (repeat(f.as_slice()), repeat(stress));
+        shapes.measure(&f, &mut measures);
+        let Measures { volume_ratio, stretch_square, metric, .. } = &measures;
+        let section = Section { volume_ratio, stretch_square, metric };
+        WaveBounds::of(material)
+            .at(&f, &stress, &section, shapes.stride, 0)
+            .expect("by direction")
+            .map(|lanes| lanes.0[0])
+    }
+
+    /// No rate of deformation h, a wave's u ⊗ n or another one, meets more stiffness than A |h m|² + B |h|². Returns how near one
+    /// came.
+    fn check(material: &Material, spread: f64) -> f64 {
+        let mut random = Rng::with_seed(7);
+        let mut nearest: f64 = 0.0;
+        for _ in 0..2000 {
+            let mut number = |size: f64| size * (2.0 * random.f64() - 1.0);
+            let mut f = Matrix3::from_fn(|_, _| number(spread));
+            f += Matrix3::from_diagonal(&[1.0, 1.0 - 0.5 * spread, 1.0 - 0.5 * spread].into());
+            // Along the fibre yarns stretch by some percent.
+            let stretch = (1.0 + number(0.06)) / f.column(0).norm();
+            f.column_mut(0).scale_mut(stretch);
+            let Ok((stress, tangent)) = material.tangent(&f, &material.at_rest()) else { continue };
+            let [along, across] = bounds(material, &f, &stress);
+            let m = f.column(0).normalize();
+            for general in [true, false] {
+                let h = if general {
+                    Matrix3::from_fn(|_, _| number(1.0))
+                } else {
+                    let [u, n] = [0, 1].map(|_| Vector3::from_fn(|_, _| number(1.0)).normalize());
+                    u * n.transpose()
+                };
+                let step = nalgebra::SVector::<f64, 9>::from_column_slice((h * f).as_slice());
+                let stiffness = step.dot(&(tangent * step));
+                let bound = along * (h * m).norm_squared() + across * h.norm_squared();
+                assert!(stiffness < bound, "{stiffness:e} {bound:e} {f} {h}");
+                nearest = nearest.max(stiffness / bound);
+            }
+        }
+        nearest
+    }
+
+    #[test]
+    fn no_wave_of_the_hyperelastic_law_is_faster() {
+        for k_ld in [0.0, 126e6] {
+            for spread in [0.02, 0.3, 0.6] {
+                assert!(check(&material("kevlar-km2-600", k_ld), spread) > 0.5);
+            }
+        }
+    }
+
+    #[test]
+    fn no_wave_of_the_linear_elastic_law_is_faster() {
+        for spread in [0.02, 0.2] {
+            assert!(check(&material("kevlar-km2-600-linear", 0.0), spread) > 0.5);
+        }
+    }
 }
