@@ -36,7 +36,7 @@ pub struct Parameters {
 impl Parameters {
     /// The place on these faces of a surface, or on those around them, that is nearest to a point; `None` if it cannot come into
     /// contact there before the next search.
-    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place)> {
+    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place, f64)> {
         let mut nearest = None;
         let mut least = f64::INFINITY;
         for near in faces {
@@ -44,7 +44,7 @@ impl Parameters {
             // A point beyond the surface's border may come back.
             let depth = face::meet(surface, &mut face, &mut place, point).map_or(self.margin, |met| met.depth);
             if depth >= -self.margin && depth < self.deepest && depth.abs() < least {
-                (nearest, least) = (Some((face, place)), depth.abs());
+                (nearest, least) = (Some((face, place, depth)), depth.abs());
             }
         }
         nearest
@@ -63,6 +63,12 @@ struct Pair {
     stiffness: f64,
     /// The node cannot touch the face before this much of motion.
     free_until: f64,
+    /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but past an
+    /// edge or an open end.
+    depth: f64,
+    uncounted: f64,
+    /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the face.
+    known: bool,
     /// The friction force on the node, at the end of the last step.
     friction: Vector,
     /// Energy in its penetration and its sticking.
@@ -152,6 +158,8 @@ impl MutualContact {
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let grid = Grid::new(&surfaces, self.parameters.margin);
         let parameters = self.parameters;
+        // Where bodies overlap from the start, they press each other.
+        let first = self.searches == 0;
         let near = |(number, side): (usize, &Side)| {
             let (mut pairs, mut faces) = (Vec::new(), Vec::new());
             for &node in &side.surface.nodes {
@@ -160,8 +168,10 @@ impl MutualContact {
                 for of_body in faces.chunk_by(|a, b| a.body == b.body) {
                     let master = of_body[0].body;
                     let stiffness = 0.5 * parameters.stiffness * side.surface.area[node as usize];
-                    if let Some((face, place)) = parameters.nearest(surfaces[master as usize], of_body, point) {
-                        pairs.push(Pair { node, master, face, place, stiffness, ..Pair::default() });
+                    let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
+                    if let Some((face, place, depth)) = nearest {
+                        let known = first || depth <= 0.0;
+                        pairs.push(Pair { node, master, face, place, stiffness, known, ..Pair::default() });
                     }
                 }
             }
@@ -170,11 +180,14 @@ impl MutualContact {
         let found: Vec<Vec<Pair>> = self.sides.par_iter().enumerate().map(near).collect();
         for (side, mut pairs) in self.sides.iter_mut().zip(found) {
             let key = |pair: &Pair| (pair.node, pair.master);
-            for old in side.pairs.iter().filter(|pair| pair.on_face.stiffness > 0.0) {
-                let old = Pair { free_until: 0.0, ..old.clone() };
-                match pairs.binary_search_by_key(&key(&old), key) {
-                    Ok(place) => pairs[place] = old,
-                    Err(place) => pairs.insert(place, old),
+            for old in &side.pairs {
+                let place = pairs.binary_search_by_key(&key(old), key);
+                let touching = old.on_face.stiffness > 0.0;
+                match place {
+                    Ok(place) if touching => pairs[place] = Pair { free_until: 0.0, ..old.clone() },
+                    Err(place) if touching => pairs.insert(place, Pair { free_until: 0.0, ..old.clone() }),
+                    Ok(place) => pairs[place].known |= old.known,
+                    Err(_) => {}
                 }
             }
             side.pairs = pairs;
@@ -296,38 +309,48 @@ impl Pair {
         if self.stiffness == 0.0 {
             return (None, 0.0);
         }
+        let before = self.face;
         let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
             // Beyond the surface's border it may touch an edge at once.
             self.free_until = met.map_or(0.0, |met| moved - met.depth);
-            if self.on_face.stiffness == 0.0 {
-                return (None, 0.0);
-            }
-            // It left: what the sticking held is lost.
-            let lost = 0.5 * dot(old, old) / self.stiffness;
-            self.friction = [0.0; 3];
-            self.stored = 0.0;
-            self.on_face = OnFace::default();
+            // What the sticking held is lost; what the depth held has been given back, unless the face is lost as well.
+            let sticking = 0.5 * dot(old, old) / self.stiffness;
+            let lost = if met.is_some_and(|met| met.depth <= 0.0) { sticking } else { self.stored };
+            (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
+            (self.depth, self.uncounted) = (0.0, 0.0);
+            self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
+        let mut lost = 0.0;
+        if !self.known {
+            self.uncounted = met.depth;
+        } else if self.face != before {
+            // The force goes on: no energy comes from another face being nearer.
+            self.uncounted = (met.depth - self.depth).max(0.0);
+            lost = 0.5 * self.stiffness * (self.depth * self.depth - met.depth * met.depth).max(0.0);
+        }
+        self.known = true;
+        self.uncounted = self.uncounted.min(met.depth);
+        self.depth = met.depth - self.uncounted;
         let mut slip = own.moved[node];
         let corners = master.faces[self.face as usize];
         for k in 0..4 {
             slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
         }
-        let force = self.stiffness * met.depth;
+        let force = self.stiffness * self.depth;
         let trial = add(old, -self.stiffness, slip);
         let trial = add(trial, -dot(trial, met.normal), met.normal);
         let (size, limit) = (dot(trial, trial).sqrt(), friction * force);
         self.friction = if size > limit { times(limit / size, trial) } else { trial };
         let per_stiffness = 0.5 / self.stiffness;
-        let (before, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
+        let (held, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
         let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
-        self.stored = 0.5 * force * met.depth + after;
+        self.stored = 0.5 * force * self.depth + after;
         let total = add(self.friction, force, met.normal);
         self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
-        (Some(total), work - (after - before))
+        (Some(total), lost + work - (after - held))
     }
 
     /// Lets go for good; returns what was stored.
