@@ -5,11 +5,12 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::outcome::{Outcome, Snapshot};
+use super::outcome::Outcome;
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
 use crate::common::units::{number, time, unit};
 use crate::explicit::mesh::Mesh;
+use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::style::{GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
