@@ -92,7 +92,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
 }
 
 /// The panel's bounds, or those of a square of this size in its middle; that of a quarter is its corner at the origin.
-fn bounds(model: &Model, size: f64) -> [[f64; 2]; 2] {
+pub fn bounds(model: &Model, size: f64) -> [[f64; 2]; 2] {
     let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     for node in &model.nodes {
         for axis in 0..2 {
