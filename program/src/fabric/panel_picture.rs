@@ -9,7 +9,7 @@ use crate::common::error::Error;
 use crate::common::units::{time, unit};
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::{self, colour};
+use crate::picture::colour_scale::Scale;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
@@ -26,9 +26,10 @@ const LEFT: i32 = 24;
 const BETWEEN: i32 = 20;
 const TITLE_TOP: i32 = 16;
 const TIME_TOP: i32 = 50;
-/// Of a mode: the middle of its scale of colours, and how far its name indents that.
-const SCALE_MIDDLE: i32 = 100;
-const SCALE_INDENT: i32 = 96;
+/// Of a mode: the middle of its scale of colours, how far its name indents that, and its width.
+const SCALE_MIDDLE: i32 = 92;
+const SCALE_INDENT: i32 = 106;
+const SCALE_WIDTH: i32 = 140;
 /// The views from above and from below: names over them, squares, a ruler under them.
 const VIEWS_TOP: i32 = 116;
 const NAME: i32 = 26;
@@ -37,15 +38,15 @@ const RULER_BELOW: i32 = 18;
 /// The cuts: the heading, a scale of colours over each, and air.
 const CUT_HEADING: i32 = 46;
 const CUT_SCALE: i32 = 30;
-const CUT_NAME: i32 = 14;
+const CUT_NAME: i32 = 26;
 const CUT_BELOW: i32 = 14;
 const FOOT: i32 = 36;
 /// The cut shows so many of the sphere's radii to either side, and as much of the sphere's height over its lowest point.
 const CUT_RADII: f64 = 3.0;
 const SPHERE_SHOWN: f64 = 0.45;
 const SPHERE: RGBColor = RGBColor(236, 236, 236);
-/// How much a slope changes the brightness: little, since brightness is a value's.
-const CONTRAST: f64 = 0.45;
+/// How much a slope changes the brightness. What is level has the colour of the scale.
+const CONTRAST: f64 = 1.1;
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
 
 /// What is shown: the modes or, where there is none, the work of the linear law. Of two laws the first view has both.
@@ -69,34 +70,22 @@ pub fn write(
     panel: &Model,
     snapshot: &Snapshot,
 ) -> Result<(), Error> {
-    let drawing = Drawing::new(scene, case, panel, snapshot);
+    let unit = unit(&scene.units, ENERGY_DENSITY);
+    let drawing = Drawing::new(scene, case, panel, snapshot, &unit);
     page::write(svg, png, [WIDTH as u32, drawing.height() as u32], |root| drawing.draw(root))
 }
 
-/// A mode, and its largest density in what stands.
-struct Mode {
-    name: &'static str,
-    number: usize,
-    largest: f64,
-}
-
-impl Mode {
-    /// The linear law has no modes: its work stands beside elongation.
-    fn density(number: usize, densities: &[f64; 5]) -> f64 {
-        if number == 0 { densities[0] + densities[4] } else { densities[number] }
-    }
-
-    fn colour(&self, snapshot: &Snapshot, element: usize) -> RGBColor {
-        let density = Mode::density(self.number, &snapshot.densities[element]);
-        colour(if self.largest > 0.0 { density / self.largest } else { 0.0 })
-    }
+/// The linear law has no modes: its work stands beside elongation.
+fn density(mode: usize, densities: &[f64; 5]) -> f64 {
+    if mode == 0 { densities[0] + densities[4] } else { densities[mode] }
 }
 
 struct Drawing<'a> {
     scene: &'a Scene,
     case: &'a Case,
     snapshot: &'a Snapshot,
-    modes: Vec<Mode>,
+    /// As the modes are numbered.
+    modes: Vec<Scale<'a>>,
     /// Whether the panel is a quarter.
     quarter: bool,
     bounds: [[f64; 2]; 2],
@@ -107,13 +96,16 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, snapshot: &'a Snapshot) -> Self {
-        let mode = |(number, name)| Mode {
+    fn new(scene: &'a Scene, case: &'a Case, panel: &Model, snapshot: &'a Snapshot, unit: &'a str) -> Self {
+        let mode = |(mode, name)| Scale {
             name,
-            number,
-            largest: snapshot.largest(|densities| Mode::density(number, densities)),
+            indent: SCALE_INDENT,
+            width: SCALE_WIDTH,
+            largest: snapshot.largest(|densities| density(mode, densities)),
+            unit,
+            root: true,
         };
-        let modes: Vec<Mode> = modes(case).into_iter().enumerate().map(mode).collect();
+        let modes: Vec<Scale> = modes(case).into_iter().enumerate().map(mode).collect();
         let [low, high] = picture::bounds(panel, f64::INFINITY);
         let quarter = !panel.on_x.is_empty();
         let bounds = if quarter { [high.map(|x| -x), high] } else { [low, high] };
@@ -123,6 +115,10 @@ impl<'a> Drawing<'a> {
         let cut = cut_view(&pieces, [bounds[0][0], bounds[1][0]], case, snapshot);
         let sides = surface::visible(panel, &snapshot.positions, intact);
         Drawing { scene, case, snapshot, modes, quarter, bounds, sides, pieces, cut }
+    }
+
+    fn colour(&self, mode: usize, element: usize) -> RGBColor {
+        self.modes[mode].colour(density(mode, &self.snapshot.densities[element]))
     }
 
     /// Views in a row: the modes or, of a single one, its two sides.
@@ -162,25 +158,20 @@ impl<'a> Drawing<'a> {
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let units = &self.scene.units;
         let laws = if matches!(self.case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
-        let largest = "the scales end at the largest value of what stands";
-        let time = format!("at {}, energies per reference volume; {largest}{laws}", time(units, self.snapshot.time));
+        let scales = "colours by the square root, up to the largest value of what stands";
+        let time = format!("at {}, energies per reference volume; {scales}{laws}", time(units, self.snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
         self.draw_views(root)?;
         let length = units.names()[0];
         let top = self.cuts_top();
         let name = "Cut through the blow, along the warp";
-        root.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(top - CUT_NAME)))?;
-        for (i, mode) in self.modes.iter().enumerate() {
+        root.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(top - 14)))?;
+        for (i, scale) in self.modes.iter().enumerate() {
             let top = top + i as i32 * self.cut_row();
-            self.draw_scale(root, [LEFT, top + CUT_SCALE], mode)?;
-            self.draw_cut(root, top + CUT_SCALE + CUT_NAME, mode)?;
+            scale.draw(root, [LEFT, top + CUT_SCALE])?;
+            self.draw_cut(root, top + CUT_SCALE + CUT_NAME, i)?;
         }
         ruler::draw(root, [LEFT, self.height() - FOOT], self.cut.scale, length)
-    }
-
-    fn draw_scale(&self, root: &Area, place: [i32; 2], mode: &Mode) -> Drawn<()> {
-        let unit = unit(&self.scene.units, ENERGY_DENSITY);
-        colour_scale::draw(root, place, mode.name, SCALE_INDENT, (mode.largest, &unit))
     }
 
     fn draw_views(&self, root: &Area) -> Drawn<()> {
@@ -188,9 +179,9 @@ impl<'a> Drawing<'a> {
         let step = size + BETWEEN;
         let single = self.modes.len() == 1;
         let [low, high] = self.bounds;
-        for (i, mode) in self.modes.iter().enumerate() {
+        for (i, scale) in self.modes.iter().enumerate() {
             let left = LEFT + i as i32 * step;
-            self.draw_scale(root, [left, SCALE_MIDDLE], mode)?;
+            scale.draw(root, [left, SCALE_MIDDLE])?;
             for (row, name) in ["from above", "from below"].into_iter().enumerate() {
                 let below = row == 1;
                 let (left, down) = if single { (left + row as i32 * step, 0) } else { (left, row as i32) };
@@ -200,7 +191,7 @@ impl<'a> Drawing<'a> {
                 let [low, high] = if below { [[low[0], -high[1]], [high[0], -low[1]]] } else { [low, high] };
                 let mut view = View::square([left, top + NAME], size, low, high);
                 view.corner[1] = f64::from(top + NAME) + view.size()[1];
-                self.draw_view(root, view, mode, below)?;
+                self.draw_view(root, view, i, below)?;
             }
         }
         let scale = View::square([0; 2], size, low, high).scale;
@@ -208,14 +199,13 @@ impl<'a> Drawing<'a> {
         ruler::draw(root, [LEFT, top], scale, self.scene.units.names()[0])
     }
 
-    fn draw_view(&self, root: &Area, view: View, mode: &Mode, below: bool) -> Drawn<()> {
+    fn draw_view(&self, root: &Area, view: View, mode: usize, below: bool) -> Drawn<()> {
         let up = if below { -1.0 } else { 1.0 };
         let signs: &[[f64; 2]] =
             if self.quarter { &[[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] } else { &[[1.0, 1.0]] };
         let images: Vec<[f64; 3]> = signs.iter().map(|[x, y]| [*x, *y * up, up]).collect();
         above::draw(root, view, &self.sides, &images, |side, lit| {
-            let colour = mode.colour(self.snapshot, side.element);
-            above::brightened(colour, (1.0 + CONTRAST * lit.light).min(1.0))
+            above::brightened(self.colour(mode, side.element), 1.0 + CONTRAST * lit.light)
         })?;
         if let Some((_, radius)) = self.snapshot.projectile.filter(|_| !below) {
             let radius = (view.scale * radius * f64::from(fine(1))) as i32;
@@ -225,13 +215,13 @@ impl<'a> Drawing<'a> {
         Ok(())
     }
 
-    fn draw_cut(&self, root: &Area, top: i32, mode: &Mode) -> Drawn<()> {
+    fn draw_cut(&self, root: &Area, top: i32, mode: usize) -> Drawn<()> {
         let mut view = self.cut;
         view.corner[1] = f64::from(top) + view.size()[1];
         if let Some((height, radius)) = self.snapshot.projectile {
             draw_sphere(root, &view, height, radius)?;
         }
-        let shade = |piece: &Piece| Some(mode.colour(self.snapshot, piece.element));
+        let shade = |piece: &Piece| Some(self.colour(mode, piece.element));
         if self.quarter {
             let mirrored: Vec<Piece> = self.pieces.iter().map(mirrored).collect();
             cut::draw(root, &view, &mirrored, shade)?;

@@ -14,7 +14,7 @@ use toron::law::parameters::ENERGY_DENSITY;
 
 const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
 
-/// Speed, deflection, energies, largest energy densities, front and force over time, as far as they change.
+/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they change.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -27,7 +27,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, outcome: &Outco
     history::write(svg, png, [&scene.title, &case.name], panels(scene, outcome), &abscissa)
 }
 
-fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 6] {
+fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 8] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_string(),
         colour: COLOURS[colour % COLOURS.len()],
@@ -43,18 +43,26 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 6] {
         line(0, "sphere", &|s| s.energies.projectile),
         line(1, "kinetic", &|s| s.energies.kinetic),
         line(2, "internal", &|s| s.energies.internal),
-        line(3, "friction", &|s| s.energies.friction),
-        line(4, "hourglass", &|s| s.energies.hourglass),
-        line(5, "viscosity, contact", &|s| s.energies.viscosity + s.energies.contact),
+        line(3, "all other", &|s| s.energies.other()),
         Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) },
     ];
-    let deflections = vec![line(0, "panel", &|s| s.deflection), line(1, "sphere's way", &|s| s.travel)];
-    let densities = (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| s.largest[mode])).collect();
+    let others = vec![
+        line(0, "friction", &|s| s.energies.friction),
+        line(1, "hourglass", &|s| s.energies.hourglass),
+        line(2, "viscosity", &|s| s.energies.viscosity),
+        line(3, "contact", &|s| s.energies.contact),
+    ];
+    let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.deflection)];
+    let by_mode = |of: fn(&Sample) -> [f64; 5]| -> Vec<Series> {
+        (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| of(s)[mode])).collect()
+    };
     [
         panel("Speed of the sphere", SPEED, vec![line(0, "speed", &|s| s.speed)]),
         panel("Largest deflection", LENGTH, deflections),
         panel("Energies", ENERGY, energies),
-        panel("Largest energy per reference volume", ENERGY_DENSITY, densities),
+        panel("All other energies", ENERGY, others),
+        panel("Internal energy", ENERGY, by_mode(|s| s.parts)),
+        panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
         panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.front)]),
         panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
     ]

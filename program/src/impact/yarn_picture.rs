@@ -12,7 +12,7 @@ use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::{self, colour};
+use crate::picture::colour_scale::Scale;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
@@ -39,9 +39,10 @@ const NAME_BELOW: i32 = 9;
 /// The section's part of the width, and what the section at rest may take: it widens.
 const SECTION: i32 = 270;
 const AT_REST: [f64; 2] = [220.0, 90.0];
-/// The scale of colours in the heading: its middle, and how far its name indents it.
+/// The scale of colours in the heading: its middle, how far its name indents it, and its width.
 const SCALE_MIDDLE: i32 = 10;
 const SCALE_INDENT: i32 = 126;
+const SCALE_WIDTH: i32 = 200;
 /// The last line, with the scales of lengths.
 const FOOT: i32 = 34;
 const BAR_TOP: i32 = 8;
@@ -156,9 +157,9 @@ impl<'a> Drawing<'a> {
         // The linear law has no modes.
         let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
         let largest = self.snapshot.largest(density);
-        colour_scale::draw(area, [LEFT, SCALE_MIDDLE], name, SCALE_INDENT, (largest, unit))?;
-        let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
-        let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
+        let scale = Scale { name, indent: SCALE_INDENT, width: SCALE_WIDTH, largest, unit, root: false };
+        scale.draw(area, [LEFT, SCALE_MIDDLE])?;
+        let shade = |element: usize| scale.colour(density(&self.snapshot.densities[element]));
         self.draw_side(area, &shade)?;
         self.draw_above(area, &shade)?;
         self.draw_section(area, &shade)

@@ -1,4 +1,5 @@
-//! A panel from above: what is over hides what is under, and light from the left shows the slopes.
+//! A panel from above: what is over hides what is under, and light from the left shows the slopes that the yarns have at rest,
+//! so that a colour does not depend on where in a bulge it is.
 
 use nalgebra::Vector3;
 use plotters::prelude::*;
@@ -30,10 +31,10 @@ pub fn draw(
     for signs in images {
         let image = |x: [f64; 3]| [0, 1, 2].map(|i| signs[i] * x[i]);
         for side in sides {
-            let normal = Vector3::from(image(side.normal.into()));
-            if normal.z > 0.0 {
+            if signs[2] * side.normal.z > 0.0 {
+                let at_rest = Vector3::from(image(side.normal_at_rest.into()));
                 let corners = side.corners.map(image);
-                let light = normal.dot(&Vector3::from(LIGHT)) - LIGHT[2];
+                let light = at_rest.dot(&Vector3::from(LIGHT)) - LIGHT[2];
                 let height = 0.25 * corners.iter().map(|corner| corner[2]).sum::<f64>();
                 let RGBColor(red, green, blue) = shade(side, Lit { light, height });
                 raster.quadrangle(&corners, [red, green, blue]);

@@ -19,8 +19,9 @@ const SIDES: [([usize; 4], [isize; 3]); 6] = [
 pub struct Visible {
     pub element: usize,
     pub corners: [[f64; 3]; 4],
-    /// Outwards, of length 1.
+    /// Outwards, of length 1; now, and at rest.
     pub normal: Vector3<f64>,
+    pub normal_at_rest: Vector3<f64>,
 }
 
 /// The sides of the intact elements that are seen with the nodes at these positions; with them the yarns' ends, which stand
@@ -38,12 +39,17 @@ pub fn visible(model: &Model, positions: &[[f64; 3]], intact: impl Fn(usize) -> 
                 matches!(next, [Some(layer), Some(column), Some(row)] if intact(element([layer, column, row])))
             };
             for (side, _) in SIDES.into_iter().filter(|(_, step)| !hidden(*step)) {
-                let corners = side.map(|corner| positions[model.elements[number][corner] as usize]);
-                let [a, b, c, d] = corners.map(Vector3::from);
-                let normal = (c - a).cross(&(d - b));
-                found.push(Visible { element: number, corners, normal: normal.normalize() });
+                let nodes = side.map(|corner| model.elements[number][corner] as usize);
+                let corners = nodes.map(|node| positions[node]);
+                let normal_at_rest = normal(&nodes.map(|node| model.nodes[node]));
+                found.push(Visible { element: number, corners, normal: normal(&corners), normal_at_rest });
             }
         }
     }
     found
+}
+
+fn normal(corners: &[[f64; 3]; 4]) -> Vector3<f64> {
+    let [a, b, c, d] = corners.map(Vector3::from);
+    (c - a).cross(&(d - b)).normalize()
 }

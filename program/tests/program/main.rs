@@ -13,6 +13,7 @@ mod command_line;
 mod documents;
 mod eval;
 mod examples;
+mod fabric;
 #[allow(dead_code)]
 mod hexahedra;
 mod identify;
