@@ -47,6 +47,11 @@ const SPHERE_SHOWN: f64 = 0.45;
 const SPHERE: RGBColor = RGBColor(236, 236, 236);
 /// How much a slope changes the brightness. What is level has the colour of the scale.
 const CONTRAST: f64 = 1.1;
+const DARKEST: f64 = 0.65;
+/// The views show where a density has this part of its largest, with some air; or the whole panel, where that is not much more.
+const SMALL: f64 = 0.01;
+const AIR: f64 = 1.25;
+const NEARLY_WHOLE: f64 = 0.7;
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
 
 /// What is shown: the modes or, where there is none, the work of the linear law. Of two laws the first view has both.
@@ -88,7 +93,9 @@ struct Drawing<'a> {
     modes: Vec<Scale<'a>>,
     /// Whether the panel is a quarter.
     quarter: bool,
+    /// Of what the views show, and whether that is the whole panel.
     bounds: [[f64; 2]; 2],
+    is_whole: bool,
     sides: Vec<Visible>,
     pieces: Vec<Piece>,
     /// What the cut shows, by x and z.
@@ -109,12 +116,13 @@ impl<'a> Drawing<'a> {
         let [low, high] = picture::bounds(panel, f64::INFINITY);
         let quarter = !panel.on_x.is_empty();
         let bounds = if quarter { [high.map(|x| -x), high] } else { [low, high] };
+        let (bounds, is_whole) = middle(bounds, reach(panel, case, snapshot, &modes));
         let intact = |element: usize| snapshot.intact[element];
         let pieces = cut::pieces(panel, &snapshot.positions);
         let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| intact(piece.element)).collect();
         let cut = cut_view(&pieces, [bounds[0][0], bounds[1][0]], case, snapshot);
         let sides = surface::visible(panel, &snapshot.positions, intact);
-        Drawing { scene, case, snapshot, modes, quarter, bounds, sides, pieces, cut }
+        Drawing { scene, case, snapshot, modes, quarter, bounds, is_whole, sides, pieces, cut }
     }
 
     fn colour(&self, mode: usize, element: usize) -> RGBColor {
@@ -178,6 +186,7 @@ impl<'a> Drawing<'a> {
         let size = self.view_size();
         let step = size + BETWEEN;
         let single = self.modes.len() == 1;
+        let part = if self.is_whole { "" } else { ", the middle of the panel" };
         let [low, high] = self.bounds;
         for (i, scale) in self.modes.iter().enumerate() {
             let left = LEFT + i as i32 * step;
@@ -186,7 +195,7 @@ impl<'a> Drawing<'a> {
                 let below = row == 1;
                 let (left, down) = if single { (left + row as i32 * step, 0) } else { (left, row as i32) };
                 let top = VIEWS_TOP + down * self.views_height() / 2;
-                root.draw_text(name, &text(TEXT, &GREY), (fine(left), fine(top + 4)))?;
+                root.draw_text(&format!("{name}{part}"), &text(TEXT, &GREY), (fine(left), fine(top + 4)))?;
                 // From below, y goes downwards.
                 let [low, high] = if below { [[low[0], -high[1]], [high[0], -low[1]]] } else { [low, high] };
                 let mut view = View::square([left, top + NAME], size, low, high);
@@ -205,7 +214,7 @@ impl<'a> Drawing<'a> {
             if self.quarter { &[[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] } else { &[[1.0, 1.0]] };
         let images: Vec<[f64; 3]> = signs.iter().map(|[x, y]| [*x, *y * up, up]).collect();
         above::draw(root, view, &self.sides, &images, |side, lit| {
-            above::brightened(self.colour(mode, side.element), 1.0 + CONTRAST * lit.light)
+            above::brightened(self.colour(mode, side.element), (1.0 + CONTRAST * lit.light).max(DARKEST))
         })?;
         if let Some((_, radius)) = self.snapshot.projectile.filter(|_| !below) {
             let radius = (view.scale * radius * f64::from(fine(1))) as i32;
@@ -228,6 +237,30 @@ impl<'a> Drawing<'a> {
         }
         cut::draw(root, &view, &self.pieces, shade)
     }
+}
+
+/// How far from the centre the panel has an energy to show, or the sphere is.
+fn reach(panel: &Model, case: &Case, snapshot: &Snapshot, modes: &[Scale]) -> f64 {
+    let least = CUT_RADII * case.sphere.radius;
+    let standing = (0..panel.elements.len()).filter(|&element| snapshot.intact[element]);
+    let shows = |element: usize| {
+        let densities = &snapshot.densities[element];
+        modes.iter().enumerate().any(|(mode, scale)| density(mode, densities) > SMALL * scale.largest)
+    };
+    standing.filter(|&element| shows(element)).fold(least, |reach, element| {
+        let [x, y, _] = panel.nodes[panel.elements[element][0] as usize];
+        reach.max(AIR * x.abs()).max(AIR * y.abs())
+    })
+}
+
+/// What of the panel's bounds lies within this reach, and whether that is all.
+fn middle(bounds: [[f64; 2]; 2], reach: f64) -> ([[f64; 2]; 2], bool) {
+    let [low, high] = bounds;
+    let farthest = low.iter().chain(&high).fold(0.0, |farthest: f64, x| farthest.max(x.abs()));
+    if reach > NEARLY_WHOLE * farthest {
+        return (bounds, true);
+    }
+    ([low.map(|x| x.max(-reach)), high.map(|x| x.min(reach))], false)
 }
 
 fn mirrored(piece: &Piece) -> Piece {

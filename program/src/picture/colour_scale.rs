@@ -58,7 +58,7 @@ impl Scale<'_> {
             let x = fine(left + x);
             area.draw(&PathElement::new([(x, bottom), (x, bottom + fine(TICK))], stroke(GREY, 1)))?;
             let style = style(TEXT, &GREY, HPos::Center, VPos::Top);
-            area.draw_text(&number(value), &style, (x, bottom + fine(TICK)))?;
+            area.draw_text(&number(value), &style, (x, bottom + fine(TICK + 2)))?;
         }
         Ok(())
     }
