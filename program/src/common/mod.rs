@@ -6,6 +6,7 @@ pub mod data_table;
 pub mod error;
 pub mod progress;
 pub mod short_number;
+pub mod text_table;
 pub mod toml_error;
 pub mod toml_file;
 pub mod unit_expression;

@@ -1,18 +1,20 @@
 //! `toron fabric`: from the file of a scene to its histories and table.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::measure::Sample;
-use super::output;
 use super::run::{self, Observer, Outcome};
 use super::scene::{Case, Scene};
+use super::summary::{self, Figures};
+use super::{output, panel_picture, plot, report};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::progress;
 use crate::common::units::number;
+use crate::common::vtk::Frames;
+use crate::weave::model::Model;
 
 const TICKS: u64 = 1000;
 
@@ -22,68 +24,59 @@ const TICKS: u64 = 1000;
 /// The input, a file that cannot be written, or a case that has no result.
 pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
-    let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let panel = scene.woven.model();
-    let mut text = format!("{}\n\n", scene.title);
-    let mut failures = Vec::new();
+    let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
-        let mut observer = Bar { name: &case.name, bar: &bar };
+        let mut observer = CaseObserver { name: &case.name, bar: &bar, frames: Frames::new(output, &case.name) };
         let result = run::run(&scene, case, &panel, &mut observer);
         bar.finish_and_clear();
-        let outcome = result?;
-        let file = output.join(format!("{}.csv", case.name));
-        std::fs::write(&file, output::history(&outcome)).map_err(|error| file_error(&file, &error))?;
-        let _ = writeln!(text, "{}", line(case, &outcome));
-        failures.extend(outcome.failure.map(|error| error.to_string()));
+        let mut outcome = result?;
+        write_case(&scene, case, &panel, &outcome, output)?;
+        failures.extend(outcome.failure.take().map(|error| error.to_string()));
+        let figures = Figures::of(&panel, &outcome);
+        results.push((case, outcome, figures));
     }
-    print(&text);
+    summary::write(&output.join("summary.csv"), &results)?;
+    print(&report::report(&scene, &results, output));
     if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(failures.join("\n"))) }
 }
 
-struct Bar<'a> {
-    name: &'a str,
-    bar: &'a ProgressBar,
+fn write_case(scene: &Scene, case: &Case, panel: &Model, outcome: &Outcome, output: &Path) -> Result<(), Error> {
+    let file = |ending: &str| output.join(format!("{}{ending}", case.name));
+    let history = file(".csv");
+    std::fs::write(&history, output::history(outcome)).map_err(|error| file_error(&history, &error))?;
+    plot::write(&file(".svg"), &file(".png"), scene, case, outcome)?;
+    for (number, snapshot) in outcome.snapshots.iter().enumerate() {
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("-panel-{}.{ending}", number + 1)));
+        panel_picture::write(&svg, &png, scene, case, panel, snapshot)?;
+    }
+    Ok(())
 }
 
-impl Observer for Bar<'_> {
+fn file_error(file: &Path, error: &dyn std::fmt::Display) -> Error {
+    Error::Input(format!("{}: {error}", file.display()))
+}
+
+/// Moves the bar, and writes ParaView's files as they come.
+struct CaseObserver<'a> {
+    name: &'a str,
+    bar: &'a ProgressBar,
+    frames: Frames,
+}
+
+impl Observer for CaseObserver<'_> {
     fn progress(&mut self, fraction: f64, sample: &Sample, imbalance: f64) {
         self.bar.set_position((fraction * TICKS as f64) as u64);
         let speed = number(sample.speed);
         self.bar.set_message(format!("{}: speed {speed}, energy off by {imbalance:.0e}", self.name));
     }
-}
 
-fn line(case: &Case, outcome: &Outcome) -> String {
-    let last = outcome.samples.last().copied().unwrap_or_default();
-    let deflection = outcome.samples.iter().map(|sample| sample.deflection).fold(0.0, f64::max);
-    let cycles = outcome.cost.steps as f64 * outcome.elements as f64;
-    let seconds = |time: std::time::Duration| time.as_secs_f64();
-    let total = seconds(outcome.cost.total());
-    format!(
-        "{}: {:?} at {}, speed {}, deflection {}, torn yarns {}, deleted {}, energy off by {:.1e}, hourglass {:.2e} of {:.2e}, \
-         tilt {:.1}, {} steps, {} elements, {:.0} ns a zone cycle (contact {:.0} %, law {:.0} %), {} searches, {:.1} s",
-        case.name,
-        outcome.end,
-        number(last.time),
-        number(last.speed),
-        number(deflection),
-        last.torn,
-        last.deleted,
-        outcome.imbalance(),
-        last.energies.hourglass,
-        last.energies.total(),
-        last.tilt,
-        outcome.cost.steps,
-        outcome.elements,
-        1e9 * total / cycles,
-        100.0 * seconds(outcome.cost.contact) / total,
-        100.0 * seconds(outcome.cost.law) / total,
-        outcome.searches,
-        seconds(outcome.wall),
-    )
+    fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
+        self.frames.write(time, text)
+    }
 }

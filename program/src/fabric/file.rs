@@ -40,6 +40,7 @@ pub struct CaseFile {
     pub viscosity: Option<Spanned<Numbers<3>>>,
     pub end: Option<Spanned<f64>>,
     pub sample: Option<Spanned<f64>>,
+    pub pictures: Option<Spanned<Vec<f64>>>,
     pub frames: Option<Spanned<i64>>,
     pub precision: Option<Precision>,
 }
@@ -77,6 +78,7 @@ impl CaseFile {
             viscosity: own.viscosity.or(base.viscosity),
             end: own.end.or(base.end),
             sample: own.sample.or(base.sample),
+            pictures: own.pictures.or(base.pictures),
             frames: own.frames.or(base.frames),
             precision: own.precision.or(base.precision),
         }

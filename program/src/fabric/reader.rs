@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::{CaseFile, SceneFile};
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{Source, same_files};
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
@@ -78,7 +78,7 @@ impl Source<'_> {
         };
         let text = name.get_ref();
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        let taken = text == "summary" || others.iter().any(|other| other.name.eq_ignore_ascii_case(text));
+        let taken = text == "summary" || others.iter().any(|other| same_files(&other.name, text, "-panel-"));
         if text.is_empty() || taken || !text.chars().all(plain) {
             return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
         }
@@ -139,6 +139,7 @@ impl Reader<'_> {
             control: Control { by_direction: true, ..self.source.control(&file.hourglass, &file.viscosity)? },
             end,
             sample,
+            pictures: self.source.pictures(&file.pictures, &name, end)?,
             frames: self.frames()?,
             single_precision: file.precision == Some(Precision::F32),
             name,

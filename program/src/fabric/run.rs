@@ -9,7 +9,9 @@ use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::energies::Cost;
 use crate::explicit::lanes::Number;
+use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
+use crate::explicit::vtu;
 use crate::weave::model::Model;
 
 /// A run whose total energy moves by more than this part of itself is not stable.
@@ -33,7 +35,10 @@ pub enum End {
 #[derive(Debug)]
 pub struct Outcome {
     pub samples: Vec<Sample>,
+    pub snapshots: Vec<Snapshot>,
     pub end: End,
+    /// When the first element failed.
+    pub failed: Option<f64>,
     /// Why it could not go on.
     pub failure: Option<Error>,
     pub elements: usize,
@@ -60,6 +65,14 @@ fn imbalance(samples: &[Sample]) -> f64 {
 pub trait Observer {
     /// After each sample.
     fn progress(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) {}
+
+    /// The text of a VTU file, and its time.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn frame(&mut self, _time: f64, _text: &str) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 impl Observer for () {}
@@ -70,9 +83,9 @@ impl Observer for () {}
 /// A material that the host cannot use.
 pub fn run(scene: &Scene, case: &Case, panel: &Model, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
     if case.single_precision {
-        Ok(Run { scene, case, panel, solver: solver::<f32>(scene, case, panel)? }.run(observer))
+        Ok(Run::new(scene, case, panel, solver::<f32>(scene, case, panel)?).run(observer))
     } else {
-        Ok(Run { scene, case, panel, solver: solver::<f64>(scene, case, panel)? }.run(observer))
+        Ok(Run::new(scene, case, panel, solver::<f64>(scene, case, panel)?).run(observer))
     }
 }
 
@@ -81,9 +94,15 @@ struct Run<'a, T> {
     case: &'a Case,
     panel: &'a Model,
     solver: Solver<T>,
+    snapshots: Vec<Snapshot>,
+    failed: Option<f64>,
 }
 
-impl<T: Number> Run<'_, T> {
+impl<'a, T: Number> Run<'a, T> {
+    fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, solver: Solver<T>) -> Self {
+        Run { scene, case, panel, solver, snapshots: Vec::new(), failed: None }
+    }
+
     fn run(mut self, observer: &mut (dyn Observer + Send)) -> Outcome {
         let begun = Instant::now();
         let mut samples = Vec::new();
@@ -91,6 +110,8 @@ impl<T: Number> Run<'_, T> {
         let end = rayon::scope(|_| self.steps(&mut samples, observer));
         Outcome {
             samples,
+            snapshots: self.snapshots,
+            failed: self.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
             failure: end.err(),
             elements: self.panel.elements.len(),
@@ -104,16 +125,25 @@ impl<T: Number> Run<'_, T> {
         let start = self.solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
         let share = share(self.scene);
         self.solver.all_outputs = false;
-        let (mut next, mut last_contact) = (0.0, 0.0);
+        let (mut next, mut next_frame, mut last_contact) = (0.0, 0.0, 0.0);
+        let frame = self.case.end / self.case.frames.max(1) as f64;
+        let mut pictures = self.case.pictures.clone();
+        pictures.sort_by(|a, b| b.total_cmp(a));
         loop {
             let time = self.solver.time;
             let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
             let end = self.end(reached(self.case.end), time - last_contact);
             let sampled = reached(next) || end.is_some();
+            let drawn = pictures.last().is_some_and(|&picture| reached(picture));
+            let framed = self.case.frames > 0 && reached(next_frame);
             let left = if reached(self.case.end) { self.case.end } else { self.case.end - time };
-            self.solver.accelerate(sampled, left).map_err(|error| self.error(&error.to_string()))?;
+            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
                 last_contact = time;
+            }
+            let failed = || self.solver.bodies.iter().any(|yarn| yarn.deleted.len() > yarn.collapsed);
+            if self.failed.is_none() && failed() {
+                self.failed = Some(time);
             }
             if sampled {
                 let sample = measure(self.panel, &self.solver, share, start);
@@ -125,6 +155,14 @@ impl<T: Number> Run<'_, T> {
                     let moved = number(100.0 * imbalance);
                     return Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")));
                 }
+            }
+            if drawn {
+                pictures.pop();
+                self.snapshots.push(Snapshot::of(&self.solver, self.case.sphere.radius));
+            }
+            if framed {
+                next_frame += frame;
+                observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
             }
             if let Some(end) = end {
                 return Ok(end);

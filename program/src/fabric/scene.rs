@@ -31,6 +31,8 @@ pub struct Case {
     pub end: f64,
     /// Time between two samples of the history.
     pub sample: f64,
+    /// When the panel is drawn.
+    pub pictures: Vec<f64>,
     /// How many files ParaView gets after the first.
     pub frames: usize,
     pub single_precision: bool,

@@ -9,7 +9,7 @@ use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Precision, Scene, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Tension};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{Source, same_files};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
@@ -80,7 +80,7 @@ impl Source<'_> {
         };
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         let taken = SUMMARIES.contains(&name.get_ref().as_str())
-            || others.iter().any(|other| same_files(&other.name, name.get_ref()));
+            || others.iter().any(|other| same_files(&other.name, name.get_ref(), "-yarn-"));
         if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
             return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
         }
@@ -108,15 +108,6 @@ impl Source<'_> {
 
 /// Names of the files that the cases have in common.
 const SUMMARIES: [&str; 2] = ["summary", "residual-speed"];
-
-/// Whether two cases would write the same files, one the other's pictures.
-fn same_files(one: &str, other: &str) -> bool {
-    let picture_of = |case: &str, name: &str| {
-        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix("-yarn-"));
-        number.is_some_and(|number| number.parse::<usize>().is_ok())
-    };
-    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
-}
 
 /// A case's table and what is needed to read it.
 struct Reader<'a> {
@@ -176,7 +167,7 @@ impl Reader<'_> {
             speed: self.speed(zones.inner())?,
             end,
             sample,
-            pictures: self.pictures(&name, end)?,
+            pictures: self.source.pictures(&file.pictures, &name, end)?,
             name,
             frames: self.count("frames", &file.frames, [0, MOST_FRAMES], Some(0))?,
             control: self.source.control(&file.hourglass, &file.viscosity)?,
@@ -250,20 +241,6 @@ impl Reader<'_> {
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         let mass = if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? };
         Ok(Striker::Cylinder { cylinder, mass, held })
-    }
-
-    /// The case is named: the times may be the scene's, the end its own.
-    fn pictures(&self, case: &str, end: f64) -> Result<Vec<f64>, Error> {
-        let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
-        for &time in times.get_ref() {
-            if !(time > 0.0 && time <= end) {
-                let message = format!(
-                    "a time of pictures is {time}; allowed: a number > 0, up to end = {end} of case \"{case}\""
-                );
-                return Err(self.source.error(times.span(), &message));
-            }
-        }
-        Ok(times.get_ref().clone())
     }
 
     fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {

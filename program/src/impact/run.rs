@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::outcome::{End, Outcome, STATIONS, Sample, Snapshot, imbalance};
+use super::outcome::{End, Outcome, STATIONS, Sample, imbalance};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::common::error::Error;
@@ -13,6 +13,7 @@ use crate::explicit::energies::Energies;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::projectile::Projectile;
+use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use crate::material::model::Material;
@@ -131,11 +132,11 @@ impl<'a, T: Number> Run<'a, T> {
             }
             if drawn {
                 pictures.pop();
-                self.snapshots.push(self.snapshot(time));
+                self.snapshots.push(Snapshot::of(&self.solver, self.radius()));
             }
             if framed {
                 next_frame += frame;
-                observer.frame(time, &vtu::unstructured_grid(self.yarn(), &self.solver.media))?;
+                observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
             }
             if let Some(end) = end {
                 break end;
@@ -157,18 +158,6 @@ impl<'a, T: Number> Run<'a, T> {
             smith: self.smith,
             mesh: self.solver.bodies.swap_remove(0).mesh,
         })
-    }
-
-    fn snapshot(&self, time: f64) -> Snapshot {
-        let yarn = self.yarn();
-        let elements = 0..yarn.mesh.elements.len();
-        Snapshot {
-            time,
-            positions: (0..yarn.mesh.nodes.len()).map(|node| yarn.position(node)).collect(),
-            intact: elements.clone().map(|i| yarn.is_intact(i)).collect(),
-            densities: elements.map(|i| yarn.energy_densities(&self.solver.media, i)).collect(),
-            projectile: self.solver.projectile.as_ref().map(|p| (p.position, self.radius())),
-        }
     }
 
     /// The only body.

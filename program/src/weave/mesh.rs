@@ -3,14 +3,8 @@
 use std::ops::Range;
 
 use super::geometry::{Family, Geometry, Weave};
-use super::model::{Crossing, Face, Model, Side, Yarn};
+use super::model::{Crossing, Face, LEFT, LOWER, Model, RIGHT, Side, UPPER, Yarn};
 use super::panel::{Centre, Panel, Part, Place};
-
-/// Faces of an element, by the corners that stand counterclockwise seen from outside.
-const UPPER: [usize; 4] = [2, 6, 7, 3];
-const LOWER: [usize; 4] = [0, 1, 5, 4];
-const LEFT: [usize; 4] = [0, 2, 3, 1];
-const RIGHT: [usize; 4] = [4, 5, 7, 6];
 
 impl Model {
     /// Meshes a panel of a weave.

@@ -21,6 +21,7 @@ pub mod reader;
 pub mod report;
 pub mod section;
 pub mod solve;
+pub mod surface;
 #[cfg(test)]
 mod tests;
 pub mod vtu;

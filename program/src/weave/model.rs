@@ -4,6 +4,14 @@ use std::ops::Range;
 
 use super::geometry::Family;
 
+/// Faces of an element, by the corners that stand counterclockwise seen from outside.
+pub const UPPER: [usize; 4] = [2, 6, 7, 3];
+pub const LOWER: [usize; 4] = [0, 1, 5, 4];
+pub const LEFT: [usize; 4] = [0, 2, 3, 1];
+pub const RIGHT: [usize; 4] = [4, 5, 7, 6];
+pub const START: [usize; 4] = [0, 4, 6, 2];
+pub const END: [usize; 4] = [1, 3, 7, 5];
+
 /// Which way a face looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {

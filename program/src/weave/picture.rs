@@ -5,14 +5,17 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::above::{self, Lit};
+use super::cut;
 use super::geometry::Family;
 use super::model::Model;
 use super::reader::Scene;
-use super::{above, cut};
+use super::surface::{self, Visible};
 use crate::common::error::Error;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, text};
+use crate::picture::view::View;
 
 const WIDTH: i32 = 1280;
 const LEFT: i32 = 24;
@@ -33,37 +36,12 @@ const FOOT: i32 = 36;
 const LARGEST: f64 = 40.0;
 const MIDDLE: f64 = 4.0;
 const CUT: f64 = 6.0;
+/// How much a slope towards the light or away changes the brightness, and what the lowest lose.
+const CONTRAST: f64 = 1.5;
+const DEPTH: f64 = 0.45;
 
-pub fn colour(family: Family) -> RGBColor {
+fn colour(family: Family) -> RGBColor {
     if family == Family::Warp { COLOURS[0] } else { COLOURS[4] }
-}
-
-/// A part of the panel and where the picture has it: lower left corner, scale in units of the picture, place of the corner.
-#[derive(Clone, Copy)]
-pub struct View {
-    pub low: [f64; 2],
-    pub high: [f64; 2],
-    pub scale: f64,
-    pub corner: [f64; 2],
-}
-
-impl View {
-    pub fn place(&self, [x, y]: [f64; 2]) -> (i32, i32) {
-        let left = self.corner[0] + self.scale * (x - self.low[0]);
-        let down = self.corner[1] - self.scale * (y - self.low[1]);
-        ((left * f64::from(fine(1))).round() as i32, (down * f64::from(fine(1))).round() as i32)
-    }
-
-    /// A square of the picture that shows this part, in its middle.
-    fn square(left: i32, low: [f64; 2], high: [f64; 2]) -> View {
-        let [width, height] = [high[0] - low[0], high[1] - low[1]];
-        let scale = f64::from(VIEW) / width.max(height);
-        let corner = [
-            f64::from(left) + 0.5 * (f64::from(VIEW) - scale * width),
-            f64::from(VIEW_TOP) + 0.5 * (f64::from(VIEW) + scale * height),
-        ];
-        View { low, high, scale, corner }
-    }
 }
 
 /// Draws the panel.
@@ -78,16 +56,21 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     let right = LEFT + VIEW + (WIDTH - 2 * LEFT - 2 * VIEW);
     let [panel, middle] = [(LEFT, LARGEST), (right, MIDDLE)].map(|(left, pitches)| {
         let [low, high] = bounds(model, pitches * pitch);
-        View::square(left, low, high)
+        View::square([left, VIEW_TOP], VIEW, low, high)
     });
     let [low, high] = bounds(model, CUT * pitch);
-    let scale = f64::from(WIDTH - 2 * LEFT) / (high[0] - low[0]);
     let heights = || model.nodes.iter().map(|node| node[2]);
     let [lowest, highest] = [heights().fold(f64::INFINITY, f64::min), heights().fold(f64::NEG_INFINITY, f64::max)];
     let below = VIEW_TOP + VIEW + CUT_BELOW;
-    let bottom = f64::from(below) + scale * (highest - lowest);
-    let cut = View { low: [low[0], lowest], high: [high[0], highest], scale, corner: [f64::from(LEFT), bottom] };
-    let height = bottom.ceil() as i32 + RULER_BELOW + FOOT;
+    let cut = View::strip([LEFT, below], WIDTH - 2 * LEFT, [low[0], lowest], [high[0], highest]);
+    let bottom = cut.corner[1].ceil() as i32;
+    let height = bottom + RULER_BELOW + FOOT;
+    let sides = surface::visible(model, &model.nodes, |_| true);
+    let family: Vec<Family> = model.yarns.iter().flat_map(|yarn| yarn.elements.clone().map(|_| yarn.family)).collect();
+    let shade = |side: &Visible, lit: Lit| {
+        let depth = 0.5 * (1.0 - lit.height / highest);
+        above::brightened(colour(family[side.element]), 1.0 + CONTRAST * lit.light - DEPTH * depth)
+    };
     page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         draw_legend(root)?;
@@ -97,21 +80,19 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
             "A part of the panel from above"
         };
         let rulers_top = VIEW_TOP + VIEW + RULER_BELOW;
-        for (left, name, view, by_column) in
-            [(LEFT, of_part, &panel, false), (right, "Its middle, face by face", &middle, true)]
-        {
+        for (left, name, view) in [(LEFT, of_part, panel), (right, "Its middle", middle)] {
             draw_heading(root, name, left, HEADING_TOP)?;
-            above::draw(root, view, model, by_column)?;
+            above::draw(root, view, &sides, &[[1.0; 3]], shade)?;
             ruler::draw(root, [left, rulers_top], view.scale, unit)?;
         }
         draw_heading(root, "Cut through the axis of a warp yarn", LEFT, VIEW_TOP + VIEW + CUT_HEADING)?;
-        cut::draw(root, &cut, model)?;
-        ruler::draw(root, [LEFT, bottom.ceil() as i32 + RULER_BELOW], scale, unit)
+        cut::draw(root, &cut, &cut::pieces(model, &model.nodes), |piece| Some(colour(piece.family)))?;
+        ruler::draw(root, [LEFT, bottom + RULER_BELOW], cut.scale, unit)
     })
 }
 
 /// The panel's bounds, or those of a square of this size in its middle; that of a quarter is its corner at the origin.
-fn bounds(model: &Model, size: f64) -> [[f64; 2]; 2] {
+pub fn bounds(model: &Model, size: f64) -> [[f64; 2]; 2] {
     let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
     for node in &model.nodes {
         for axis in 0..2 {

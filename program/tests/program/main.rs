@@ -14,6 +14,7 @@ mod documents;
 mod eval;
 mod examples;
 mod fabric;
+mod fabric_files;
 #[allow(dead_code)]
 mod hexahedra;
 mod identify;
