@@ -12,8 +12,6 @@
 //! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1, and B the other moduli
 //! and twice the largest stress, which the spin of its frame takes along.
 
-#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
-
 use super::lanes::{LANES, Lanes, Number, dot, load, times};
 use crate::material::model::{Law, Material};
 

@@ -7,6 +7,8 @@
 //!
 //! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
 
+#![expect(clippy::needless_range_loop, reason = "loops over the components of vectors")]
+
 mod face;
 mod search;
 mod surface;
@@ -212,7 +214,7 @@ impl MutualContact {
             .map(|side| (std::mem::take(&mut side.pairs), std::mem::take(&mut side.touching)))
             .collect();
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        let press = |(number, ((pairs, touching), body)): (usize, (&mut (Vec<Pair>, Vec<f64>), &mut Body<T>))| {
+        let press = |number: usize, pairs: &mut [Pair], touching: &mut [f64], body: &mut Body<T>| {
             touching.fill(0.0);
             let (mut stored, mut dissipated) = (0.0, 0.0);
             let own = surfaces[number];
@@ -232,7 +234,9 @@ impl MutualContact {
             }
             (stored, dissipated)
         };
-        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
+        let work = taken.par_iter_mut().zip(bodies).enumerate();
+        let energies: Vec<(f64, f64)> =
+            work.map(|(number, ((pairs, touching), body))| press(number, pairs, touching, body)).collect();
         for ((side, (pairs, touching)), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
             (side.pairs, side.touching, side.stored) = (pairs, touching, stored);
             side.dissipated += dissipated;
