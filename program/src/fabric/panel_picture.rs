@@ -27,11 +27,11 @@ const BETWEEN: i32 = 20;
 const TITLE_TOP: i32 = 16;
 const TIME_TOP: i32 = 50;
 /// Of a mode: the middle of its scale of colours, how far its name indents that, and its width.
-const SCALE_MIDDLE: i32 = 92;
+const SCALE_MIDDLE: i32 = 88;
 const SCALE_INDENT: i32 = 106;
 const SCALE_WIDTH: i32 = 140;
 /// The views from above and from below: names over them, squares, a ruler under them.
-const VIEWS_TOP: i32 = 116;
+const VIEWS_TOP: i32 = 120;
 const NAME: i32 = 26;
 const LARGEST_VIEW: i32 = 604;
 const RULER_BELOW: i32 = 18;

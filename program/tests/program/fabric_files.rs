@@ -1,11 +1,11 @@
-//! `toron fabric` on a panel of two crossings: its files, its report, and what it refuses.
+//! What `toron fabric` writes: on a panel of two crossings its files and its report, and which keys it refuses.
 
 use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::library::{ROOT, folder};
 
-/// A warp yarn on the axis between two weft yarns of a quarter, struck for a microsecond.
+/// Of a quarter, a warp yarn on the axis and the two weft yarns that it crosses, struck for a microsecond.
 const SCENE: &str = r#"title = "Two crossings"
 units = "mm-g-ms"
 
@@ -88,13 +88,13 @@ fn wrong_keys_are_named() {
         (
             "pictures = [0.001, 0.0005]",
             "pictures = [0.0005, 0.002]",
-            "scene.toml:22: a time of pictures is 0.002; allowed: a number > 0, up to end = 0.001 of case \"yarns\"",
+            "scene.toml:21: a time of pictures is 0.002; allowed: a number > 0, up to end = 0.001 of case \"yarns\"",
         ),
-        ("frames = 2", "frames = -1", "scene.toml:23: frames is -1; allowed: a whole number from 0 to 9999"),
+        ("frames = 2", "frames = -1", "scene.toml:22: frames is -1; allowed: a whole number from 0 to 9999"),
         (
             "name = \"linear\"",
             "name = \"yarns-panel-2\"",
-            "scene.toml:32: case \"yarns-panel-2\"; allowed: a name of its own",
+            "scene.toml:31: case \"yarns-panel-2\"; allowed: a name of its own",
         ),
     ]
     .into_iter()
