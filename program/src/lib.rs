@@ -10,7 +10,9 @@
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
+//! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
 //!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].
 
@@ -21,9 +23,11 @@ pub mod deck;
 pub mod entries;
 pub mod eval;
 pub mod explicit;
+pub mod fabric;
 pub mod identify;
 pub mod impact;
 pub mod load_path;
 pub mod material;
 pub mod params;
 pub mod picture;
+pub mod weave;

@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand};
 use toron_program::common::console::print_error;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, cell, deck, eval, identify, impact, load_path, params};
+use toron_program::{bench, cell, deck, eval, fabric, identify, impact, load_path, params, weave};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -48,6 +48,14 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
+    /// Strike a woven panel by a sphere.
+    Fabric {
+        /// The scene (see docs/fabric.md and examples/fabric_impact/).
+        scene: PathBuf,
+        /// Where the histories and pictures go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
     /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
     Fit {
         /// The data and what is known besides (see docs/identification.md and examples/identification/).
@@ -78,6 +86,14 @@ enum Command {
         #[arg(long)]
         ccx: Option<PathBuf>,
     },
+    /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
+    Weave {
+        /// The weave (see docs/fabric.md and examples/fabric_impact/).
+        scene: PathBuf,
+        /// Where the files go.
+        #[arg(short, long, default_value = "toron-out")]
+        output: PathBuf,
+    },
     /// Measure what a point costs on this machine; takes about half a minute.
     Bench {
         /// Where to write the figures as bench.json.
@@ -93,9 +109,11 @@ fn main() -> ExitCode {
         Command::Deck(arguments) => deck::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
+        Command::Fabric { scene, output } => fabric::command::run(&scene, &output),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),
+        Command::Weave { scene, output } => weave::command::run(&scene, &output),
         Command::Bench { output } => bench::command::run(output.as_deref()),
     };
     match answer {

@@ -55,12 +55,35 @@ impl Source<'_> {
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
     }
 
+    /// Times at which pictures are drawn. The case is named: the times may be the scene's, the end its own.
+    pub fn pictures(&self, times: &Option<Spanned<Vec<f64>>>, case: &str, end: f64) -> Result<Vec<f64>, Error> {
+        let Some(times) = times else { return Ok(Vec::new()) };
+        for &time in times.get_ref() {
+            if !(time > 0.0 && time <= end) {
+                let message = format!(
+                    "a time of pictures is {time}; allowed: a number > 0, up to end = {end} of case \"{case}\""
+                );
+                return Err(self.error(times.span(), &message));
+            }
+        }
+        Ok(times.get_ref().clone())
+    }
+
     pub fn finite(&self, what: &str, value: f64, span: Range<usize>) -> Result<f64, Error> {
         if value.is_finite() {
             return Ok(value);
         }
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number")))
     }
+}
+
+/// Whether two cases would write the same files, one the other's pictures, which have this between name and number.
+pub fn same_files(one: &str, other: &str, pictures: &str) -> bool {
+    let picture_of = |case: &str, name: &str| {
+        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix(pictures));
+        number.is_some_and(|number| number.parse::<usize>().is_ok())
+    };
+    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
 }
 
 /// A list of so many numbers. The parser would pass over what comes after them.

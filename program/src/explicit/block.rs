@@ -8,6 +8,7 @@ use super::lanes::{LANES, Lanes, Number, largest};
 use super::medium::{Entry, Medium};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
+use super::wave_bounds::Section;
 use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
@@ -142,20 +143,23 @@ pub struct ElementBlock<T> {
 }
 
 impl<T: Number> ElementBlock<T> {
-    pub fn new(elements: &[[u32; 8]], first: usize, coordinates: &[[f64; 3]], medium: usize, of: &Medium<T>) -> Self {
-        let shapes = Shapes::<T>::new(elements, coordinates, of.hourglass);
+    pub fn new(
+        elements: &[[u32; 8]],
+        fibre: &[[f64; 3]],
+        first: usize,
+        coordinates: &[[f64; 3]],
+        medium: usize,
+        of: &Medium<T>,
+    ) -> Self {
+        let shapes = Shapes::<T>::new(elements, fibre, coordinates, of.hourglass);
         let (stride, one) = (shapes.stride, T::from_f64(1.0));
-        let mut f_old = vec![T::default(); 9 * stride];
-        for diagonal in [0, 4, 8] {
-            f_old[diagonal * stride..(diagonal + 1) * stride].fill(one);
-        }
         ElementBlock {
             first,
             medium,
             state: vec![T::default(); of.state().0 * stride],
             intact: vec![one; stride],
             viscosity: Viscosity::new(&shapes),
-            f_old,
+            f_old: shapes.at_rest(),
             shapes,
         }
     }
@@ -254,6 +258,12 @@ impl<T: Number> ElementBlock<T> {
         let (zero, one, four) = (Lanes::zero(), Lanes::constant(1.0), Lanes::constant(4.0));
         // Hourglass modes and bulk share the nodes, and may add up in a skewed element.
         let hourglass = Lanes::constant(self.shapes.hourglass_frequency / medium.density);
+        let section = Section {
+            volume_ratio: &scratch.measures.volume_ratio,
+            stretch_square: &scratch.measures.stretch_square,
+            metric: &scratch.measures.metric,
+        };
+        let per_density = Lanes::constant(1.0 / medium.density);
         let (square, twice) = (Lanes::constant(shortest * shortest), Lanes::constant(2.0 * shortest));
         // A largest number drops what is NaN, a sum does not.
         let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
@@ -262,7 +272,14 @@ impl<T: Number> ElementBlock<T> {
             let active = scratch.measures.active(&self.intact, first);
             let speed = Lanes::at(&scratch.wave_speed, first);
             let spread = Lanes::at(&scratch.measures.spread, first);
-            let stiffness = (hourglass + speed * speed * spread).only_where(active);
+            let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
+            let bulk = match medium.bounds.at(f, stress, &section, self.shapes.stride, first) {
+                None => speed * speed * spread,
+                Some([along, across]) => {
+                    (along * Lanes::at(&scratch.measures.spread_along, first) + across * spread) * per_density
+                }
+            };
+            let stiffness = (hourglass + bulk).only_where(active);
             let damping = Lanes::at(&scratch.measures.damping, first).only_where(active);
             (stiffest, most_damped) = (stiffest.max(stiffness), most_damped.max(damping));
             sum = sum + stiffness + damping;

@@ -1,12 +1,31 @@
-//! A rigid cylinder across the yarn, against the nodes of its surface: penalty and Coulomb friction.
+//! A rigid cylinder or sphere against the nodes of a body's surface: penalty and Coulomb friction.
 
 use nalgebra::Vector3;
 
 use super::lanes::Number;
 
-/// The cylinder and its contact parameters. Its axis lies across the yarn; it moves along axis 1 alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Its axis lies along axis 2; it moves along axis 1.
+    Cylinder,
+    /// It moves along axis 2.
+    Sphere,
+}
+
+impl Shape {
+    /// The axis along which it moves.
+    pub fn direction(self) -> usize {
+        match self {
+            Shape::Cylinder => 1,
+            Shape::Sphere => 2,
+        }
+    }
+}
+
+/// What strikes, and the parameters of its contact. It moves along one axis, through the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cylinder {
+pub struct Rigid {
+    pub shape: Shape,
     pub radius: f64,
     /// Pressure by depth of penetration: the same contact whatever the mesh.
     pub stiffness: f64,
@@ -31,7 +50,7 @@ struct Node {
 /// The surface, and what the contact has done so far.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    cylinder: Cylinder,
+    striker: Rigid,
     nodes: Vec<Node>,
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
@@ -46,11 +65,11 @@ pub struct Contact {
 
 impl Contact {
     /// Nodes with a share of the surface take part.
-    pub fn new(cylinder: Cylinder, reference: &[[f64; 3]], surface: &[f64], mass: &[f64]) -> Self {
+    pub fn new(striker: Rigid, reference: &[[f64; 3]], surface: &[f64], mass: &[f64]) -> Self {
         let met = (0..reference.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
             number: i as u32,
-            stiffness: cylinder.stiffness * surface[i],
+            stiffness: striker.stiffness * surface[i],
             reference: reference[i].into(),
             friction: Vector3::zeros(),
             displacement: Vector3::zeros(),
@@ -58,7 +77,7 @@ impl Contact {
         };
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { cylinder, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
+        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
@@ -68,15 +87,15 @@ impl Contact {
         self.nodes.retain(|node| !gone(node.number as usize));
     }
 
-    /// Adds the contact's forces to the nodes' and returns the force on the cylinder along axis 1. `axis` is the height of
-    /// the cylinder's axis, `moved` how far it has moved in the step that led here.
-    pub fn apply<T: Number>(&mut self, axis: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
+    /// Adds the contact's forces to the nodes' and returns the force on the striker along its direction. `centre` is where it
+    /// is on that axis, `moved` how far it has moved in the step that led here.
+    pub fn apply<T: Number>(&mut self, centre: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
         (self.stored, self.touching) = (self.released, 0.0);
         let mut total = 0.0;
         for node in &mut self.nodes {
             let [x, y, z] = displacement[node.number as usize];
             let displacement = Vector3::new(x.into(), y.into(), z.into());
-            let (pressing, dissipated) = node.update(&self.cylinder, axis, moved, displacement);
+            let (pressing, dissipated) = node.update(&self.striker, centre, moved, displacement);
             self.dissipated += dissipated;
             let Some(pressing) = pressing else { continue };
             self.stored += node.stored;
@@ -86,45 +105,50 @@ impl Contact {
             for i in 0..3 {
                 nodal[i] += T::from_f64(force[i]);
             }
-            total -= force.y;
+            total -= force[self.striker.shape.direction()];
         }
         total
     }
 }
 
 impl Node {
-    /// Moves the node to its new displacement; returns the force that presses it outwards, if it is inside the cylinder, and
+    /// Moves the node to its new displacement; returns the force that presses it outwards, if it is inside the striker, and
     /// what slipping has dissipated.
     ///
     /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
     /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
     fn update(
         &mut self,
-        cylinder: &Cylinder,
-        axis: f64,
+        striker: &Rigid,
+        centre: f64,
         moved: f64,
         displacement: Vector3<f64>,
     ) -> (Option<Vector3<f64>>, f64) {
-        let step = displacement - self.displacement - Vector3::new(0.0, moved, 0.0);
+        let direction = striker.shape.direction();
+        let mut step = displacement - self.displacement;
+        step[direction] -= moved;
         self.displacement = displacement;
-        let position = self.reference + displacement;
-        let [x, y] = [position.x, position.y - axis];
-        let square = x * x + y * y;
+        // From the striker's axis or centre.
+        let mut from = self.reference + displacement;
+        from[direction] -= centre;
+        if striker.shape == Shape::Cylinder {
+            from.z = 0.0;
+        }
+        let square = from.dot(&from);
         let old = self.friction;
         let had_friction = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
-        if square >= cylinder.radius * cylinder.radius && !had_friction {
+        if square >= striker.radius * striker.radius && !had_friction {
             self.stored = 0.0;
             return (None, 0.0);
         }
         let distance = square.sqrt();
-        // A node on the axis itself is pressed down.
-        let normal =
-            if distance > 0.0 { Vector3::new(x / distance, y / distance, 0.0) } else { Vector3::new(0.0, -1.0, 0.0) };
-        let depth = (cylinder.radius - distance).max(0.0);
+        // A node at the centre itself is pressed along the axis, downwards.
+        let normal = if distance > 0.0 { from / distance } else { -Vector3::ith(direction, 1.0) };
+        let depth = (striker.radius - distance).max(0.0);
         let force = self.stiffness * depth;
         let trial = tangential(old - self.stiffness * step, normal);
         let size = trial.dot(&trial).sqrt();
-        let limit = cylinder.friction * force;
+        let limit = striker.friction * force;
         self.friction = if size > limit { trial * (limit / size) } else { trial };
         let elastic_energy = |friction: Vector3<f64>| 0.5 * friction.dot(&friction) / self.stiffness;
         let (before, after) = (elastic_energy(old), elastic_energy(self.friction));
@@ -142,7 +166,7 @@ fn tangential(v: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
 mod tests {
     use super::*;
 
-    const CYLINDER: Cylinder = Cylinder { radius: 1.0, stiffness: 100.0, friction: 0.5 };
+    const CYLINDER: Rigid = Rigid { shape: Shape::Cylinder, radius: 1.0, stiffness: 100.0, friction: 0.5 };
 
     /// A node of unit surface and mass, a tenth inside the cylinder, whose axis is at this height.
     const AXIS: f64 = 0.9;
@@ -185,6 +209,23 @@ mod tests {
         step(&mut contact, AXIS + 1.0, 1.0, [0.0, 0.0, 1.0]);
         assert_close(contact.stored, 0.0);
         assert_close(contact.dissipated, 5.0 * 0.95 + 0.5 * 5.0 * 0.05);
+    }
+
+    #[test]
+    fn a_sphere_presses_towards_its_surface() {
+        let sphere = Rigid { shape: Shape::Sphere, ..CYLINDER };
+        let reference = [0.48, 0.0, 0.64];
+        let mut contact = Contact::new(sphere, &[reference], &[1.0], &[1.0]);
+        let mut forces = [[0.0; 3]];
+        // A fifth inside, then slid along the sphere's equator.
+        let on_sphere = contact.apply(0.0, 0.0, &[[0.0; 3]], &mut forces);
+        for (found, expected) in forces[0].into_iter().zip([0.6 * 20.0, 0.0, 0.8 * 20.0]) {
+            assert_close(found, expected);
+        }
+        assert_close(on_sphere, -16.0);
+        let mut forces = [[0.0; 3]];
+        contact.apply(0.0, 0.0, &[[0.0, 1e-3, 0.0]], &mut forces);
+        assert!(f64::abs(forces[0][1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {forces:?}");
     }
 
     #[test]

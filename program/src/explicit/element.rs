@@ -57,6 +57,9 @@ pub struct Shapes<T> {
     pub n: usize,
     pub stride: usize,
     pub nodes: Vec<[u32; 8]>,
+    /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers to, the
+    /// fibre's first.
+    axes: Vec<T>,
     /// 9 components by columns: ⅛ ∂ξ_k/∂X_j, entry k + 3j.
     inverse: Vec<T>,
     /// 12: mode α of X_j, entry α + 4j.
@@ -69,6 +72,15 @@ pub struct Shapes<T> {
     gradients: Vec<T>,
     /// The largest square of a frequency of the hourglass modes, times the density.
     pub hourglass_frequency: f64,
+}
+
+/// Unit vectors at right angles, the fibre's direction first and then, as nearly as that allows, the third axis.
+fn axes_of(fibre: [f64; 3]) -> [[f64; 3]; 3] {
+    let m = nalgebra::Vector3::from(fibre).normalize();
+    // A fibre along the third axis has the second one beside it.
+    let up = nalgebra::Vector3::ith(if m.z.abs() < 0.9 { 2 } else { 1 }, 1.0);
+    let n = (up - up.dot(&m) * m).normalize();
+    [m.into(), n.into(), m.cross(&n).into()]
 }
 
 /// The reference shape of one element.
@@ -105,15 +117,20 @@ impl Shape {
 }
 
 impl<T: Number> Shapes<T> {
-    /// A block of elements. `coordinates` are the nodes in the reference placement, `modulus` is what hourglass modes are
-    /// held by.
-    pub fn new(elements: &[[u32; 8]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
+    /// A block of elements. `fibre` is its unit direction in each, or empty where that is axis 0 in all; `coordinates` are the
+    /// nodes in the reference placement, `modulus` is what hourglass modes are held by.
+    ///
+    /// X is taken in axes of each element, of which the first is the fibre's: F then has the fibre's image as its first column,
+    /// which is what the laws take for it, and differs from the usual one by a rotation of the reference placement, which they do
+    /// not see otherwise.
+    pub fn new(elements: &[[u32; 8]], fibre: &[[f64; 3]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
         let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
         let array = |components: usize| vec![T::default(); components * stride];
         let mut block = Shapes {
             n,
             stride,
             nodes: elements.to_vec(),
+            axes: Vec::new(),
             inverse: array(9),
             hourglass: array(12),
             volume: array(1),
@@ -122,8 +139,22 @@ impl<T: Number> Shapes<T> {
             hourglass_frequency: 0.0,
         };
         block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
+        if !fibre.is_empty() {
+            block.axes = block.at_rest();
+        }
         for (i, element) in elements.iter().enumerate() {
-            let shape = Shape::new(element.map(|node| coordinates[node as usize]));
+            let corners = element.map(|node| coordinates[node as usize]);
+            let shape = match fibre.get(i) {
+                Some(&fibre) => {
+                    let axes = axes_of(fibre);
+                    for (c, entry) in axes.as_flattened().iter().enumerate() {
+                        block.axes[c * stride + i] = T::from_f64(*entry);
+                    }
+                    let along = |x: [f64; 3], axis: [f64; 3]| x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2];
+                    Shape::new(corners.map(|x| axes.map(|axis| along(x, axis))))
+                }
+                None => Shape::new(corners),
+            };
             for j in 0..3 {
                 for k in 0..3 {
                     block.inverse[(k + 3 * j) * stride + i] = T::from_f64(shape.inverse[j][k]);
@@ -144,6 +175,18 @@ impl<T: Number> Shapes<T> {
             }
         }
         block
+    }
+
+    /// F by columns before anything has moved.
+    pub fn at_rest(&self) -> Vec<T> {
+        if !self.axes.is_empty() {
+            return self.axes.clone();
+        }
+        let mut f = vec![T::default(); 9 * self.stride];
+        for diagonal in [0, 4, 8] {
+            f[diagonal * self.stride..(diagonal + 1) * self.stride].fill(T::from_f64(1.0));
+        }
+        f
     }
 
     /// Length of an element along axis 0: for a prism of this axis, 8 Σ(∂N/∂X)² is 4 over its square.
@@ -171,8 +214,12 @@ impl<T: Number> Shapes<T> {
                 let mut h = [Lanes::zero(); 3];
                 for j in 0..3 {
                     h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
-                    let identity = Lanes::constant(if i == j { 1.0 } else { 0.0 });
-                    (identity + h[j]).store(f, (i + 3 * j) * stride + first);
+                    let axis = if self.axes.is_empty() {
+                        Lanes::constant(if i == j { 1.0 } else { 0.0 })
+                    } else {
+                        Lanes::at(&self.axes, (i + 3 * j) * stride + first)
+                    };
+                    (axis + h[j]).store(f, (i + 3 * j) * stride + first);
                 }
                 for mode in 0..4 {
                     let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
@@ -369,7 +416,7 @@ mod tests {
 
     #[test]
     fn a_linear_field_has_its_gradient_and_no_hourglass() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &[], &NODES, MODULUS);
         let h = nalgebra::Matrix3::new(0.1, -0.3, 0.2, 0.4, 0.05, -0.1, -0.2, 0.3, -0.15);
         let field: Vec<[f64; 3]> = NODES.iter().map(|&x| (h * nalgebra::Vector3::from(x)).into()).collect();
         let state = deform(&shapes, &field);
@@ -382,8 +429,34 @@ mod tests {
     }
 
     #[test]
+    fn axes_of_its_own_turn_the_reference_placement_and_nothing_else() {
+        let fibre = [0.6, 0.0, 0.8];
+        let [plain, turned] =
+            [&[][..], &[fibre, fibre]].map(|fibre| Shapes::<f64>::new(&ELEMENTS, fibre, &NODES, MODULUS));
+        let [a, b] = [&plain, &turned].map(|shapes| deform(shapes, &crooked()));
+        let of = |shapes: &Shapes<f64>, values: &[f64], element: usize| {
+            nalgebra::Matrix3::from_fn(|i, j| values[(i + 3 * j) * shapes.stride + element])
+        };
+        let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
+        for element in 0..2 {
+            let axes = of(&turned, &turned.at_rest(), element);
+            assert!((axes.column(0) - nalgebra::Vector3::from(fibre)).norm() < 1e-15);
+            assert!((axes.determinant() - 1.0).abs() < 1e-15);
+            let difference = of(&turned, &b.f, element) - of(&plain, &a.f, element) * axes;
+            assert!(difference.norm() < 1e-14, "{difference}");
+            assert!((turned.volume[element] / plain.volume[element] - 1.0).abs() < 1e-14);
+        }
+        for (c, d) in a.modal.iter().zip(&b.modal) {
+            assert!((c - d).abs() < 1e-14);
+        }
+        for (c, d) in forces(&plain, &a, stress).as_flattened().iter().zip(forces(&turned, &b, stress).as_flattened()) {
+            assert!((c - d).abs() < 1e-13, "{c} {d}");
+        }
+    }
+
+    #[test]
     fn forces_are_in_balance() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS, &NODES, MODULUS);
+        let shapes = Shapes::<f64>::new(&ELEMENTS, &[], &NODES, MODULUS);
         let displacement = crooked();
         let state = deform(&shapes, &displacement);
         let forces = forces(&shapes, &state, [3.0, -1.0, 2.0, 0.5, -0.7, 0.2]);
@@ -393,7 +466,7 @@ mod tests {
 
     #[test]
     fn hourglass_forces_are_the_slope_of_their_energy() {
-        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &[], &NODES, MODULUS);
         let mut displacement = crooked();
         let state = deform(&shapes, &displacement);
         let force = forces(&shapes, &state, [0.0; 6]);
@@ -414,7 +487,7 @@ mod tests {
     #[test]
     fn nodal_forces_do_the_work_of_the_stress() {
         // δW = V P:δF for a displacement that is a linear field; the hourglass does none.
-        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &NODES, MODULUS);
+        let shapes = Shapes::<f64>::new(&ELEMENTS[..1], &[], &NODES, MODULUS);
         let stress = [3.0, -1.0, 2.0, 0.5, -0.7, 0.2];
         let state = deform(&shapes, &crooked());
         let force = forces(&shapes, &state, stress);

@@ -2,6 +2,7 @@
 //! control take from them.
 
 use super::lanes::Number;
+use super::wave_bounds::WaveBounds;
 use crate::common::error::Error;
 use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
 use crate::material::model::{Law, Material};
@@ -19,6 +20,8 @@ pub struct Control {
     pub linear: f64,
     pub quadratic: f64,
     pub shape: f64,
+    /// Whether the stable step tells waves along the fibre from those across it, where it can.
+    pub by_direction: bool,
 }
 
 /// Names of the energy densities: the hyperelastic law's modes, and the linear elastic law's work, which has no modes.
@@ -45,6 +48,7 @@ pub struct Medium<T> {
     pub control: Control,
     /// The modulus of hourglass control.
     pub hourglass: f64,
+    pub bounds: WaveBounds,
     /// Whether elements may fail, and the linear elastic law's stress at failure.
     pub fails: bool,
     pub strength: f64,
@@ -102,6 +106,7 @@ impl<T: Number> Medium<T> {
             density,
             control,
             hourglass: control.hourglass * distortion,
+            bounds: if control.by_direction { WaveBounds::of(material) } else { WaveBounds::Isotropic },
             fails: material.can_fail(),
             strength: property("sigma_lim"),
             wave_speed: (along / density).sqrt(),

@@ -27,11 +27,13 @@ pub struct Yarn {
 }
 
 /// Nodes in the reference placement and what they are joined by.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub nodes: Vec<[f64; 3]>,
     /// Corner c of an element stands on the upper side of axis i where bit i of c is set. Layer by layer.
     pub elements: Vec<[u32; 8]>,
+    /// The fibre's unit direction in every element; empty where it is axis 0 in all.
+    pub fibre: Vec<[f64; 3]>,
     pub elements_per_layer: usize,
     pub nodes_per_section: usize,
     /// Surface that belongs to each node, the two ends of the yarn left out. Inner nodes have a share of the lines that
@@ -63,6 +65,7 @@ impl Yarn {
         let mut mesh = Mesh {
             nodes: nodes.collect(),
             elements: Vec::new(),
+            fibre: Vec::new(),
             elements_per_layer: self.rows * self.columns,
             nodes_per_section: per_section,
             surface: vec![0.0; per_section * (self.layers + 1)],

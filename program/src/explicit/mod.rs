@@ -1,19 +1,26 @@
-//! A small explicit host for one body: hexahedra of one point, central differences, a rigid cylinder in contact.
+//! A small explicit host: bodies of hexahedra of one point, central differences, contact of the bodies with one another and
+//! with what strikes them.
 //!
 //! It calls the laws as a solver does, through their C entries: blocks of component-major arrays, history in place,
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether
 //! stress and energy belong together and whether the step is short enough.
 
 pub mod block;
+pub mod body;
 pub mod contact;
+pub mod control_keys;
 pub mod element;
 pub mod energies;
 pub mod instructions;
 pub mod lanes;
 pub mod medium;
 pub mod mesh;
+pub mod mutual_contact;
 pub mod projectile;
+pub mod snapshot;
 pub mod solver;
 pub mod stress;
+pub mod vector;
 pub mod viscosity;
 pub mod vtu;
+pub mod wave_bounds;

@@ -1,31 +1,62 @@
 //! The rigid body that strikes.
 
-use super::contact::Contact;
+use rayon::prelude::*;
 
-/// A rigid body that moves along axis 1.
+use super::body::Body;
+use super::contact::Contact;
+use super::lanes::Number;
+
+/// A rigid body that moves along one axis.
 #[derive(Clone, Debug)]
 pub struct Projectile {
     pub mass: f64,
-    /// Height of its axis, and its velocity along axis 1.
+    /// Where its centre is on that axis, and its velocity along it.
     pub position: f64,
     pub velocity: f64,
     /// Whether it is held at its velocity, whatever meets it.
     pub held: bool,
-    pub contact: Contact,
+    /// With every body.
+    pub contacts: Vec<Contact>,
     /// The contact's force on it, and how far it moved in the last step.
     pub force: f64,
     pub moved: f64,
 }
 
 impl Projectile {
-    pub fn new(mass: f64, position: f64, velocity: f64, held: bool, contact: Contact) -> Self {
-        Projectile { mass, position, velocity, held, contact, force: 0.0, moved: 0.0 }
+    pub fn new(mass: f64, position: f64, velocity: f64, held: bool, contacts: Vec<Contact>) -> Self {
+        Projectile { mass, position, velocity, held, contacts, force: 0.0, moved: 0.0 }
+    }
+
+    /// Adds the forces of its contact to those of the bodies.
+    pub fn meet<T: Number>(&mut self, bodies: &mut [Body<T>]) {
+        let (position, moved) = (self.position, self.moved);
+        let meet = |(contact, body): (&mut Contact, &mut Body<T>)| {
+            contact.apply(position, moved, &body.displacement, &mut body.forces)
+        };
+        self.force = match (&mut self.contacts[..], bodies) {
+            ([contact], [body]) => meet((contact, body)),
+            (contacts, bodies) => {
+                // Collected, since the order of a parallel sum is not always the same.
+                let forces: Vec<f64> = contacts.par_iter_mut().zip(bodies).map(meet).collect();
+                forces.iter().sum()
+            }
+        };
     }
 
     /// A bound of the square of the frequency that the penalty adds: every spring has a node at one end and at the other
     /// a share of the projectile, in proportion to its stiffness.
     pub fn frequency(&self) -> f64 {
-        let own = if self.held { 0.0 } else { self.contact.touching / self.mass };
-        self.contact.frequency + own
+        let touching: f64 = self.contacts.iter().map(|contact| contact.touching).sum();
+        let own = if self.held { 0.0 } else { touching / self.mass };
+        self.contacts.iter().map(|contact| contact.frequency).fold(0.0, f64::max) + own
+    }
+
+    /// Energy in the contact, and what its friction has dissipated.
+    pub fn stored(&self) -> f64 {
+        self.contacts.iter().map(|contact| contact.stored).sum()
+    }
+
+    pub fn dissipated(&self) -> f64 {
+        self.contacts.iter().map(|contact| contact.dissipated).sum()
     }
 }

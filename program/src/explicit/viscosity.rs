@@ -148,7 +148,7 @@ mod tests {
     use toron::{Criterion, Rotation};
 
     const STEP: f64 = 1e-8;
-    const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3 };
+    const CONTROL: Control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.3, by_direction: false };
     /// Of the brick below: along the fibre, and the side of a square as large as the section.
     const LENGTH: f64 = 2e-3;
     const BREADTH: f64 = 0.6e-3;
@@ -167,7 +167,7 @@ mod tests {
         let corner = |i: usize, size: f64, bit: usize| if i >> bit & 1 == 1 { size } else { 0.0 };
         let nodes: Vec<[f64; 3]> =
             (0..8).map(|i| [corner(i, LENGTH, 0), corner(i, 0.4e-3, 1), corner(i, 0.9e-3, 2)]).collect();
-        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &nodes, 0.0);
+        let shapes = Shapes::<f64>::new(&[std::array::from_fn(|i| i as u32)], &[], &nodes, 0.0);
         let (intact, stride) = (vec![1.0; shapes.stride], shapes.stride);
         let (mut viscosity, mut measures, mut dissipated) = (Viscosity::new(&shapes), Measures::new(stride), 0.0);
         // No time passes up to the first: it is where the yarn starts.

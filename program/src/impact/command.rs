@@ -12,7 +12,7 @@ use super::{plot, report, summary, yarn_picture};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::progress;
-use crate::explicit::vtu;
+use crate::common::vtk::Frames;
 
 /// Ticks of the progress bar for each case.
 const TICKS: u64 = 1000;
@@ -69,7 +69,7 @@ fn combine(errors: Vec<Error>) -> Result<(), Error> {
 
 /// Runs a case and writes its files.
 fn run_case(scene: &Scene, case: &Case, output: &Path, bar: &ProgressBar) -> Result<Outcome, Error> {
-    let mut observer = CaseObserver { case, output, bar, ticks: 0, frames: Vec::new() };
+    let mut observer = CaseObserver { bar, ticks: 0, frames: Frames::new(output, &case.name) };
     let result = run::run(case, &mut observer);
     // A case that ends early has not used its ticks.
     observer.progress(1.0);
@@ -80,11 +80,9 @@ fn run_case(scene: &Scene, case: &Case, output: &Path, bar: &ProgressBar) -> Res
 
 /// Moves the bar, and writes ParaView's files as they come.
 struct CaseObserver<'a> {
-    case: &'a Case,
-    output: &'a Path,
     bar: &'a ProgressBar,
     ticks: u64,
-    frames: Vec<(f64, String)>,
+    frames: Frames,
 }
 
 impl Observer for CaseObserver<'_> {
@@ -95,10 +93,7 @@ impl Observer for CaseObserver<'_> {
     }
 
     fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
-        let name = format!("{}-{:04}.vtu", self.case.name, self.frames.len());
-        write_text(&self.output.join(&name), text)?;
-        self.frames.push((time, name));
-        write_text(&self.output.join(format!("{}.pvd", self.case.name)), &vtu::collection(&self.frames))
+        self.frames.write(time, text)
     }
 }
 
@@ -111,8 +106,4 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
         yarn_picture::write(&svg, &png, scene, case, result, snapshot)?;
     }
     Ok(())
-}
-
-fn write_text(file: &Path, text: &str) -> Result<(), Error> {
-    std::fs::write(file, text).map_err(|error| Error::Input(format!("{}: {error}", file.display())))
 }

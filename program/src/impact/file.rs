@@ -8,37 +8,7 @@ use toml::Spanned;
 use super::scene::{Abscissa, Outputs, Precision};
 use crate::common::toml_file::Numbers;
 use crate::material::file::MaterialFile;
-
-/// Keys of the materials.
-pub const HYPERELASTIC: &str = "hyperelastic";
-pub const LINEAR_ELASTIC: &str = "linear-elastic";
-
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "kebab-case")]
-pub enum LawName {
-    Hyperelastic,
-    LinearElastic,
-    Hybrid,
-}
-
-impl LawName {
-    /// Whether a yarn of this law has the material of that table.
-    pub fn has(self, table: &str) -> bool {
-        match self {
-            LawName::Hyperelastic => table == HYPERELASTIC,
-            LawName::LinearElastic => table == LINEAR_ELASTIC,
-            LawName::Hybrid => true,
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "kebab-case")]
-pub enum FailureName {
-    None,
-    Uniaxial,
-    Multiaxial,
-}
+use crate::material::of_law::{FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]

@@ -6,6 +6,7 @@ use super::smith::Smith;
 use crate::explicit::energies::{Cost, Energies};
 use crate::explicit::lanes::largest;
 use crate::explicit::mesh::Mesh;
+use crate::explicit::snapshot::Snapshot;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
@@ -56,17 +57,6 @@ pub enum End {
     Stopped,
     /// It has left the broken yarn behind.
     Left,
-}
-
-/// The yarn at an instant, to be drawn.
-#[derive(Clone, Debug)]
-pub struct Snapshot {
-    pub time: f64,
-    pub positions: Vec<[f64; 3]>,
-    pub intact: Vec<bool>,
-    pub densities: Vec<[f64; 5]>,
-    /// Height of the projectile's axis, and its radius.
-    pub projectile: Option<(f64, f64)>,
 }
 
 /// The result of a case.

@@ -8,18 +8,12 @@ use super::outcome::{Outcome, STATIONS, Sample};
 use super::scene::{Abscissa, Case, Scene, Striker};
 use crate::common::error::Error;
 use crate::common::units::{CONTACT_STIFFNESS, ENERGY, SPEED, TIME, unit};
+use crate::picture::history;
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::panel::{self, Panel, Series, tidy};
-use crate::picture::style::{COLOURS, GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::picture::style::{COLOURS, HEADING, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
 
-/// Width of a history, height of its titles and of a row of panels, and the panels of a row.
-const WIDTH: u32 = 1280;
-const HEAD: u32 = 84;
-const ROW: u32 = 378;
-const PER_ROW: usize = 2;
-/// A line that moves by less than this part of itself stands still to the eye.
-const STILL: f64 = 0.01;
 const COMPARISON: [u32; 2] = [760, 480];
 
 /// Speed, energies, largest energy densities and widths of a case over time, as far as they change.
@@ -27,31 +21,12 @@ const COMPARISON: [u32; 2] = [760, 480];
 /// # Errors
 /// A file cannot be written.
 pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
-    let panels: Vec<Panel> = panels(scene, case, result).into_iter().filter(moves).collect();
-    let rows = panels.len().div_ceil(PER_ROW).max(1);
-    page::write(svg, png, [WIDTH, HEAD + ROW * rows as u32], |root| {
-        root.draw_text(&scene.title, &text(TITLE, &INK), (fine(24), fine(16)))?;
-        root.draw_text(&case.name, &text(TEXT, &GREY), (fine(24), fine(50)))?;
-        let (_, body) = root.split_vertically(fine(HEAD as i32));
-        let abscissa = panel::Abscissa {
-            label: format!("time ({})", unit(&scene.units, TIME)),
-            values: result.samples.iter().map(|sample| sample.time).collect(),
-            failure: result.broken.map(|(time, _)| time),
-        };
-        for (panel, area) in panels.iter().zip(body.split_evenly((rows, PER_ROW))) {
-            panel.draw(&area, &abscissa)?;
-        }
-        Ok(())
-    })
-}
-
-/// Whether anything happens in a panel.
-fn moves(panel: &Panel) -> bool {
-    panel.series.iter().any(|series| {
-        let bounds = (f64::INFINITY, f64::NEG_INFINITY);
-        let (low, high) = series.values.iter().fold(bounds, |(low, high), &value| (low.min(value), high.max(value)));
-        high - low > STILL * high.abs().max(low.abs())
-    })
+    let abscissa = panel::Abscissa {
+        label: format!("time ({})", unit(&scene.units, TIME)),
+        values: result.samples.iter().map(|sample| sample.time).collect(),
+        failure: result.broken.map(|(time, _)| time),
+    };
+    history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result), &abscissa)
 }
 
 fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
@@ -159,23 +134,4 @@ fn draw_comparison(root: &Area, scene: &Scene, label: &str, points: &[Point]) ->
         body.draw_text(point.name, &style, (x - width as i32 / 2, y - above - fine(28)))?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_panel_where_nothing_happens_is_empty() {
-        let panel = |lines: &[[f64; 3]]| {
-            let line = |values: &[f64; 3]| Series { name: String::new(), colour: INK, values: values.to_vec() };
-            Panel { title: "", unit: String::new(), series: lines.iter().map(line).collect(), limit: None }
-        };
-        assert!(!moves(&panel(&[])));
-        assert!(!moves(&panel(&[[0.0; 3]])));
-        assert!(!moves(&panel(&[[200.0; 3], [0.534, 0.534, 0.536]])));
-        assert!(moves(&panel(&[[200.0; 3], [0.534, 0.534, 0.55]])));
-        assert!(moves(&panel(&[[0.0, 1e-6, 0.0]])));
-        assert!(moves(&panel(&[[-120.0, 3.0, -120.0]])));
-    }
 }

@@ -5,20 +5,19 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, SceneFile, SectionName, StrikerName};
+use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Precision, Scene, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Tension};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{Source, same_files};
 use crate::common::units::number;
-use crate::explicit::contact::Cylinder;
-use crate::explicit::medium::Control;
+use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
 use crate::material::fibre_wave::FibreWave;
 use crate::material::file::MaterialFile;
-use crate::material::model::{Law, Material};
+use crate::material::model::Material;
+use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use toron::host::units::UnitSystem;
-use toron::{Criterion, Rotation};
 
 /// An element takes some 700 bytes: more do not fit most memories.
 const MOST_ELEMENTS: usize = 10_000_000;
@@ -81,7 +80,7 @@ impl Source<'_> {
         };
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
         let taken = SUMMARIES.contains(&name.get_ref().as_str())
-            || others.iter().any(|other| same_files(&other.name, name.get_ref()));
+            || others.iter().any(|other| same_files(&other.name, name.get_ref(), "-yarn-"));
         if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
             return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
         }
@@ -110,15 +109,6 @@ impl Source<'_> {
 /// Names of the files that the cases have in common.
 const SUMMARIES: [&str; 2] = ["summary", "residual-speed"];
 
-/// Whether two cases would write the same files, one the other's pictures.
-fn same_files(one: &str, other: &str) -> bool {
-    let picture_of = |case: &str, name: &str| {
-        let number = name.strip_prefix(case).and_then(|rest| rest.strip_prefix("-yarn-"));
-        number.is_some_and(|number| number.parse::<usize>().is_ok())
-    };
-    one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
-}
-
 /// A case's table and what is needed to read it.
 struct Reader<'a> {
     source: &'a Source<'a>,
@@ -139,18 +129,6 @@ impl Reader<'_> {
         match value {
             Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
             None => Err(self.missing(key, "a finite number > 0")),
-        }
-    }
-
-    /// A number from 0 on, or the default.
-    fn zero_or_more(&self, key: &str, value: &Option<Spanned<f64>>, default: f64) -> Result<f64, Error> {
-        match value {
-            None => Ok(default),
-            Some(value) if value.get_ref().is_finite() && *value.get_ref() >= 0.0 => Ok(*value.get_ref()),
-            Some(value) => {
-                let message = format!("{key} is {}; allowed: a finite number >= 0", value.get_ref());
-                Err(self.source.error(value.span(), &message))
-            }
         }
     }
 
@@ -189,10 +167,10 @@ impl Reader<'_> {
             speed: self.speed(zones.inner())?,
             end,
             sample,
-            pictures: self.pictures(&name, end)?,
+            pictures: self.source.pictures(&file.pictures, &name, end)?,
             name,
             frames: self.count("frames", &file.frames, [0, MOST_FRAMES], Some(0))?,
-            control: self.control()?,
+            control: self.source.control(&file.hourglass, &file.viscosity)?,
             zones,
             yarn,
             precision: file.precision.unwrap_or(Precision::F64),
@@ -254,43 +232,15 @@ impl Reader<'_> {
         if file.striker() == StrikerName::Driven {
             return Ok(Striker::Driven);
         }
-        let cylinder = Cylinder {
+        let cylinder = Rigid {
+            shape: Shape::Cylinder,
             radius: self.positive("radius", &file.radius)?,
             stiffness: self.positive("contact-stiffness", &file.contact_stiffness)?,
-            friction: self.zero_or_more("friction", &file.friction, 0.0)?,
+            friction: self.source.zero_or_more("friction", &file.friction, 0.0)?,
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         let mass = if held && file.mass.is_none() { 0.0 } else { self.positive("mass", &file.mass)? };
         Ok(Striker::Cylinder { cylinder, mass, held })
-    }
-
-    /// The case is named: the times may be the scene's, the end its own.
-    fn pictures(&self, case: &str, end: f64) -> Result<Vec<f64>, Error> {
-        let Some(times) = &self.file.pictures else { return Ok(Vec::new()) };
-        for &time in times.get_ref() {
-            if !(time > 0.0 && time <= end) {
-                let message = format!(
-                    "a time of pictures is {time}; allowed: a number > 0, up to end = {end} of case \"{case}\""
-                );
-                return Err(self.source.error(times.span(), &message));
-            }
-        }
-        Ok(times.get_ref().clone())
-    }
-
-    fn control(&self) -> Result<Control, Error> {
-        let [linear, quadratic, shape] = match &self.file.viscosity {
-            None => VISCOSITY,
-            Some(given) => {
-                for value in given.get_ref().0 {
-                    let single = Some(Spanned::new(given.span(), value));
-                    self.zero_or_more("a coefficient of viscosity", &single, 0.0)?;
-                }
-                given.get_ref().0
-            }
-        };
-        let hourglass = self.zero_or_more("hourglass", &self.file.hourglass, HOURGLASS)?;
-        Ok(Control { hourglass, linear, quadratic, shape })
     }
 
     fn zones(&self, yarn: &Yarn) -> Result<Zones, Error> {
@@ -316,92 +266,11 @@ impl Reader<'_> {
         Ok(length)
     }
 
-    /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
-    fn choose_failure(
-        &self,
-        law: &str,
-        material: &mut Material,
-        file: &MaterialFile,
-        span: &Range<usize>,
-    ) -> Result<(), Error> {
-        let failure = self.file.failure();
+    /// The material of this law's table.
+    fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
-        let place = |name: &str| {
-            let of_case = self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
-            of_case.or(file.given(name).map(Spanned::span)).unwrap_or(span.clone())
-        };
-        let off: &[&str] = match failure {
-            FailureName::None => &["eps_lim", "sigma_lim"],
-            FailureName::Uniaxial => &["alpha", "beta"],
-            FailureName::Multiaxial => &[],
-        };
-        let table = material.table();
-        for (value, property) in material.values.iter_mut().zip(table) {
-            let name = property.name;
-            if !off.contains(&name) {
-                continue;
-            }
-            *value = 0.0;
-            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
-                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
-                let message = format!(
-                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
-                    given.get_ref()
-                );
-                return Err(self.source.error(place(name), &message));
-            }
-        }
-        let is_zero = |name: &str| material.property(name) == Some(0.0);
-        let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
-        if let Some(name) = missing {
-            let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
-            return Err(self.source.error(place(name), &message));
-        }
-        if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
-            let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
-            return Err(self.source.error(place("alpha"), message));
-        }
-        Ok(())
-    }
-
-    /// The material of this law's table, which its preset completes, with the failure that the case asks for.
-    fn material(&self, law: &str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
-        let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
-        let default = MaterialFile::of_preset(preset, self.span.clone());
-        let (file, span) = match table {
-            Some(table) => (table.get_ref().over(&default), table.span()),
-            None => (default, self.span.clone()),
-        };
-        let mut material = self.source.material(&file, self.units, span.clone())?;
-        let found = material.law_name().replace(' ', "-");
-        if found != law {
-            return Err(self.source.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
-        }
-        let fibre = material.fibre();
-        if fibre.x.abs() < 1.0 - ROUNDING {
-            let [x, y, z] = fibre.into();
-            let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
-            return Err(self.source.error(span, &message));
-        }
-        self.choose_failure(law, &mut material, &file, &span)?;
-        let table = material.table();
-        let (frame, criterion) = match material.law {
-            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
-            Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
-        };
-        material.law = Law::new(table, &material.values, frame, criterion)
-            .map_err(|error| self.source.error(span.clone(), &error.to_string()))?;
-        if frame == Rotation::Spin {
-            return Err(self.source.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
-        }
-        if material.density.is_none() {
-            return Err(self.source.error(span, "density is missing; allowed: a finite number > 0"));
-        }
-        Ok(material)
+        let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
+        let choice = Choice { law, failure: self.file.failure(), place: &place, span: self.span.clone() };
+        self.source.material_of_law(&choice, table, self.units)
     }
 }
-
-/// Coefficients where the file gives none: an hourglass mode's share of the stiffness of a modulus, and viscosity, linear and
-/// quadratic as explicit solvers have them, and of the section's shape.
-const HOURGLASS: f64 = 0.1;
-const VISCOSITY: [f64; 3] = [0.06, 1.5, 0.2];

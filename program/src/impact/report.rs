@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::outcome::Outcome;
 use super::scene::{Case, Scene, Striker, Zones};
-use super::summary::{NONE, or_dash, outcome};
+use super::summary::outcome;
+use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::material::fibre_wave::FibreWave;
 
@@ -12,10 +13,6 @@ use crate::material::fibre_wave::FibreWave;
 const WIDTH: usize = 100;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 30;
-/// The gap between two columns of the table.
-const GAP: &str = "  ";
-/// The columns of every table, which are never left out: the case, and one thing about it.
-const FEWEST: usize = 2;
 /// Hourglass modes that hold more than this part of the internal energy are no longer negligible.
 const LARGEST_HOURGLASS: f64 = 0.1;
 /// A contact that stores more than this part of the energy is a spring between projectile and yarn.
@@ -31,11 +28,11 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     });
     let warnings: String = unit_warnings(scene, &waves).into_iter().chain(of_cases).collect();
     let parts = [
-        table(struck(scene, results)),
-        table(driven(scene, results)),
+        table(struck(scene, results), WIDTH),
+        table(driven(scene, results), WIDTH),
         wave_line(&waves),
         warnings,
-        files(scene, results, output),
+        list_files(scene, results, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     format!("{}\n\n{}", scene.title, parts.join("\n"))
@@ -116,31 +113,6 @@ pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
     })
 }
 
-/// A column of a table: two lines of heading, and an entry for each case.
-struct Column {
-    heading: [String; 2],
-    entries: Vec<String>,
-}
-
-impl Column {
-    fn width(&self) -> usize {
-        self.heading.iter().chain(&self.entries).map(|text| text.chars().count()).fold(0, usize::max)
-    }
-
-    fn applies(&self) -> bool {
-        self.entries.iter().any(|entry| entry != NONE)
-    }
-}
-
-/// A name that leaves room for something beside it.
-fn shortened(name: &str) -> String {
-    if name.chars().count() <= LONGEST_NAME {
-        name.to_string()
-    } else {
-        name.chars().take(LONGEST_NAME - 1).chain(['…']).collect()
-    }
-}
-
 /// Builds a column of the cases that belong to a table.
 fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn(&Case, &Outcome) -> String) -> Column {
     let entries = cases.iter().map(|(case, result)| entry(case, result)).collect();
@@ -163,7 +135,7 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
         _ => NONE.to_string(),
     };
     let mut columns = vec![
-        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
+        column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
         column(&cases, ["how it ended", ""], |_, result| outcome(result).to_string()),
         column(&cases, ["broken at", &time], broken_at),
         column(&cases, ["residual", &speed], |_, result| or_dash(result.residual_speed(), number)),
@@ -187,7 +159,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let beside = |measured: Option<f64>, theory: String| measured.map_or(NONE.to_string(), |_| theory);
     let waves = |result: &Outcome| format!("{}-{}", number(result.smith.fastest), number(result.smith.slowest));
     let mut columns = vec![
-        column(&cases, ["case", ""], |case, _| shortened(&case.name)),
+        column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
         column(&cases, ["longitudinal", &speed], |case, result| or_dash(wave(case, result), number)),
         column(&cases, ["theory", &speed], |case, result| beside(wave(case, result), waves(result))),
         column(&cases, ["strain", "%"], |case, result| or_dash(strain(case, result), percent)),
@@ -208,34 +180,11 @@ fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
     ]
 }
 
-/// The table without columns that apply to no case and, where it is too wide, without the last ones. Words stand on the left of
-/// their column, numbers on the right.
-fn table(columns: Vec<Column>) -> String {
-    let mut columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
-    let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
-    while columns.len() > FEWEST && width(&columns) > WIDTH {
-        columns.pop();
-    }
-    let Some(cases) = columns.first().map(|column| column.entries.len()) else { return String::new() };
-    let line = |text: &dyn Fn(&Column) -> String| {
-        let cells = columns.iter().map(|column| {
-            let (text, width) = (text(column), column.width());
-            // Words have no unit.
-            if column.heading[1].is_empty() { format!("{text:<width$}") } else { format!("{text:>width$}") }
-        });
-        format!("{}\n", cells.collect::<Vec<_>>().join(GAP).trim_end())
-    };
-    let mut text: String = (0..2).map(|i| line(&|column| column.heading[i].clone())).collect();
-    text.push_str(&line(&|column| "-".repeat(column.width())));
-    text.extend((0..cases).map(|case| line(&|column| column.entries[case].clone())));
-    text
-}
-
 /// The names of what was written, with `NAME` for the cases.
-fn files(scene: &Scene, results: &Results, output: &Path) -> String {
+fn list_files(scene: &Scene, results: &Results, output: &Path) -> String {
     let pictures = results.iter().any(|(_, result)| !result.snapshots.is_empty());
     let frames = results.iter().any(|(case, _)| case.frames > 0);
-    let files = [
+    let written = [
         (true, "summary.csv", "a line for every case, with all that is known of it"),
         (scene.abscissa.is_some(), "residual-speed.svg, .png", "the cases side by side"),
         (true, "NAME.csv", "the history of case NAME"),
@@ -243,7 +192,5 @@ fn files(scene: &Scene, results: &Results, output: &Path) -> String {
         (pictures, "NAME-yarn-1.svg, .png, …", "the yarn at those times of pictures that the run came to"),
         (frames, "NAME.pvd, NAME-0000.vtu, …", "a series for ParaView"),
     ];
-    let written = files.into_iter().filter(|(written, ..)| *written);
-    let lines = written.map(|(_, names, meaning)| format!("  {names:<28}{meaning}\n"));
-    format!("Files in {}:\n{}", output.display(), lines.collect::<String>())
+    files(output, &written)
 }

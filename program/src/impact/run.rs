@@ -2,17 +2,19 @@
 
 use std::time::Instant;
 
-use super::outcome::{End, Outcome, STATIONS, Sample, Snapshot, imbalance};
+use super::outcome::{End, Outcome, STATIONS, Sample, imbalance};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::common::error::Error;
 use crate::common::units::number;
+use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::Contact;
 use crate::explicit::energies::Energies;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::projectile::Projectile;
-use crate::explicit::solver::{Solver, Support};
+use crate::explicit::snapshot::Snapshot;
+use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use crate::material::model::Material;
 
@@ -82,8 +84,9 @@ impl<'a, T: Number> Run<'a, T> {
             Zones::Two(materials, length) => (&materials[..], *length),
         };
         let near = case.yarn.layers_to(length);
-        let media = materials.iter().map(medium).collect::<Result<_, _>>()?;
-        let mut solver = Solver::new(mesh, media, |element| usize::from(element / per_layer >= near));
+        let media = materials.iter().map(medium).collect::<Result<Vec<_>, _>>()?;
+        let yarn = Body::new(mesh, &media, |element| usize::from(element / per_layer >= near));
+        let mut solver = Solver::new(vec![yarn], media);
         let tension = Tension::of(&materials[0]);
         let smith = tension.smith(case.speed, materials[0].density.unwrap_or_default()).ok_or_else(|| {
             let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
@@ -129,7 +132,7 @@ impl<'a, T: Number> Run<'a, T> {
             }
             if drawn {
                 pictures.pop();
-                self.snapshots.push(self.snapshot(time));
+                self.snapshots.push(Snapshot::of(&self.solver, self.radius()));
             }
             if framed {
                 next_frame += frame;
@@ -153,19 +156,13 @@ impl<'a, T: Number> Run<'a, T> {
             cost: self.solver.cost,
             wall: begun.elapsed(),
             smith: self.smith,
-            mesh: self.solver.mesh,
+            mesh: self.solver.bodies.swap_remove(0).mesh,
         })
     }
 
-    fn snapshot(&self, time: f64) -> Snapshot {
-        let elements = 0..self.solver.mesh.elements.len();
-        Snapshot {
-            time,
-            positions: (0..self.solver.mesh.nodes.len()).map(|node| self.solver.position(node)).collect(),
-            intact: elements.clone().map(|i| self.solver.is_intact(i)).collect(),
-            densities: elements.map(|i| self.solver.energy_densities(i)).collect(),
-            projectile: self.solver.projectile.as_ref().map(|p| (p.position, self.radius())),
-        }
+    /// The only body.
+    fn yarn(&self) -> &Body<T> {
+        &self.solver.bodies[0]
     }
 
     fn radius(&self) -> f64 {
@@ -203,14 +200,15 @@ impl<'a, T: Number> Run<'a, T> {
     /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
     /// all, so that a torn line carries no tension, whatever its neighbours do.
     fn check_broken(&mut self, time: f64) -> bool {
-        for &element in &self.solver.deleted[self.deleted..] {
-            self.torn[element % self.solver.mesh.elements_per_layer] = true;
+        let yarn = &self.solver.bodies[0];
+        for &element in &yarn.deleted[self.deleted..] {
+            self.torn[element % yarn.mesh.elements_per_layer] = true;
             // The index of what has failed stays as it was then; what has collapsed has a lower one.
-            if self.solver.failure_index(element) >= FAILED {
+            if yarn.failure_index(&self.solver.media, element) >= FAILED {
                 self.failed = self.failed.or(Some(time));
             }
         }
-        self.deleted = self.solver.deleted.len();
+        self.deleted = yarn.deleted.len();
         self.torn.iter().all(|&torn| torn)
     }
 
@@ -222,7 +220,7 @@ impl<'a, T: Number> Run<'a, T> {
     /// # Errors
     /// The balance of energy is lost.
     fn sample(&mut self, time: f64) -> Result<(), Error> {
-        let (deleted, collapsed) = (self.solver.deleted.len(), self.solver.collapsed);
+        let (deleted, collapsed) = (self.yarn().deleted.len(), self.yarn().collapsed);
         let mut sample = Sample { time, speed: self.speed(), deleted, collapsed, ..Sample::default() };
         if let Some(projectile) = &self.solver.projectile {
             sample.travel = self.start - projectile.position;
@@ -245,33 +243,35 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn measure_densities(&self, sample: &mut Sample) {
+        let yarn = self.yarn();
         let (length, radius) = (self.case.yarn.length, self.radius());
         sample.least = f64::INFINITY;
-        for i in 0..self.solver.mesh.elements.len() {
-            let densities = self.solver.energy_densities(i);
+        for i in 0..yarn.mesh.elements.len() {
+            let densities = yarn.energy_densities(&self.solver.media, i);
             for (part, density) in sample.parts.iter_mut().zip(densities) {
-                *part += 2.0 * density * self.solver.volume(i);
+                *part += 2.0 * density * yarn.volume(i);
             }
-            if !self.solver.is_intact(i) {
+            if !yarn.is_intact(i) {
                 continue;
             }
-            let place = (self.solver.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
+            let place = (yarn.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
             update_maxima(&mut sample.largest, densities);
             if place > radius && place < length - radius {
                 update_maxima(&mut sample.free, densities);
             }
             sample.least = sample.least.min(densities[0] + densities[4]);
-            sample.index = largest(sample.index, self.solver.failure_index(i));
+            sample.index = largest(sample.index, yarn.failure_index(&self.solver.media, i));
         }
     }
 
     /// Mean elongation of a layer's intact elements by volume: what a wave carries, whichever elements it is in.
     fn elongation(&self, layer: usize) -> f64 {
-        let per_layer = self.solver.mesh.elements_per_layer;
-        let intact = (layer * per_layer..(layer + 1) * per_layer).filter(|&i| self.solver.is_intact(i));
+        let yarn = self.yarn();
+        let per_layer = yarn.mesh.elements_per_layer;
+        let intact = (layer * per_layer..(layer + 1) * per_layer).filter(|&i| yarn.is_intact(i));
         let (sum, whole) = intact.fold((0.0, 0.0), |(sum, whole), i| {
-            let volume = self.solver.volume(i);
-            (sum + volume * self.solver.elongation(i), whole + volume)
+            let volume = yarn.volume(i);
+            (sum + volume * yarn.elongation(&self.solver.media, i), whole + volume)
         });
         if whole == 0.0 { 0.0 } else { sum / whole }
     }
@@ -296,20 +296,22 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Mean of a section's positions along the yarn and of its velocities along axis 1, by mass.
     fn section_mean(&self, section: usize) -> (f64, f64) {
-        let count = self.solver.mesh.nodes_per_section;
+        let yarn = self.yarn();
+        let count = yarn.mesh.nodes_per_section;
         let nodes = section * count..(section + 1) * count;
         let (mass, x, v) = nodes.fold((0.0, 0.0, 0.0), |(sum, x, v), node| {
-            let mass = self.solver.mass()[node];
-            let [place, velocity] = [self.solver.position(node)[0], self.solver.velocity[node][1].into()];
+            let mass = yarn.mass[node];
+            let [place, velocity] = [yarn.position(node)[0], yarn.velocity[node][1].into()];
             (sum + mass, x + mass * place, v + mass * velocity)
         });
         (x / mass, v / mass)
     }
 
     fn width(&self, station: f64) -> f64 {
-        let count = self.solver.mesh.nodes_per_section;
+        let yarn = self.yarn();
+        let count = yarn.mesh.nodes_per_section;
         let section = (station * self.case.yarn.layers as f64).round() as usize;
-        let across = (section * count..(section + 1) * count).map(|node| self.solver.position(node)[2]);
+        let across = (section * count..(section + 1) * count).map(|node| yarn.position(node)[2]);
         let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
         high - low
     }
@@ -344,7 +346,8 @@ fn whole(half: &Energies) -> Energies {
 
 /// Symmetry at mid-span, the clamp at the other end, and what strikes; returns the height at which its axis starts.
 fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
-    let count = solver.mesh.nodes_per_section;
+    let yarn = &mut solver.bodies[0];
+    let count = yarn.mesh.nodes_per_section;
     let last = case.yarn.layers * count;
     let rest = [0.0; 3];
     for node in 0..count {
@@ -352,14 +355,14 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
             Striker::Cylinder { .. } => Support { free: [false, true, true], velocity: rest },
             Striker::Driven => Support { free: [false, false, true], velocity: [0.0, -case.speed, 0.0] },
         };
-        solver.support(node, symmetric);
-        solver.support(last + node, Support { free: [false; 3], velocity: rest });
+        yarn.support(node, symmetric);
+        yarn.support(last + node, Support { free: [false; 3], velocity: rest });
     }
     let Striker::Cylinder { cylinder, mass, held } = case.striker else { return 0.0 };
-    let top = solver.mesh.nodes.iter().map(|node| node[1]).fold(0.0, f64::max);
+    let top = yarn.mesh.nodes.iter().map(|node| node[1]).fold(0.0, f64::max);
     let start = top + cylinder.radius;
-    let contact = Contact::new(cylinder, &solver.mesh.nodes, &solver.mesh.surface, solver.mass());
+    let contact = Contact::new(cylinder, &yarn.mesh.nodes, &yarn.mesh.surface, &yarn.mass);
     // Half of it strikes the half model.
-    solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, contact));
+    solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, vec![contact]));
     start
 }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::explicit::contact::Cylinder;
+use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mesh::Yarn;
 use crate::material::model::Material;
@@ -68,7 +68,7 @@ impl Zones {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Striker {
     /// A rigid cylinder: its whole mass, which has no influence where its speed is held.
-    Cylinder { cylinder: Cylinder, mass: f64, held: bool },
+    Cylinder { cylinder: Rigid, mass: f64, held: bool },
     /// The section at mid-span is driven itself.
     Driven,
 }

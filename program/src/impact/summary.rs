@@ -6,10 +6,8 @@ use super::outcome::{End, Outcome};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use super::smith::Smith;
 use crate::common::error::Error;
+use crate::common::text_table::{or_dash, write_csv};
 use crate::common::units::number;
-
-/// The entry of a column that does not apply to a case.
-pub(super) const NONE: &str = "-";
 
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {
@@ -68,10 +66,6 @@ fn decimals(value: f64, digits: usize) -> String {
     format!("{value:.digits$}")
 }
 
-pub(super) fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
-    value.map_or(NONE.to_string(), text)
-}
-
 /// The entries of a case with a projectile.
 fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
     let last = result.last();
@@ -116,35 +110,13 @@ fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, Str
     ]);
 }
 
-/// The titles of all cases' columns, and a line for each case.
-fn lines(results: &[(&Case, Outcome)]) -> (Vec<&'static str>, Vec<Vec<String>>) {
-    let cells: Vec<_> = results.iter().map(|(case, result)| cells(case, result)).collect();
-    let mut titles: Vec<&'static str> = Vec::new();
-    for &(title, _) in cells.iter().flatten() {
-        if !titles.contains(&title) {
-            titles.push(title);
-        }
-    }
-    let entry = |line: &[(&str, String)], title: &str| {
-        line.iter().find(|cell| cell.0 == title).map_or(NONE.to_string(), |cell| cell.1.clone())
-    };
-    let lines = cells.iter().map(|line| titles.iter().map(|title| entry(line, title)).collect()).collect();
-    (titles, lines)
-}
-
 /// Writes the table as CSV.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
-    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
-    let (titles, lines) = lines(results);
-    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
-    writer.write_record(titles).map_err(file_error)?;
-    for line in lines {
-        writer.write_record(line).map_err(file_error)?;
-    }
-    writer.flush().map_err(|error| file_error(error.into()))
+    let lines: Vec<_> = results.iter().map(|(case, result)| cells(case, result)).collect();
+    write_csv(file, &lines)
 }
 
 /// Writes the history of a case.

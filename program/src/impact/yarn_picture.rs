@@ -5,14 +5,17 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::outcome::{Outcome, Snapshot};
+use super::outcome::Outcome;
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
-use crate::common::units::{number, time, unit};
+use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
+use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
+use crate::picture::colour_scale::Scale;
 use crate::picture::page::{self, Area, Drawn};
-use crate::picture::style::{GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::picture::ruler;
+use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
 use toron::law::parameters::ENERGY_DENSITY;
 
 const WIDTH: i32 = 1280;
@@ -36,17 +39,13 @@ const NAME_BELOW: i32 = 9;
 /// The section's part of the width, and what the section at rest may take: it widens.
 const SECTION: i32 = 270;
 const AT_REST: [f64; 2] = [220.0, 90.0];
-/// The scale of colours: its place, width and height in the heading, and its steps.
-const SCALE_LEFT: i32 = 150;
+/// The scale of colours in the heading: its middle, how far its name indents it, and its width.
+const SCALE_MIDDLE: i32 = 10;
+const SCALE_INDENT: i32 = 126;
 const SCALE_WIDTH: i32 = 200;
-const SCALE_TOP: i32 = 3;
-const SCALE_HEIGHT: i32 = 14;
-const SCALE_STEPS: i32 = 40;
 /// The last line, with the scales of lengths.
 const FOOT: i32 = 34;
 const BAR_TOP: i32 = 8;
-/// The length of a scale is some round part of this.
-const LONGEST_BAR: f64 = 120.0;
 const PROJECTILE: RGBColor = RGBColor(232, 232, 232);
 const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
 
@@ -112,12 +111,6 @@ impl View {
     }
 }
 
-/// A colour of viridis between nothing and the largest value, one of those that the scale shows.
-fn colour(share: f64) -> RGBColor {
-    let last = f64::from(SCALE_STEPS - 1);
-    ViridisRGB.get_color((share.clamp(0.0, 1.0) * last).round() / last)
-}
-
 struct Drawing<'a> {
     mesh: &'a Mesh,
     case: &'a Case,
@@ -163,11 +156,10 @@ impl<'a> Drawing<'a> {
     fn draw_row(&self, area: &Area, mode: usize, name: &str, unit: &str) -> Drawn<()> {
         // The linear law has no modes.
         let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
-        let values = self.snapshot.densities.iter().zip(&self.snapshot.intact);
-        let largest = values.filter(|(_, intact)| **intact).map(|(w, _)| density(w)).fold(0.0, f64::max);
-        draw_head(area, name, largest, unit)?;
-        let share = |element: usize| density(&self.snapshot.densities[element]) / largest;
-        let shade = |element: usize| colour(if largest > 0.0 { share(element) } else { 0.0 });
+        let largest = self.snapshot.largest(density);
+        let scale = Scale { name, indent: SCALE_INDENT, width: SCALE_WIDTH, largest, unit, root: false };
+        scale.draw(area, [LEFT, SCALE_MIDDLE])?;
+        let shade = |element: usize| scale.colour(density(&self.snapshot.densities[element]));
         self.draw_side(area, &shade)?;
         self.draw_above(area, &shade)?;
         self.draw_section(area, &shade)
@@ -294,13 +286,7 @@ impl<'a> Drawing<'a> {
     /// The lengths that the views and the sections are measured by.
     fn draw_foot(&self, area: &Area, unit: &str) -> Drawn<()> {
         for (left, scale) in [(LEFT, self.scale), (WIDTH - LEFT - SECTION, self.section_scale())] {
-            let length = round_length(LONGEST_BAR / scale);
-            let [left, right] = [0.0, length].map(|x| fine(left) + (scale * x * f64::from(fine(1))) as i32);
-            let tick = |x: i32| [(x, fine(BAR_TOP - 4)), (x, fine(BAR_TOP + 4))];
-            for line in [[(left, fine(BAR_TOP)), (right, fine(BAR_TOP))], tick(left), tick(right)] {
-                area.draw(&PathElement::new(line, stroke(INK, 1)))?;
-            }
-            area.draw_text(&format!("{length} {unit}"), &beside(), (right + fine(NAME_AIR), fine(BAR_TOP)))?;
+            ruler::draw(area, [left, BAR_TOP], scale, unit)?;
         }
         Ok(())
     }
@@ -327,12 +313,6 @@ impl Strip {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above `most`.
-fn round_length(most: f64) -> f64 {
-    let power = 10_f64.powi(most.log10().floor() as i32);
-    [5.0, 2.0].into_iter().map(|digit| digit * power).find(|&length| length <= most).unwrap_or(power)
-}
-
 /// The name of a view beside the end of the yarn.
 fn name_view(area: &Area, name: &str, (x, y): (i32, i32)) -> Drawn<()> {
     area.draw_text(name, &beside(), (x + fine(NAME_AIR), y))?;
@@ -342,31 +322,4 @@ fn name_view(area: &Area, name: &str, (x, y): (i32, i32)) -> Drawn<()> {
 /// Text beside what it names.
 fn beside() -> TextStyle<'static> {
     text(TEXT, &GREY).pos(Pos::new(HPos::Left, VPos::Center))
-}
-
-/// The mode's name, and what its colours mean.
-fn draw_head(area: &Area, name: &str, largest: f64, unit: &str) -> Drawn<()> {
-    let middle = fine(SCALE_TOP + SCALE_HEIGHT / 2);
-    area.draw_text(name, &text(HEADING, &INK).pos(Pos::new(HPos::Left, VPos::Center)), (fine(LEFT), middle))?;
-    for step in 0..SCALE_STEPS {
-        let x = |i: i32| fine(SCALE_LEFT) + fine(SCALE_WIDTH) * i / SCALE_STEPS;
-        // To the end, each over the last: between neighbours the ground would shine through.
-        let corners = [(x(step), fine(SCALE_TOP)), (x(SCALE_STEPS), fine(SCALE_TOP + SCALE_HEIGHT))];
-        let share = f64::from(step) / f64::from(SCALE_STEPS - 1);
-        area.draw(&Rectangle::new(corners, colour(share).filled()))?;
-    }
-    let label = format!("0 to {} {unit}", number(largest));
-    area.draw_text(&label, &beside(), (fine(SCALE_LEFT + SCALE_WIDTH + NAME_AIR), middle))?;
-    Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_scale_is_a_round_length() {
-        let lengths = [9.9, 5.0, 4.9, 1.99, 0.3, 0.07].map(round_length);
-        assert_eq!(lengths.map(|length| length.to_string()), ["5", "5", "2", "1", "0.2", "0.05"]);
-    }
 }

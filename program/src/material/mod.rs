@@ -3,4 +3,5 @@
 pub mod fibre_wave;
 pub mod file;
 pub mod model;
+pub mod of_law;
 pub mod preset;

@@ -6,14 +6,14 @@ use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,
 };
-use tiny_skia::{FillRule, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
+use tiny_skia::{FillRule, IntSize, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, Transform};
 
 use super::font::{ASCENT, CAPITAL, DESCENT, Font};
 use super::style::FINE;
 use super::svg::Svg;
 
 /// The PNG has this many dots for each unit of the SVG.
-const PNG_SCALE: f32 = 1.5;
+pub const PNG_SCALE: f32 = 1.5;
 
 type Done = Result<(), DrawingErrorKind<Infallible>>;
 
@@ -183,6 +183,20 @@ impl DrawingBackend for &mut Sheet {
         let outline = anchored(&self.font, text, style, style.size() as f32 / FINE as f32);
         let outline = outline.and_then(|path| path.transform(Transform::from_rotate(turn).post_translate(x, y)));
         self.fill(outline, style.color());
+        Ok(())
+    }
+
+    /// Dots of the PNG as they are; in the SVG an image.
+    fn blit_bitmap(&mut self, place: BackendCoord, (width, height): (u32, u32), dots: &[u8]) -> Done {
+        let opaque = dots.chunks_exact(3).flat_map(|dot| [dot[0], dot[1], dot[2], 255]).collect();
+        let pixels = IntSize::from_wh(width, height).and_then(|size| Pixmap::from_vec(opaque, size));
+        let Some(pixels) = pixels else { return Ok(()) };
+        let (x, y) = units(place);
+        let [left, top] = [x, y].map(|length| (length * PNG_SCALE).round() as i32);
+        self.pixels.draw_pixmap(left, top, pixels.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
+        if let Ok(png) = pixels.encode_png() {
+            self.svg.image([x, y], [width, height].map(|length| length as f32 / PNG_SCALE), &png);
+        }
         Ok(())
     }
 

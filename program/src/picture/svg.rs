@@ -32,6 +32,13 @@ impl Svg {
         self.element(path, &paint, colour);
     }
 
+    /// A PNG at this place, of this width and height.
+    pub fn image(&mut self, place: [f32; 2], size: [f32; 2], png: &[u8]) {
+        let [x, y, width, height] = [place[0], place[1], size[0], size[1]].map(|length| decimal(parts(length)));
+        let _ = write!(self.text, "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"");
+        let _ = writeln!(self.text, " href=\"data:image/png;base64,{}\"/>", base64(png));
+    }
+
     /// The whole file.
     pub fn finish(&self) -> String {
         format!("{}</svg>\n", self.text)
@@ -44,6 +51,20 @@ impl Svg {
         }
         let _ = writeln!(self.text, " d=\"{}\"/>", data(path));
     }
+}
+
+/// Bytes as text: six bits a letter, filled up to four letters.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::new();
+    for chunk in bytes.chunks(3) {
+        let bits = (0..3).fold(0, |bits, i| bits << 8 | u32::from(chunk.get(i).copied().unwrap_or(0)));
+        for i in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= chunk.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
 }
 
 fn hex(colour: BackendColor) -> String {
@@ -129,6 +150,12 @@ mod tests {
     fn numbers_are_short() {
         let written = [0, 5, -5, 10, 100, -120, 1005, -300].map(decimal);
         assert_eq!(written, ["0", ".05", "-.05", ".1", "1", "-1.2", "10.05", "-3"]);
+    }
+
+    #[test]
+    fn bytes_are_four_letters_for_three() {
+        let written = ["", "f", "fo", "foo", "foobar"].map(|text| base64(text.as_bytes()));
+        assert_eq!(written, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYmFy"]);
     }
 
     #[test]

@@ -13,6 +13,8 @@ mod command_line;
 mod documents;
 mod eval;
 mod examples;
+mod fabric;
+mod fabric_files;
 #[allow(dead_code)]
 mod hexahedra;
 mod identify;
@@ -22,4 +24,5 @@ mod newton;
 mod one_element;
 mod parallel;
 mod presets;
+mod weave;
 mod yarn_between_plates;

@@ -1,5 +1,6 @@
 use super::*;
-use crate::explicit::contact::{Contact, Cylinder};
+use crate::explicit::body::Support;
+use crate::explicit::contact::{Contact, Rigid, Shape};
 use crate::explicit::lanes::largest;
 use crate::explicit::medium::Control;
 use crate::explicit::mesh::{Section, Yarn};
@@ -18,15 +19,16 @@ fn cube_of(values: Vec<f64>, support_of: impl Fn([f64; 3]) -> Support) -> Solver
     let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let density = preset.density;
     let material = Material { law, values, density: Some(density), label: String::new() };
-    let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2 };
+    let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
     let section = Section::Rectangle;
     let yarn = Yarn { section, length: 1e-3, height: 1e-3, width: 1e-3, layers: 1, rows: 1, columns: 1 };
     let medium = Medium::new(&material, density, control).expect("valid");
-    let mut solver = Solver::new(yarn.mesh(), vec![medium], |_| 0);
-    for node in 0..solver.mesh.nodes.len() {
-        solver.support(node, support_of(solver.mesh.nodes[node]));
+    let media = vec![medium];
+    let mut body = Body::new(yarn.mesh(), &media, |_| 0);
+    for node in 0..body.mesh.nodes.len() {
+        body.support(node, support_of(body.mesh.nodes[node]));
     }
-    solver
+    Solver::new(vec![body], media)
 }
 
 /// A node with a prescribed velocity.
@@ -56,7 +58,7 @@ fn collapse([_, y, _]: [f64; 3]) -> Support {
 fn an_element_that_may_fail_goes_when_it_has_collapsed() {
     let mut solver = cube(collapse);
     let (mut first, mut worst) = (None, 0.0);
-    while solver.deleted.is_empty() {
+    while solver.bodies[0].deleted.is_empty() {
         step(&mut solver);
         let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
         worst = largest(worst, change.abs());
@@ -65,10 +67,10 @@ fn an_element_that_may_fail_goes_when_it_has_collapsed() {
     let first_step = solver.first_step.expect("a step was made");
     assert!(solver.step < 1.1 * COLLAPSED * first_step && solver.step > 0.5 * COLLAPSED * first_step);
     assert!(worst < 0.01 * solver.energies.external, "{worst} of {}", solver.energies.external);
-    assert_eq!((solver.deleted.len(), solver.collapsed), (1, 1));
+    assert_eq!((solver.bodies[0].deleted.len(), solver.bodies[0].collapsed), (1, 1));
     // Without it nothing limits the step.
     solver.accelerate(true, 1e-5).expect("nothing is left to collapse");
-    assert!(solver.step > first_step && !solver.is_intact(0));
+    assert!(solver.step > first_step && !solver.bodies[0].is_intact(0));
 }
 
 #[test]
@@ -87,7 +89,7 @@ fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none
         steps += 1;
         assert!(steps < 100_000 && solver.time < 1e-5, "the top is through the bottom after 10 µs");
     };
-    assert!(error.contains("elements have collapsed") && solver.deleted.is_empty(), "{error}");
+    assert!(error.contains("elements have collapsed") && solver.bodies[0].deleted.is_empty(), "{error}");
     let external = solver.energies.external;
     assert!(worst < 0.01 * external, "{worst} of {external}");
 }
@@ -97,9 +99,10 @@ fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none
 fn press(longest: f64) -> f64 {
     let free = Support { free: [true; 3], velocity: [0.0; 3] };
     let mut solver = cube(|[_, y, _]| if y > 0.0 { free } else { driven([0.0; 3]) });
-    let cylinder = Cylinder { radius: 0.01, stiffness: 1e13, friction: 0.0 };
-    let contact = Contact::new(cylinder, &solver.mesh.nodes, &solver.mesh.surface, solver.mass());
-    solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, contact));
+    let cylinder = Rigid { shape: Shape::Cylinder, radius: 0.01, stiffness: 1e13, friction: 0.0 };
+    let contact =
+        Contact::new(cylinder, &solver.bodies[0].mesh.nodes, &solver.bodies[0].mesh.surface, &solver.bodies[0].mass);
+    solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, vec![contact]));
     let start = short_step(&mut solver, longest).total();
     let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());
     while solver.time < 1e-5 {
@@ -132,7 +135,7 @@ fn a_deleted_element_keeps_its_energy() {
     });
     let start = step(&mut solver).total();
     let mut before = Energies::default();
-    while solver.deleted.is_empty() {
+    while solver.bodies[0].deleted.is_empty() {
         before = step(&mut solver);
         assert!(solver.time < 1e-5, "it is a tenth longer by now");
     }
@@ -150,18 +153,19 @@ fn a_deleted_element_keeps_its_energy() {
 fn an_element_that_could_not_be_evaluated_stays_deleted() {
     let mut solver = cube(|_| driven([0.0; 3]));
     let pull = |solver: &mut Solver<f64>, factor: [f64; 3]| {
-        for (node, place) in solver.mesh.nodes.iter().enumerate() {
-            solver.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
+        let body = &mut solver.bodies[0];
+        for (node, place) in body.mesh.nodes.iter().enumerate() {
+            body.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
         }
     };
     pull(&mut solver, [1.01, 1.0, 1.0]);
     let stretched = step(&mut solver);
-    assert!(stretched.internal > 0.0 && solver.deleted.is_empty());
+    assert!(stretched.internal > 0.0 && solver.bodies[0].deleted.is_empty());
     pull(&mut solver, [1.01, -1.0, 1.0]);
     step(&mut solver);
-    assert_eq!(solver.deleted, [0]);
+    assert_eq!(solver.bodies[0].deleted, [0]);
     pull(&mut solver, [1.02, 1.0, 1.0]);
     let restored = step(&mut solver);
     assert_eq!(restored.internal, stretched.internal, "it keeps the energy it had");
-    assert!(solver.forces.iter().all(|&force| force == [0.0; 3]), "{:?}", solver.forces);
+    assert!(solver.bodies[0].forces.iter().all(|&force| force == [0.0; 3]), "{:?}", solver.bodies[0].forces);
 }

@@ -1,0 +1,93 @@
+//! Tables: for a terminal, whose columns have two lines of heading, and as CSV.
+
+use std::path::Path;
+
+use super::error::Error;
+
+/// The entry of a column that does not apply to a line.
+pub const NONE: &str = "-";
+/// The gap between two columns.
+const GAP: &str = "  ";
+/// Columns that are never left out: what a line is of, and one thing about it.
+const FEWEST: usize = 2;
+
+/// A column: two lines of heading, of which the second is a unit, and an entry for each line.
+pub struct Column {
+    pub heading: [String; 2],
+    pub entries: Vec<String>,
+}
+
+impl Column {
+    fn width(&self) -> usize {
+        self.heading.iter().chain(&self.entries).map(|text| text.chars().count()).fold(0, usize::max)
+    }
+
+    fn applies(&self) -> bool {
+        self.entries.iter().any(|entry| entry != NONE)
+    }
+}
+
+/// The value as text, or [`NONE`].
+pub fn or_dash(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
+    value.map_or(NONE.to_string(), text)
+}
+
+/// A name of at most so many letters, cut if it is longer.
+pub fn shortened(name: &str, longest: usize) -> String {
+    if name.chars().count() <= longest {
+        name.to_string()
+    } else {
+        name.chars().take(longest - 1).chain(['…']).collect()
+    }
+}
+
+/// The table without columns that apply to nothing and, where it is wider than this, without the last ones. Words stand on the
+/// left of their column, numbers on the right.
+pub fn table(columns: Vec<Column>, widest: usize) -> String {
+    let mut columns: Vec<Column> = columns.into_iter().filter(Column::applies).collect();
+    let width = |columns: &[Column]| columns.iter().map(|column| column.width() + GAP.len()).sum::<usize>() - GAP.len();
+    while columns.len() > FEWEST && width(&columns) > widest {
+        columns.pop();
+    }
+    let Some(lines) = columns.first().map(|column| column.entries.len()) else { return String::new() };
+    let line = |text: &dyn Fn(&Column) -> String| {
+        let cells = columns.iter().map(|column| {
+            let (text, width) = (text(column), column.width());
+            // Words have no unit.
+            if column.heading[1].is_empty() { format!("{text:<width$}") } else { format!("{text:>width$}") }
+        });
+        format!("{}\n", cells.collect::<Vec<_>>().join(GAP).trim_end())
+    };
+    let mut text: String = (0..2).map(|i| line(&|column| column.heading[i].clone())).collect();
+    text.push_str(&line(&|column| "-".repeat(column.width())));
+    text.extend((0..lines).map(|i| line(&|column| column.entries[i].clone())));
+    text
+}
+
+/// Writes lines of titled cells as CSV; a line without a cell that others have gets [`NONE`] there.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_csv(file: &Path, lines: &[Vec<(&'static str, String)>]) -> Result<(), Error> {
+    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
+    let mut titles: Vec<&'static str> = Vec::new();
+    for &(title, _) in lines.iter().flatten() {
+        if !titles.contains(&title) {
+            titles.push(title);
+        }
+    }
+    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
+    writer.write_record(&titles).map_err(file_error)?;
+    for line in lines {
+        let entry = |title: &&str| line.iter().find(|cell| cell.0 == *title).map_or(NONE, |cell| &cell.1);
+        writer.write_record(titles.iter().map(entry)).map_err(file_error)?;
+    }
+    writer.flush().map_err(|error| file_error(error.into()))
+}
+
+/// The names of the files in a directory and what they are; of each, whether it was written.
+pub fn files(directory: &Path, files: &[(bool, &str, &str)]) -> String {
+    let written = files.iter().filter(|(written, ..)| *written);
+    let lines = written.map(|(_, names, meaning)| format!("  {names:<28}{meaning}\n"));
+    format!("Files in {}:\n{}", directory.display(), lines.collect::<String>())
+}

@@ -1,0 +1,94 @@
+//! Files for ParaView: hexahedra with data (VTU), and series of them in time (PVD).
+
+use std::fmt::{Display, Write};
+use std::path::PathBuf;
+
+use super::error::Error;
+
+/// The corners of an element in the order of a VTK hexahedron; corner c stands on the upper side of axis i where bit i of c
+/// is set.
+const CORNERS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
+const HEXAHEDRON: u8 = 12;
+
+/// The text of a VTU file of these cells; the data are arrays, as [`array`] and [`vectors`] write them.
+pub fn unstructured_grid(
+    points: impl ExactSizeIterator<Item = [f64; 3]>,
+    cells: impl ExactSizeIterator<Item = [u32; 8]>,
+    point_data: &str,
+    cell_data: &str,
+) -> String {
+    let mut text = String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n");
+    let (nodes, count) = (points.len(), cells.len());
+    let _ = write!(text, "<UnstructuredGrid><Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{count}\">\n<Points>\n");
+    vectors(&mut text, "position", points);
+    let _ = write!(text, "</Points>\n<PointData>\n{point_data}</PointData>\n<Cells>\n");
+    let corners = cells.flat_map(|cell| CORNERS.map(|corner| cell[corner]));
+    array(&mut text, "connectivity", "Int32", 1, corners);
+    array(&mut text, "offsets", "Int32", 1, (1..=count).map(|i| 8 * i));
+    array(&mut text, "types", "UInt8", 1, (0..count).map(|_| HEXAHEDRON));
+    let _ = write!(text, "</Cells>\n<CellData>\n{cell_data}</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n");
+    text
+}
+
+/// Vectors in single precision.
+pub fn vectors(text: &mut String, name: &str, values: impl Iterator<Item = [f64; 3]>) {
+    array(text, name, "Float32", 3, values.flatten().map(|value| value as f32));
+}
+
+/// An array of so many components a point or cell.
+pub fn array<V: Display>(
+    text: &mut String,
+    name: &str,
+    kind: &str,
+    components: usize,
+    values: impl Iterator<Item = V>,
+) {
+    let _ = writeln!(
+        text,
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
+    );
+    for (i, value) in values.enumerate() {
+        let separator = if (i + 1) % 24 == 0 { '\n' } else { ' ' };
+        let _ = write!(text, "{value}{separator}");
+    }
+    text.push_str("\n</DataArray>\n");
+}
+
+/// A series in time, written as it comes: NAME-0000.vtu and so on, and NAME.pvd, which names their times.
+pub struct Frames {
+    directory: PathBuf,
+    name: String,
+    files: Vec<(f64, String)>,
+}
+
+impl Frames {
+    pub fn new(directory: impl Into<PathBuf>, name: &str) -> Self {
+        Frames { directory: directory.into(), name: name.to_string(), files: Vec::new() }
+    }
+
+    /// Writes the text of the next VTU file, and the PVD file anew.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&mut self, time: f64, text: &str) -> Result<(), Error> {
+        let name = format!("{}-{:04}.vtu", self.name, self.files.len());
+        self.write_file(&name, text)?;
+        self.files.push((time, name));
+        self.write_file(&format!("{}.pvd", self.name), &self.collection())
+    }
+
+    fn write_file(&self, name: &str, text: &str) -> Result<(), Error> {
+        let file = self.directory.join(name);
+        std::fs::write(&file, text).map_err(|error| Error::Input(format!("{}: {error}", file.display())))
+    }
+
+    fn collection(&self) -> String {
+        let mut text =
+            String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n");
+        for (time, file) in &self.files {
+            let _ = writeln!(text, "<DataSet timestep=\"{time}\" file=\"{file}\"/>");
+        }
+        text.push_str("</Collection>\n</VTKFile>\n");
+        text
+    }
+}

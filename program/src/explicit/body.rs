@@ -1,0 +1,237 @@
+//! One body: lumped masses, supports, the motion of its nodes, the forces of its elements.
+
+use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
+use super::lanes::Number;
+use super::medium::Medium;
+use super::mesh::Mesh;
+
+/// The boundary condition of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// Which directions are free.
+    pub free: [bool; 3],
+    /// The velocity in the directions that are not.
+    pub velocity: [f64; 3],
+}
+
+/// A body with its motion and its history.
+#[derive(Debug)]
+pub struct Body<T> {
+    pub mesh: Mesh,
+    pub blocks: Vec<ElementBlock<T>>,
+    pub displacement: Vec<[T; 3]>,
+    pub velocity: Vec<[T; 3]>,
+    pub forces: Vec<[T; 3]>,
+    /// Reciprocal mass by direction, 0 where the direction is not free.
+    mobility: Vec<[T; 3]>,
+    pub mass: Vec<f64>,
+    supports: Vec<(usize, Support)>,
+    /// Number of intact elements at each node.
+    intact_elements: Vec<u16>,
+    pub deleted: Vec<usize>,
+    /// How many of them because they had collapsed.
+    pub collapsed: usize,
+    /// Hourglass energy of deleted elements.
+    pub released: f64,
+    /// Of the last step.
+    pub sums: Sums,
+}
+
+impl<T: Number> Body<T> {
+    /// A body at rest. `medium_of` gives the index of an element's medium.
+    pub fn new(mesh: Mesh, media: &[Medium<T>], medium_of: impl Fn(usize) -> usize) -> Self {
+        let count = mesh.nodes.len();
+        let mut body = Body {
+            blocks: Vec::new(),
+            displacement: vec![[T::default(); 3]; count],
+            velocity: vec![[T::default(); 3]; count],
+            forces: vec![[T::default(); 3]; count],
+            mobility: Vec::new(),
+            mass: vec![0.0; count],
+            supports: Vec::new(),
+            intact_elements: vec![0; count],
+            deleted: Vec::new(),
+            collapsed: 0,
+            released: 0.0,
+            sums: Sums::default(),
+            mesh,
+        };
+        body.build_blocks(media, medium_of);
+        body.lump_mass(media);
+        body
+    }
+
+    /// Groups consecutive elements of one medium into blocks.
+    fn build_blocks(&mut self, media: &[Medium<T>], medium_of: impl Fn(usize) -> usize) {
+        let Mesh { nodes, elements, fibre, .. } = &self.mesh;
+        let mut first = 0;
+        while first < elements.len() {
+            let medium = medium_of(first);
+            let alike = (first..elements.len().min(first + BLOCK)).take_while(|&i| medium_of(i) == medium).count();
+            let range = first..first + alike;
+            let fibre = if fibre.is_empty() { &[][..] } else { &fibre[range.clone()] };
+            self.blocks.push(ElementBlock::new(&elements[range], fibre, first, nodes, medium, &media[medium]));
+            first += alike;
+        }
+    }
+
+    /// Lumps an eighth of every element's mass at each corner.
+    fn lump_mass(&mut self, media: &[Medium<T>]) {
+        for block in &self.blocks {
+            for i in 0..block.shapes.n {
+                let mass = media[block.medium].density * block.shapes.corner_volume(i);
+                for node in block.shapes.nodes[i] {
+                    self.mass[node as usize] += mass;
+                    self.intact_elements[node as usize] += 1;
+                }
+            }
+        }
+        self.mobility = self.mass.iter().map(|mass| [T::from_f64(1.0 / mass); 3]).collect();
+    }
+
+    /// Fixes a node, or prescribes its velocity. Directions that another support holds stay held.
+    pub fn support(&mut self, node: usize, support: Support) {
+        for i in (0..3).filter(|&i| !support.free[i]) {
+            self.mobility[node][i] = T::default();
+            self.velocity[node][i] = T::from_f64(support.velocity[i]);
+        }
+        if support.velocity != [0.0; 3] {
+            self.supports.push((node, support));
+        }
+    }
+
+    /// The elements' forces at this instant; what they sum up to is in `sums`.
+    pub fn compute_forces(&mut self, media: &[Medium<T>], scratch: &mut Scratch<T>, options: StepOptions) {
+        self.forces.fill([T::default(); 3]);
+        self.sums = Sums::default();
+        for block in &mut self.blocks {
+            let medium = &media[block.medium];
+            block.advance(medium, &self.displacement, &mut self.forces, scratch, options, &mut self.sums);
+        }
+    }
+
+    /// Releases the nodes of the elements that this step has deleted; a node without elements keeps its mass. Returns whether
+    /// there are any.
+    pub fn release_nodes(&mut self) -> bool {
+        for &element in &self.sums.deleted {
+            for node in self.mesh.elements[element] {
+                self.intact_elements[node as usize] -= 1;
+            }
+        }
+        self.released += self.sums.released;
+        self.deleted.extend(&self.sums.deleted);
+        self.collapsed += self.sums.collapsed;
+        !self.sums.deleted.is_empty()
+    }
+
+    /// Deletes elements as if they had failed.
+    #[cfg(test)]
+    pub fn delete(&mut self, elements: &[usize]) {
+        for &element in elements {
+            let place = self.blocks.partition_point(|block| block.first <= element) - 1;
+            let first = self.blocks[place].first;
+            self.blocks[place].intact[element - first] = T::default();
+        }
+        self.sums.deleted = elements.to_vec();
+        self.release_nodes();
+    }
+
+    /// Whether no element is left at a node.
+    pub fn is_loose(&self, node: usize) -> bool {
+        self.intact_elements[node] == 0
+    }
+
+    /// Velocities after this interval; returns the kinetic energy if it is to be measured.
+    pub fn update_velocities(&mut self, interval: f64, measured: bool) -> f64 {
+        let dt = T::from_f64(interval);
+        let mut kinetic = 0.0;
+        for (((v, f), mobility), &mass) in
+            self.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
+        {
+            let old = *v;
+            for i in 0..3 {
+                v[i] += dt * f[i] * mobility[i];
+            }
+            if measured {
+                // What central differences conserve is the product of the velocities before and after.
+                kinetic += 0.5 * mass * (0..3).map(|i| old[i].into() * v[i].into()).sum::<f64>();
+            }
+        }
+        kinetic
+    }
+
+    /// The power of the reactions at prescribed velocities.
+    pub fn external_power(&self) -> f64 {
+        let mut power = 0.0;
+        for (node, support) in &self.supports {
+            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * support.velocity[i] };
+            power += (0..3).filter(|&i| !support.free[i]).map(reaction).sum::<f64>();
+        }
+        power
+    }
+
+    /// Displacements at the end of a step.
+    pub fn displace(&mut self, step: f64) {
+        let dt = T::from_f64(step);
+        for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
+            for i in 0..3 {
+                u[i] += dt * v[i];
+            }
+        }
+    }
+
+    /// What the laws report.
+    pub fn internal_energy(&self, media: &[Medium<T>]) -> f64 {
+        let mut internal = 0.0;
+        for block in &self.blocks {
+            for i in 0..block.shapes.n {
+                let density: f64 = block.energies(&media[block.medium], i).iter().sum();
+                internal += density * block.shapes.volume[i].into();
+            }
+        }
+        internal
+    }
+
+    /// The current position of a node.
+    #[inline(always)]
+    pub fn position(&self, node: usize) -> [f64; 3] {
+        let ([x, y, z], [u, v, w]) = (self.mesh.nodes[node], self.displacement[node]);
+        [x + u.into(), y + v.into(), z + w.into()]
+    }
+
+    /// The block of an element, and its place there.
+    pub fn element(&self, number: usize) -> (&ElementBlock<T>, usize) {
+        let block = &self.blocks[self.blocks.partition_point(|block| block.first <= number) - 1];
+        (block, number - block.first)
+    }
+
+    /// Whether an element has not been deleted.
+    pub fn is_intact(&self, number: usize) -> bool {
+        let (block, i) = self.element(number);
+        block.is_intact(i)
+    }
+
+    /// Energy densities in an element, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
+    pub fn energy_densities(&self, media: &[Medium<T>], number: usize) -> [f64; 5] {
+        let (block, i) = self.element(number);
+        block.energies(&media[block.medium], i)
+    }
+
+    /// Reference volume of an element.
+    pub fn volume(&self, number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.shapes.volume[i].into()
+    }
+
+    /// How near an element is to failure, which is at 1.
+    pub fn failure_index(&self, media: &[Medium<T>], number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.failure_index(&media[block.medium], i)
+    }
+
+    /// Logarithmic strain along the fibre of an element.
+    pub fn elongation(&self, media: &[Medium<T>], number: usize) -> f64 {
+        let (block, i) = self.element(number);
+        block.elongation(&media[block.medium], i)
+    }
+}

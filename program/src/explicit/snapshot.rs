@@ -1,0 +1,42 @@
+//! The bodies at an instant, to be drawn.
+
+use super::lanes::Number;
+use super::solver::Solver;
+
+/// Nodes and elements body by body.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    pub time: f64,
+    pub positions: Vec<[f64; 3]>,
+    pub intact: Vec<bool>,
+    /// As [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
+    pub densities: Vec<[f64; 5]>,
+    /// Height of the projectile's centre, and its radius.
+    pub projectile: Option<(f64, f64)>,
+}
+
+impl Snapshot {
+    /// How the bodies stand, and a projectile of this radius.
+    pub fn of<T: Number>(solver: &Solver<T>, radius: f64) -> Snapshot {
+        let mut snapshot = Snapshot {
+            time: solver.time,
+            positions: Vec::new(),
+            intact: Vec::new(),
+            densities: Vec::new(),
+            projectile: solver.projectile.as_ref().map(|projectile| (projectile.position, radius)),
+        };
+        for body in &solver.bodies {
+            let elements = 0..body.mesh.elements.len();
+            snapshot.positions.extend((0..body.mesh.nodes.len()).map(|node| body.position(node)));
+            snapshot.intact.extend(elements.clone().map(|i| body.is_intact(i)));
+            snapshot.densities.extend(elements.map(|i| body.energy_densities(&solver.media, i)));
+        }
+        snapshot
+    }
+
+    /// The largest of a density in intact elements.
+    pub fn largest(&self, density: impl Fn(&[f64; 5]) -> f64) -> f64 {
+        let intact = self.densities.iter().zip(&self.intact).filter(|(_, intact)| **intact);
+        intact.map(|(densities, _)| density(densities)).fold(0.0, f64::max)
+    }
+}

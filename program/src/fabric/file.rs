@@ -1,0 +1,86 @@
+//! The tables of a scene's TOML file: the weave, the scene's own table and its cases'.
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::common::toml_file::Numbers;
+use crate::impact::scene::Precision;
+use crate::material::file::MaterialFile;
+use crate::material::of_law::{FailureName, LawName};
+use crate::weave::file::WeaveFile;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    pub title: Option<String>,
+    pub units: Spanned<String>,
+    pub weave: Spanned<WeaveFile>,
+    pub scene: Spanned<CaseFile>,
+    #[serde(default)]
+    pub case: Vec<Spanned<CaseFile>>,
+}
+
+/// The scene's table, and what a case has otherwise.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CaseFile {
+    pub name: Option<Spanned<String>>,
+    pub law: Option<LawName>,
+    pub failure: Option<Spanned<FailureName>>,
+    pub hyperelastic: Option<Spanned<MaterialFile>>,
+    pub linear_elastic: Option<Spanned<MaterialFile>>,
+    pub hyperelastic_radius: Option<Spanned<f64>>,
+    pub speed: Option<Spanned<f64>>,
+    pub mass: Option<Spanned<f64>>,
+    pub radius: Option<Spanned<f64>>,
+    pub friction: Option<Spanned<f64>>,
+    pub yarn_friction: Option<Spanned<f64>>,
+    pub contact_stiffness: Option<Spanned<f64>>,
+    pub hourglass: Option<Spanned<f64>>,
+    pub viscosity: Option<Spanned<Numbers<3>>>,
+    pub end: Option<Spanned<f64>>,
+    pub sample: Option<Spanned<f64>>,
+    pub pictures: Option<Spanned<Vec<f64>>>,
+    pub frames: Option<Spanned<i64>>,
+    pub precision: Option<Precision>,
+}
+
+impl CaseFile {
+    pub fn law(&self) -> LawName {
+        self.law.unwrap_or(LawName::Hyperelastic)
+    }
+
+    pub fn failure(&self) -> FailureName {
+        self.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref())
+    }
+
+    /// This table, with the keys of `base` where it has none.
+    pub fn over(&self, base: &CaseFile) -> CaseFile {
+        let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
+            (Some(own), Some(base)) => Some(Spanned::new(own.span(), own.get_ref().over(base.get_ref()))),
+            (own, base) => own.clone().or(base.clone()),
+        };
+        let (own, base) = (self.clone(), base.clone());
+        CaseFile {
+            name: own.name,
+            law: own.law.or(base.law),
+            failure: own.failure.or(base.failure),
+            hyperelastic: material(&own.hyperelastic, &base.hyperelastic),
+            linear_elastic: material(&own.linear_elastic, &base.linear_elastic),
+            hyperelastic_radius: own.hyperelastic_radius.or(base.hyperelastic_radius),
+            speed: own.speed.or(base.speed),
+            mass: own.mass.or(base.mass),
+            radius: own.radius.or(base.radius),
+            friction: own.friction.or(base.friction),
+            yarn_friction: own.yarn_friction.or(base.yarn_friction),
+            contact_stiffness: own.contact_stiffness.or(base.contact_stiffness),
+            hourglass: own.hourglass.or(base.hourglass),
+            viscosity: own.viscosity.or(base.viscosity),
+            end: own.end.or(base.end),
+            sample: own.sample.or(base.sample),
+            pictures: own.pictures.or(base.pictures),
+            frames: own.frames.or(base.frames),
+            precision: own.precision.or(base.precision),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections tilt.
+
+use crate::explicit::energies::Energies;
+use crate::explicit::lanes::{Number, largest};
+use crate::explicit::solver::Solver;
+use crate::weave::model::{Model, Yarn};
+
+/// The front of the transverse wave is where the deflection has this part of its largest value.
+const FRONT: f64 = 0.02;
+
+/// The state at an instant. Energies are those of the whole panel.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sample {
+    pub time: f64,
+    /// Of the sphere, in the direction of the blow; how far it has come; the force that holds it up.
+    pub speed: f64,
+    pub travel: f64,
+    pub force: f64,
+    /// The farthest that a point of an intact element has gone in the direction of the blow.
+    pub deflection: f64,
+    /// Along a yarn through the centre.
+    pub front: f64,
+    pub energies: Energies,
+    /// The panel's energy by mode, and the largest densities in intact elements.
+    pub parts: [f64; 5],
+    pub largest: [f64; 5],
+    pub index: f64,
+    pub deleted: usize,
+    pub collapsed: usize,
+    /// Yarns that are torn through.
+    pub torn: usize,
+    /// The largest angle, in degrees, between a section and the plane across its yarn's middle line; and how far its middle
+    /// has slipped along that line against its rim.
+    pub tilt: f64,
+    pub slip: f64,
+}
+
+/// Measures all.
+pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64) -> Sample {
+    let whole = 1.0 / share;
+    let mut sample = Sample { time: solver.time, ..Sample::default() };
+    if let Some(sphere) = &solver.projectile {
+        sample.speed = -sphere.velocity;
+        sample.travel = start - sphere.position;
+        sample.force = sphere.force * whole;
+    }
+    sample.energies = times(whole, &solver.energies);
+    for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
+        sample.deleted += body.deleted.len();
+        sample.collapsed += body.collapsed;
+        sample.torn += usize::from(is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i)));
+        for i in 0..body.mesh.elements.len() {
+            let densities = body.energy_densities(&solver.media, i);
+            for (part, density) in sample.parts.iter_mut().zip(densities) {
+                *part += whole * density * body.volume(i);
+            }
+            if !body.is_intact(i) {
+                continue;
+            }
+            for (most, density) in sample.largest.iter_mut().zip(densities) {
+                *most = largest(*most, density);
+            }
+            sample.index = largest(sample.index, body.failure_index(&solver.media, i));
+            for node in body.mesh.elements[i] {
+                sample.deflection = largest(sample.deflection, -body.displacement[node as usize][2].into());
+            }
+        }
+        let position = |node: usize| body.position(node);
+        for section in 0..=yarn.layers {
+            let (tilt, slip) = section_of(yarn, section, position);
+            (sample.tilt, sample.slip) = (largest(sample.tilt, tilt), largest(sample.slip, slip));
+        }
+    }
+    sample.front = front(panel, solver, FRONT * sample.deflection);
+    sample
+}
+
+fn times(factor: f64, energies: &Energies) -> Energies {
+    let Energies { projectile, kinetic, internal, hourglass, viscosity, friction, contact, external } = *energies;
+    Energies {
+        projectile: factor * projectile,
+        kinetic: factor * kinetic,
+        internal: factor * internal,
+        hourglass: factor * hourglass,
+        viscosity: factor * viscosity,
+        friction: factor * friction,
+        contact: factor * contact,
+        external: factor * external,
+    }
+}
+
+/// Whether every line of elements along a yarn has lost one.
+fn is_torn(yarn: &Yarn, elements: usize, intact: impl Fn(usize) -> bool) -> bool {
+    let lines = yarn.elements_per_layer();
+    (0..lines).all(|line| (line..elements).step_by(lines).any(|element| !intact(element)))
+}
+
+/// The farthest place from the centre, along the yarns next to its axes, that has come down by more than a threshold.
+fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
+    let nearest = panel.yarns.iter().map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min);
+    let mut farthest: f64 = 0.0;
+    for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
+        if yarn.coordinate.abs() > 1.001 * nearest || threshold <= 0.0 {
+            continue;
+        }
+        for (node, [x, y, _]) in body.mesh.nodes.iter().enumerate() {
+            if -body.displacement[node][2].into() > threshold {
+                farthest = farthest.max(x.hypot(*y));
+            }
+        }
+    }
+    farthest
+}
+
+/// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
+/// side along the yarn: what the law's k_ld and hourglass control hold.
+fn section_of(yarn: &Yarn, section: usize, position: impl Fn(usize) -> [f64; 3]) -> (f64, f64) {
+    let (per, rows, columns) = (yarn.nodes_per_section(), yarn.rows, yarn.columns);
+    let mean = |section: usize| {
+        let sum = (section * per..(section + 1) * per).map(|node| nalgebra::Vector3::from(position(node)));
+        sum.sum::<nalgebra::Vector3<f64>>() / per as f64
+    };
+    let (before, after) = (section.saturating_sub(1), (section + 1).min(yarn.layers));
+    let along = (mean(after) - mean(before)).normalize();
+    let node = |column: usize, row: usize| nalgebra::Vector3::from(position(section * per + column * (rows + 1) + row));
+    let middle = columns / 2;
+    let upright = node(middle, rows) - node(middle, 0);
+    let tilt = (along.dot(&upright) / upright.norm()).abs().min(1.0).asin().to_degrees();
+    let core = node(middle, rows / 2);
+    let sides = 0.5 * (node(middle, rows) + node(middle, 0));
+    let slip = if rows < 2 { 0.0 } else { along.dot(&(core - sides)).abs() };
+    (tilt, slip)
+}

@@ -1,0 +1,15 @@
+//! `toron fabric`: a woven panel struck by a sphere (thesis, chapter 5), on the explicit solver in
+//! [`explicit`](crate::explicit). `docs/fabric.md` has the keys of a scene.
+
+pub mod command;
+pub mod file;
+pub mod measure;
+pub mod model;
+pub mod output;
+pub mod panel_picture;
+pub mod plot;
+pub mod reader;
+pub mod report;
+pub mod run;
+pub mod scene;
+pub mod summary;

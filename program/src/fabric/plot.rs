@@ -1,0 +1,69 @@
+//! Plots of a case's history.
+
+use std::path::Path;
+
+use super::measure::Sample;
+use super::run::Outcome;
+use super::scene::{Case, Scene};
+use crate::common::error::Error;
+use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME, unit};
+use crate::picture::history;
+use crate::picture::panel::{Abscissa, Panel, Series, tidy};
+use crate::picture::style::{COLOURS, INK};
+use toron::law::parameters::ENERGY_DENSITY;
+
+const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "work of the linear law"];
+
+/// Speed, deflection, energies by kind and by mode, largest energy densities, front and force over time, as far as they change.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, outcome: &Outcome) -> Result<(), Error> {
+    let abscissa = Abscissa {
+        label: format!("time ({})", unit(&scene.units, TIME)),
+        values: outcome.samples.iter().map(|sample| sample.time).collect(),
+        failure: outcome.failed,
+    };
+    history::write(svg, png, [&scene.title, &case.name], panels(scene, outcome), &abscissa)
+}
+
+fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 8] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
+        name: name.to_string(),
+        colour: COLOURS[colour % COLOURS.len()],
+        values: outcome.samples.iter().map(of).collect(),
+    };
+    let panel = |title, dimension, series: Vec<Series>| Panel {
+        title,
+        unit: unit(&scene.units, dimension),
+        series: tidy(series),
+        limit: None,
+    };
+    let energies = vec![
+        line(0, "sphere", &|s| s.energies.projectile),
+        line(1, "kinetic", &|s| s.energies.kinetic),
+        line(2, "internal", &|s| s.energies.internal),
+        line(3, "all other", &|s| s.energies.other()),
+        Series { colour: INK, ..line(0, "total", &|s| s.energies.total()) },
+    ];
+    let others = vec![
+        line(0, "friction", &|s| s.energies.friction),
+        line(1, "hourglass", &|s| s.energies.hourglass),
+        line(2, "viscosity", &|s| s.energies.viscosity),
+        line(3, "contact", &|s| s.energies.contact),
+    ];
+    let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.deflection)];
+    let by_mode = |of: fn(&Sample) -> [f64; 5]| -> Vec<Series> {
+        (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| of(s)[mode])).collect()
+    };
+    [
+        panel("Speed of the sphere", SPEED, vec![line(0, "speed", &|s| s.speed)]),
+        panel("Largest deflection", LENGTH, deflections),
+        panel("Energies", ENERGY, energies),
+        panel("All other energies", ENERGY, others),
+        panel("Internal energy", ENERGY, by_mode(|s| s.parts)),
+        panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
+        panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.front)]),
+        panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
+    ]
+}

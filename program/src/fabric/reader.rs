@@ -1,0 +1,195 @@
+//! A scene from its TOML file. The format is described in `docs/fabric.md`.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::file::{CaseFile, SceneFile};
+use super::scene::{Case, Scene, Zones};
+use crate::common::error::Error;
+use crate::common::toml_file::{Source, same_files};
+use crate::explicit::contact::{Rigid, Shape};
+use crate::explicit::medium::Control;
+use crate::explicit::mutual_contact::Parameters;
+use crate::impact::scene::Precision;
+use crate::material::file::MaterialFile;
+use crate::material::model::Material;
+use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::weave::reader::Woven;
+use toron::host::units::UnitSystem;
+
+/// Files for ParaView are numbered by four digits.
+const MOST_FRAMES: i64 = 9999;
+/// Samples of a history where the file does not say otherwise.
+const SAMPLES: f64 = 400.0;
+/// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
+const FRICTION: [f64; 2] = [0.23, 0.18];
+/// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
+const MARGIN: f64 = 0.35;
+const DEEPEST: f64 = 0.5;
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = source.units(&file.units)?;
+        let woven = source.woven(&file.weave, &units)?;
+        let base = file.scene.get_ref();
+        if let Some(name) = &base.name {
+            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
+        }
+        let mut cases = Vec::new();
+        if file.case.is_empty() {
+            let span = file.scene.span();
+            let reader = Reader { source: &source, units: &units, woven: &woven, file: base, own: base, span };
+            cases.push(reader.case("scene".to_string())?);
+        }
+        for case in &file.case {
+            let (own, span) = (case.get_ref(), case.span());
+            let name = source.fabric_case(case, &cases)?;
+            let table = own.over(base);
+            let reader = Reader { source: &source, units: &units, woven: &woven, file: &table, own, span };
+            cases.push(reader.case(name)?);
+        }
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, woven, cases })
+    }
+}
+
+impl Source<'_> {
+    fn fabric_case(&self, case: &Spanned<CaseFile>, others: &[Case]) -> Result<String, Error> {
+        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
+        let Some(name) = &case.get_ref().name else {
+            return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
+        };
+        let text = name.get_ref();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        let taken = text == "summary" || others.iter().any(|other| same_files(&other.name, text, "-panel-"));
+        if text.is_empty() || taken || !text.chars().all(plain) {
+            return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
+        }
+        Ok(text.clone())
+    }
+}
+
+/// A case's table and what is needed to read it.
+struct Reader<'a> {
+    source: &'a Source<'a>,
+    units: &'a UnitSystem,
+    woven: &'a Woven,
+    file: &'a CaseFile,
+    /// The case's own table, without the scene's.
+    own: &'a CaseFile,
+    /// The place that errors name for keys that are missing.
+    span: Range<usize>,
+}
+
+impl Reader<'_> {
+    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
+        match value {
+            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
+            None => {
+                let message = format!("{key} is missing; allowed: a finite number > 0");
+                Err(self.source.error(self.span.clone(), &message))
+            }
+        }
+    }
+
+    fn case(&self, name: String) -> Result<Case, Error> {
+        let file = self.file;
+        let end = self.positive("end", &file.end)?;
+        let sample = if file.sample.is_some() { self.positive("sample", &file.sample)? } else { end / SAMPLES };
+        if let Some(given) = file.sample.as_ref().filter(|given| *given.get_ref() > end) {
+            let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
+            return Err(self.source.error(given.span(), &message));
+        }
+        let stiffness = self.positive("contact-stiffness", &file.contact_stiffness)?;
+        let height = self.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+        let [friction, of_yarns] = FRICTION;
+        Ok(Case {
+            zones: self.zones()?,
+            sphere: Rigid {
+                shape: Shape::Sphere,
+                radius: self.positive("radius", &file.radius)?,
+                stiffness,
+                friction: self.source.zero_or_more("friction", &file.friction, friction)?,
+            },
+            mass: self.positive("mass", &file.mass)?,
+            speed: self.positive("speed", &file.speed)?,
+            mutual: Parameters {
+                stiffness,
+                friction: self.source.zero_or_more("yarn-friction", &file.yarn_friction, of_yarns)?,
+                margin: MARGIN * height,
+                deepest: DEEPEST * height,
+            },
+            control: Control { by_direction: true, ..self.source.control(&file.hourglass, &file.viscosity)? },
+            end,
+            sample,
+            pictures: self.source.pictures(&file.pictures, &name, end)?,
+            frames: self.frames()?,
+            single_precision: file.precision == Some(Precision::F32),
+            name,
+        })
+    }
+
+    fn frames(&self) -> Result<usize, Error> {
+        let Some(frames) = &self.file.frames else { return Ok(0) };
+        let number = *frames.get_ref();
+        if !(0..=MOST_FRAMES).contains(&number) {
+            let message = format!("frames is {number}; allowed: a whole number from 0 to {MOST_FRAMES}");
+            return Err(self.source.error(frames.span(), &message));
+        }
+        Ok(number as usize)
+    }
+
+    fn zones(&self) -> Result<Zones, Error> {
+        let file = self.file;
+        let unused = |name: &str, table: &Option<Spanned<MaterialFile>>| {
+            let table = table.as_ref().filter(|_| !file.law().has(name))?;
+            Some(self.source.error(table.span(), &format!("{name} is not used; allowed: the material of the law")))
+        };
+        let own = [(HYPERELASTIC, &self.own.hyperelastic), (LINEAR_ELASTIC, &self.own.linear_elastic)];
+        if let Some(error) = own.into_iter().find_map(|(name, table)| unused(name, table)) {
+            return Err(error);
+        }
+        let hyperelastic = || self.material(HYPERELASTIC, &file.hyperelastic);
+        let linear = || self.material(LINEAR_ELASTIC, &file.linear_elastic);
+        if let Some(radius) = self.own.hyperelastic_radius.as_ref().filter(|_| file.law() != LawName::Hybrid) {
+            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
+            return Err(self.source.error(radius.span(), &message));
+        }
+        Ok(match file.law() {
+            LawName::Hyperelastic => Zones::One(Box::new(hyperelastic()?)),
+            LawName::LinearElastic => Zones::One(Box::new(linear()?)),
+            LawName::Hybrid => {
+                let radius = self.positive("hyperelastic-radius", &file.hyperelastic_radius)?;
+                Zones::Two(Box::new([hyperelastic()?, linear()?]), radius)
+            }
+        })
+    }
+
+    /// The material of this law's table.
+    fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
+        let own = if law == HYPERELASTIC { &self.own.hyperelastic } else { &self.own.linear_elastic };
+        let place = |name: &str| {
+            let given = own.as_ref().and_then(|table| table.get_ref().given(name)).map(Spanned::span);
+            given.or(self.own.failure.as_ref().map(Spanned::span))
+        };
+        let choice = Choice { law, failure: self.file.failure(), place: &place, span: self.span.clone() };
+        self.source.material_of_law(&choice, table, self.units)
+    }
+}

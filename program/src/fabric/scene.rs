@@ -1,0 +1,56 @@
+//! A scene: a panel, what strikes it, and the cases that differ from one another.
+
+use crate::explicit::contact::Rigid;
+use crate::explicit::medium::Control;
+use crate::explicit::mutual_contact::Parameters;
+use crate::material::model::Material;
+use crate::weave::reader::Woven;
+use toron::host::units::UnitSystem;
+
+/// The cases of a file, and the panel that they have in common.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub title: String,
+    pub units: UnitSystem,
+    pub woven: Woven,
+    pub cases: Vec<Case>,
+}
+
+/// One run.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub name: String,
+    pub zones: Zones,
+    /// The sphere, and the whole of its mass.
+    pub sphere: Rigid,
+    pub mass: f64,
+    pub speed: f64,
+    /// Of yarns with one another.
+    pub mutual: Parameters,
+    pub control: Control,
+    pub end: f64,
+    /// Time between two samples of the history.
+    pub sample: f64,
+    /// When the panel is drawn.
+    pub pictures: Vec<f64>,
+    /// How many files ParaView gets after the first.
+    pub frames: usize,
+    pub single_precision: bool,
+}
+
+/// What the yarns are made of, from the centre outwards.
+#[derive(Clone, Debug)]
+pub enum Zones {
+    One(Box<Material>),
+    /// The first material up to this distance from the centre.
+    Two(Box<[Material; 2]>, f64),
+}
+
+impl Zones {
+    pub fn materials(&self) -> &[Material] {
+        match self {
+            Zones::One(material) => std::slice::from_ref(&**material),
+            Zones::Two(materials, _) => &materials[..],
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The figures of a scene: a line for every case, how it ended, with what speed, deflection, damage and cost.
+
+use std::path::Path;
+use std::time::Duration;
+
+use super::measure::Sample;
+use super::run::{End, Outcome};
+use super::scene::{Case, Zones};
+use crate::common::error::Error;
+use crate::common::text_table::{or_dash, write_csv};
+use crate::common::units::number;
+use crate::explicit::lanes::largest;
+use crate::weave::model::Model;
+
+/// The front has reached the rim at this part of the way to it: the rim is held, and beside it there is no deflection to see.
+const AT_RIM: f64 = 0.95;
+
+/// A case's figures.
+pub struct Figures {
+    pub last: Sample,
+    /// The largest deflection, and when it was there.
+    pub deflection: (f64, f64),
+    /// From when on the front of the transverse wave is at the rim. At first, the slightest ripple there is before the front.
+    pub front_at_rim: Option<f64>,
+    /// The largest hourglass energy over the largest internal energy.
+    pub hourglass: f64,
+    /// The largest energy densities of all times.
+    pub densities: [f64; 5],
+    pub ns_per_zone_cycle: f64,
+}
+
+impl Figures {
+    pub fn of(panel: &Model, outcome: &Outcome) -> Figures {
+        let samples = &outcome.samples;
+        let most = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, largest);
+        let deflection = most(|sample| sample.deflection);
+        let deepest = samples.iter().find(|sample| sample.deflection == deflection);
+        let rim = AT_RIM * rim(panel);
+        let before = samples.iter().rposition(|sample| sample.front < rim).map_or(0, |last| last + 1);
+        let internal = most(|sample| sample.energies.internal);
+        let cycles = outcome.cost.steps as f64 * outcome.elements as f64;
+        Figures {
+            last: samples.last().copied().unwrap_or_default(),
+            deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
+            front_at_rim: samples.get(before).map(|sample| sample.time),
+            hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
+            densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
+            ns_per_zone_cycle: outcome.cost.total().as_nanos() as f64 / cycles.max(1.0),
+        }
+    }
+}
+
+/// How far the yarns next to the axes, along which the front is measured, reach from the centre.
+fn rim(panel: &Model) -> f64 {
+    let nearest = panel.yarns.iter().map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min);
+    let yarns = panel.yarns.iter().filter(|yarn| yarn.coordinate.abs() <= 1.001 * nearest);
+    let nodes = yarns.flat_map(|yarn| &panel.nodes[yarn.nodes.clone()]);
+    nodes.map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
+}
+
+/// How a case ended, in words.
+pub fn ending(outcome: &Outcome) -> &'static str {
+    match outcome.end {
+        End::Time => "time is over",
+        End::Stopped => "sphere stopped",
+        End::Left => "sphere went through",
+        End::Failed => "an error",
+    }
+}
+
+/// The sphere's residual speed, where the panel has either stopped it or let it through.
+pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
+    match outcome.end {
+        End::Stopped => Some(0.0),
+        End::Left => Some(figures.last.speed),
+        End::Time | End::Failed => None,
+    }
+}
+
+fn law(case: &Case) -> String {
+    match &case.zones {
+        Zones::One(material) => material.law_name().to_string(),
+        Zones::Two(_, radius) => format!("hyperelastic to {}", number(*radius)),
+    }
+}
+
+/// Titles and entries of a case's line.
+fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str, String)> {
+    let Figures { last, deflection: (deflection, deepest_at), .. } = figures;
+    let seconds = |time: Duration| time.as_secs_f64();
+    let total = seconds(outcome.cost.total()).max(f64::MIN_POSITIVE);
+    let share = |time: Duration| format!("{:.2}", seconds(time) / total);
+    let mut cells = vec![
+        ("case", case.name.clone()),
+        ("law", law(case)),
+        ("precision", if case.single_precision { "f32" } else { "f64" }.to_string()),
+        ("elements", outcome.elements.to_string()),
+        ("speed", number(case.speed)),
+        ("ending", ending(outcome).to_string()),
+        ("end", number(last.time)),
+        ("residual_speed", or_dash(residual_speed(outcome, figures), number)),
+        ("speed_at_end", number(last.speed)),
+        ("deflection_max", number(*deflection)),
+        ("deflection_max_at", number(*deepest_at)),
+        ("front_at_rim", or_dash(figures.front_at_rim, number)),
+        ("first_failure_at", or_dash(outcome.failed, number)),
+        ("torn_yarns", last.torn.to_string()),
+        ("deleted", last.deleted.to_string()),
+        ("collapsed", last.collapsed.to_string()),
+        ("imbalance", format!("{:.1e}", outcome.imbalance())),
+        ("hourglass_share", format!("{:.4}", figures.hourglass)),
+        ("tilt_at_end", format!("{:.1}", last.tilt)),
+        ("slip_at_end", number(last.slip)),
+    ];
+    let names = ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"];
+    cells.extend(names.into_iter().zip(figures.densities.map(number)));
+    cells.extend([
+        ("steps", outcome.cost.steps.to_string()),
+        ("searches", outcome.searches.to_string()),
+        ("ns_per_zone_cycle", format!("{:.1}", figures.ns_per_zone_cycle)),
+        ("contact_share", share(outcome.cost.contact)),
+        ("law_share", share(outcome.cost.law)),
+        ("seconds", format!("{:.2}", seconds(outcome.wall))),
+    ]);
+    cells
+}
+
+/// Writes the table as CSV.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(file: &Path, results: &[(&Case, Outcome, Figures)]) -> Result<(), Error> {
+    let lines: Vec<_> = results.iter().map(|(case, outcome, figures)| cells(case, outcome, figures)).collect();
+    write_csv(file, &lines)
+}

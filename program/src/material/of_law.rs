@@ -1,0 +1,150 @@
+//! The materials of a scene that is struck: one of each law, its failure chosen by the case.
+
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::file::MaterialFile;
+use super::model::{Law, Material};
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use toron::host::units::UnitSystem;
+use toron::{Criterion, Rotation};
+
+/// Numbers closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
+
+/// Keys of the materials.
+pub const HYPERELASTIC: &str = "hyperelastic";
+pub const LINEAR_ELASTIC: &str = "linear-elastic";
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum LawName {
+    Hyperelastic,
+    LinearElastic,
+    Hybrid,
+}
+
+impl LawName {
+    /// Whether a yarn of this law has the material of that table.
+    pub fn has(self, table: &str) -> bool {
+        match self {
+            LawName::Hyperelastic => table == HYPERELASTIC,
+            LawName::LinearElastic => table == LINEAR_ELASTIC,
+            LawName::Hybrid => true,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum FailureName {
+    None,
+    Uniaxial,
+    Multiaxial,
+}
+
+/// Which material a case asks for.
+pub struct Choice<'a> {
+    /// [`HYPERELASTIC`] or [`LINEAR_ELASTIC`].
+    pub law: &'static str,
+    pub failure: FailureName,
+    /// Where the case itself says something of a property, or of its failure: that is the line to change.
+    pub place: &'a dyn Fn(&str) -> Option<Range<usize>>,
+    /// The place that errors name for keys that are missing.
+    pub span: Range<usize>,
+}
+
+impl Source<'_> {
+    /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
+    fn choose_failure(
+        &self,
+        choice: &Choice,
+        material: &mut Material,
+        file: &MaterialFile,
+        span: &Range<usize>,
+    ) -> Result<(), Error> {
+        let failure = choice.failure;
+        // A property of the scene is wrong only beside the failure of a case: that is the line to change.
+        let place = |name: &str| (choice.place)(name).or(file.given(name).map(Spanned::span)).unwrap_or(span.clone());
+        let off: &[&str] = match failure {
+            FailureName::None => &["eps_lim", "sigma_lim"],
+            FailureName::Uniaxial => &["alpha", "beta"],
+            FailureName::Multiaxial => &[],
+        };
+        let table = material.table();
+        for (value, property) in material.values.iter_mut().zip(table) {
+            let name = property.name;
+            if !off.contains(&name) {
+                continue;
+            }
+            *value = 0.0;
+            if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
+                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
+                let message = format!(
+                    "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
+                    given.get_ref()
+                );
+                return Err(self.error(place(name), &message));
+            }
+        }
+        let is_zero = |name: &str| material.property(name) == Some(0.0);
+        let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
+        if let Some(name) = missing {
+            let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
+            return Err(self.error(place(name), &message));
+        }
+        if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
+            let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
+            return Err(self.error(place("alpha"), message));
+        }
+        Ok(())
+    }
+
+    /// The material of this law's table, which its preset completes, with the failure that the case asks for.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn material_of_law(
+        &self,
+        choice: &Choice,
+        table: &Option<Spanned<MaterialFile>>,
+        units: &UnitSystem,
+    ) -> Result<Material, Error> {
+        let law = choice.law;
+        let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
+        let default = MaterialFile::of_preset(preset, choice.span.clone());
+        let (file, span) = match table {
+            Some(table) => (table.get_ref().over(&default), table.span()),
+            None => (default, choice.span.clone()),
+        };
+        let mut material = self.material(&file, units, span.clone())?;
+        let found = material.law_name().replace(' ', "-");
+        if found != law {
+            return Err(self.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
+        }
+        let fibre = material.fibre();
+        if fibre.x.abs() < 1.0 - ROUNDING {
+            let [x, y, z] = fibre.into();
+            let message = format!("{law} has its fibres along [{x}, {y}, {z}]; allowed: along the yarn, [1, 0, 0]");
+            return Err(self.error(span, &message));
+        }
+        self.choose_failure(choice, &mut material, &file, &span)?;
+        let table = material.table();
+        let (frame, criterion) = match material.law {
+            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
+            Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
+        };
+        material.law = Law::new(table, &material.values, frame, criterion)
+            .map_err(|error| self.error(span.clone(), &error.to_string()))?;
+        if frame == Rotation::Spin {
+            return Err(self.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
+        }
+        if material.density.is_none() {
+            return Err(self.error(span, "density is missing; allowed: a finite number > 0"));
+        }
+        Ok(material)
+    }
+}

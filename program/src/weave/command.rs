@@ -1,0 +1,32 @@
+//! `toron weave`: from the file of a weave to its mesh, figures and picture.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::figures::Figures;
+use super::reader::Scene;
+use super::{picture, report, vtu};
+use crate::common::console::print;
+use crate::common::error::Error;
+
+/// Meshes the panel of a scene, prints its figures, and writes the mesh and a picture of it to the directory `output`.
+///
+/// # Errors
+/// The input, or a file that cannot be written.
+pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
+    let scene = Scene::read(path)?;
+    let model = scene.woven.model();
+    let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
+    if output.exists() && !output.is_dir() {
+        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
+    }
+    std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
+    let mut text = report::report(&scene, &Figures::of(&model, &scene.woven.geometry));
+    let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));
+    std::fs::write(&mesh, vtu::unstructured_grid(&model)).map_err(|error| file_error(&mesh, &error))?;
+    picture::write(&svg, &png, &scene, &model)?;
+    let _ =
+        writeln!(text, "\nFiles in {}: weave.vtu for ParaView, the picture weave.svg and weave.png", output.display());
+    print(&text);
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! What a meshed panel is in figures.
+
+use nalgebra::Vector3;
+
+use super::geometry::{Family, Geometry};
+use super::model::{Model, Yarn};
+
+/// Lengths are in the units of the weave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// Yarns of warp and weft.
+    pub yarns: [usize; 2],
+    pub nodes: usize,
+    pub elements: usize,
+    /// Of warp and weft: the length of the meshed centre line over that of the panel it crosses, less 1.
+    pub crimp: [f64; 2],
+    /// From the lowest to the highest node.
+    pub thickness: f64,
+    /// Volume of the yarns over the panel's area: times their density, the areal density.
+    pub volume_by_area: f64,
+    /// The least at a corner of an element, and the least divided by the lengths of the three edges there.
+    pub least_jacobian: f64,
+    pub least_scaled_jacobian: f64,
+    pub shortest_edge: f64,
+}
+
+impl Figures {
+    pub fn of(model: &Model, geometry: &Geometry) -> Figures {
+        let heights = || model.nodes.iter().map(|node| node[2]);
+        let count = |family: Family| model.yarns.iter().filter(|yarn| yarn.family == family).count();
+        let mut figures = Figures {
+            yarns: Family::BOTH.map(count),
+            nodes: model.nodes.len(),
+            elements: model.elements.len(),
+            crimp: Family::BOTH.map(|family| geometry.crimp(family)),
+            thickness: heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min),
+            volume_by_area: Family::BOTH.map(|family| volume_by_area(model, geometry, family)).iter().sum(),
+            least_jacobian: f64::INFINITY,
+            least_scaled_jacobian: f64::INFINITY,
+            shortest_edge: f64::INFINITY,
+        };
+        for element in &model.elements {
+            for corner in 0..8 {
+                let edges = edges(model, element, corner);
+                let determinant = edges[0].cross(&edges[1]).dot(&edges[2]);
+                let lengths = edges.map(|edge| edge.norm());
+                figures.least_jacobian = figures.least_jacobian.min(determinant);
+                let scaled = determinant / lengths.iter().product::<f64>();
+                figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(scaled);
+                figures.shortest_edge = lengths.into_iter().fold(figures.shortest_edge, f64::min);
+            }
+        }
+        figures
+    }
+}
+
+/// The three edges at a corner, each in the direction of its axis.
+fn edges(model: &Model, element: &[u32; 8], corner: usize) -> [Vector3<f64>; 3] {
+    let node = |corner: usize| Vector3::from(model.nodes[element[corner] as usize]);
+    [0, 1, 2].map(|axis| node(corner | 1 << axis) - node(corner & !(1 << axis)))
+}
+
+/// The volume of a family over the area that its yarns cover, each its pitch wide.
+fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
+    let yarns = || model.yarns.iter().filter(|yarn| yarn.family == family);
+    let derivatives = derivatives();
+    let volume: f64 = yarns()
+        .flat_map(|yarn| model.elements[yarn.elements.clone()].iter())
+        .map(|e| volume(model, e, &derivatives))
+        .sum();
+    let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
+    let layers: f64 = yarns().map(|yarn| width(yarn) * yarn.layers as f64).sum();
+    volume / (layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch)
+}
+
+/// Derivatives of the corners' weights along the three axes, at the eight points of Gauss.
+type Derivatives = [[[f64; 8]; 3]; 8];
+
+fn derivatives() -> Derivatives {
+    let offset = 0.5 / 3_f64.sqrt();
+    let upper = |number: usize, axis: usize| number >> axis & 1 == 1;
+    let factor = |point: usize, corner: usize, axis: usize| {
+        let near = upper(point, axis) == upper(corner, axis);
+        if near { 0.5 + offset } else { 0.5 - offset }
+    };
+    let weight = |point: usize, along: usize, corner: usize| {
+        let others = [(along + 1) % 3, (along + 2) % 3].map(|axis| factor(point, corner, axis));
+        others[0] * others[1] * if upper(corner, along) { 1.0 } else { -1.0 }
+    };
+    std::array::from_fn(|point| std::array::from_fn(|along| std::array::from_fn(|corner| weight(point, along, corner))))
+}
+
+/// The volume of a trilinear element.
+fn volume(model: &Model, element: &[u32; 8], derivatives: &Derivatives) -> f64 {
+    let nodes = element.map(|node| Vector3::from(model.nodes[node as usize]));
+    let at_point = |weights: &[[f64; 8]; 3]| {
+        let [a, b, c] = weights.each_ref().map(|weights| {
+            weights.iter().zip(&nodes).fold(Vector3::zeros(), |sum, (&weight, node)| sum + node * weight)
+        });
+        a.cross(&b).dot(&c)
+    };
+    derivatives.iter().map(at_point).sum::<f64>() / 8.0
+}

@@ -1,0 +1,27 @@
+//! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers. `docs/fabric.md` has the
+//! keys of a scene.
+//!
+//! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,
+//! weft yarns along y, z goes through the thickness.
+
+pub mod above;
+pub mod command;
+pub mod cut;
+pub mod distance;
+pub mod figures;
+pub mod file;
+pub mod geometry;
+pub mod mesh;
+pub mod model;
+pub mod panel;
+pub mod pattern;
+pub mod picture;
+pub mod preset;
+pub mod reader;
+pub mod report;
+pub mod section;
+pub mod solve;
+pub mod surface;
+#[cfg(test)]
+mod tests;
+pub mod vtu;

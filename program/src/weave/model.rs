@@ -1,0 +1,100 @@
+//! A meshed panel: plain data for a host and for decks.
+
+use std::ops::Range;
+
+use super::geometry::Family;
+
+/// Faces of an element, by the corners that stand counterclockwise seen from outside.
+pub const UPPER: [usize; 4] = [2, 6, 7, 3];
+pub const LOWER: [usize; 4] = [0, 1, 5, 4];
+pub const LEFT: [usize; 4] = [0, 2, 3, 1];
+pub const RIGHT: [usize; 4] = [4, 5, 7, 6];
+pub const START: [usize; 4] = [0, 4, 6, 2];
+pub const END: [usize; 4] = [1, 3, 7, 5];
+
+/// Which way a face looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Upper,
+    Lower,
+    /// Against the axis across the yarn, or along it.
+    Left,
+    Right,
+}
+
+/// A quadrangle of the surface that can touch another yarn: no cut end, and no plane of symmetry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Face {
+    /// Counterclockwise, seen from outside.
+    pub nodes: [u32; 4],
+    pub element: u32,
+    pub side: Side,
+}
+
+/// A yarn and its parts of the model's lists.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Yarn {
+    pub family: Family,
+    /// Its number in the pattern, 0 at the origin or next to it, and its place: y of a warp yarn, x of a weft yarn.
+    pub number: i64,
+    pub coordinate: f64,
+    /// Cut along its axis by a plane of symmetry: half of the columns are there.
+    pub halved: bool,
+    pub nodes: Range<usize>,
+    pub elements: Range<usize>,
+    pub faces: Range<usize>,
+    pub layers: usize,
+    pub columns: usize,
+    pub rows: usize,
+}
+
+impl Yarn {
+    pub fn nodes_per_section(&self) -> usize {
+        (self.columns + 1) * (self.rows + 1)
+    }
+
+    pub fn elements_per_layer(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// The nodes of a section, from 0 to the number of layers: column by column, each from below.
+    pub fn section(&self, number: usize) -> Range<usize> {
+        let first = self.nodes.start + number * self.nodes_per_section();
+        first..first + self.nodes_per_section()
+    }
+
+    /// The elements of a layer: column by column, each from below.
+    pub fn layer(&self, number: usize) -> Range<usize> {
+        let first = self.elements.start + number * self.elements_per_layer();
+        first..first + self.elements_per_layer()
+    }
+}
+
+/// Where a warp and a weft yarn cross, by their places in the list of yarns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    pub warp: usize,
+    pub weft: usize,
+    pub place: [f64; 2],
+    pub warp_is_over: bool,
+}
+
+/// A meshed panel. Lengths are in the units of the weave; the nodes and the elements of a yarn stand one after another.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    pub nodes: Vec<[f64; 3]>,
+    /// Corner c of an element stands on the upper side of its axis i where bit i of c is set: axis 0 along the yarn (x of
+    /// the warp, y of the weft), 1 upwards, 2 across (-y of the warp, x of the weft). Yarn by yarn, layer by layer.
+    pub elements: Vec<[u32; 8]>,
+    /// The unit direction of each element's fibres: that of the centre line, as it is meshed, at the element's middle.
+    pub fibre: Vec<[f64; 3]>,
+    /// The warp first, by their coordinates.
+    pub yarns: Vec<Yarn>,
+    pub faces: Vec<Face>,
+    /// Nodes of the sections where yarns end at the panel's edge.
+    pub rim: Vec<u32>,
+    /// Nodes on the planes of symmetry x = 0 and y = 0; none in a whole panel.
+    pub on_x: Vec<u32>,
+    pub on_y: Vec<u32>,
+    pub crossings: Vec<Crossing>,
+}

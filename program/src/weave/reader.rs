@@ -1,0 +1,212 @@
+//! A weave and its panel from a TOML file. `docs/fabric.md` has the keys.
+
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+
+use super::file::{PanelFile, PatternFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
+use super::geometry::{Family, Geometry, Weave};
+use super::model::Model;
+use super::panel::{Outline, Panel, Part, Place};
+use super::pattern::Pattern;
+use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
+use super::section::{Section, Thread};
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use crate::common::units::LENGTH;
+use toron::host::units::UnitSystem;
+
+const MOST_ALONG: usize = 64;
+const MOST_COLUMNS: usize = 40;
+const MOST_ROWS: usize = 20;
+const POSITIVE: &str = "a finite number > 0";
+
+/// A panel whose weave is solved, ready to be meshed.
+#[derive(Clone, Debug)]
+pub struct Woven {
+    pub geometry: Geometry,
+    pub panel: Panel,
+    pub places: Vec<Place>,
+}
+
+impl Woven {
+    pub fn model(&self) -> Model {
+        Model::of(&self.geometry, &self.panel, &self.places)
+    }
+}
+
+/// What a scene of a weave alone is.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    pub title: String,
+    pub units: UnitSystem,
+    pub woven: Woven,
+    /// Of the yarns, where the scene names a material.
+    pub density: Option<f64>,
+}
+
+impl Scene {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn read(path: &Path) -> Result<Scene, Error> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        Scene::parse(&name, &text)
+    }
+
+    /// The scene that `text` describes; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// An input error that names file, line, value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Scene, Error> {
+        let source = Source { name, text };
+        let file: SceneFile = source.parse()?;
+        let units = source.units(&file.units)?;
+        let material = file.material.as_ref();
+        let material = material.map(|table| source.material(table.get_ref(), &units, table.span())).transpose()?;
+        Ok(Scene {
+            title: file.title.unwrap_or_else(|| name.to_string()),
+            woven: source.woven(&file.weave, &units)?,
+            density: material.and_then(|material| material.density),
+            units,
+        })
+    }
+}
+
+impl Source<'_> {
+    /// The table `[weave]`.
+    pub fn woven(&self, table: &Spanned<WeaveFile>, units: &UnitSystem) -> Result<Woven, Error> {
+        let file = table.get_ref();
+        let base = file.preset.as_ref().map(|name| self.weave_preset(name, units)).transpose()?;
+        let warp =
+            self.thread(Family::Warp, file.warp.as_ref(), base.as_ref().map(|base| &base.threads[0]), table.span())?;
+        let of_weft = base.as_ref().map_or(&warp, |base| &base.threads[1]);
+        let weft = self.thread(Family::Weft, file.weft.as_ref(), Some(of_weft), table.span())?;
+        let clearance = match &file.clearance {
+            Some(value) => self.positive("clearance", *value.get_ref(), value.span())?,
+            None => units.from_si(CLEARANCE, LENGTH),
+        };
+        let weave = Weave {
+            pattern: self.pattern(file, base, table.span())?,
+            threads: [warp, weft],
+            along: self.number("along", &file.along, [2, MOST_ALONG], ALONG)?,
+            columns: self.number("columns", &file.columns, [1, MOST_COLUMNS], COLUMNS)?,
+            rows: self.number("rows", &file.rows, [1, MOST_ROWS], ROWS)?,
+            clearance,
+        };
+        if let Some(along) = file.along.as_ref().filter(|_| !weave.along.is_multiple_of(2)) {
+            return Err(self.error(along.span(), &format!("along is {}; allowed: an even number", weave.along)));
+        }
+        for (family, given) in Family::BOTH.into_iter().zip([&file.warp, &file.weft]) {
+            let given =
+                given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
+            let place = given.map_or(table.span(), Spanned::span);
+            weave.check_thread(family).map_err(|message| self.error(place, &message))?;
+        }
+        let panel = self.panel(&file.panel, &weave)?;
+        let places = panel.places(&weave).map_err(|message| self.error(file.panel.span(), &message))?;
+        let geometry = weave.solve().map_err(|message| self.error(table.span(), &message))?;
+        Ok(Woven { geometry, panel, places })
+    }
+
+    fn weave_preset(&self, name: &Spanned<String>, units: &UnitSystem) -> Result<Weave, Error> {
+        let preset = Preset::find(name.get_ref()).ok_or_else(|| {
+            let known = PRESETS.each_ref().map(|preset| preset.name).join(", ");
+            self.error(name.span(), &format!("preset \"{}\"; allowed: {known}", name.get_ref()))
+        })?;
+        Ok(preset.weave(units))
+    }
+
+    fn pattern(&self, file: &WeaveFile, base: Option<Weave>, span: Range<usize>) -> Result<Pattern, Error> {
+        let allowed = "allowed: plain, or rows of o (over) and u (under), one a warp yarn";
+        let Some(pattern) = &file.pattern else {
+            let missing = || self.error(span, &format!("pattern is missing; {allowed}, or a preset"));
+            return base.map(|base| base.pattern).ok_or_else(missing);
+        };
+        match pattern.get_ref() {
+            PatternFile::Name(name) if name == "plain" => Ok(Pattern::plain()),
+            PatternFile::Name(name) => Err(self.error(pattern.span(), &format!("pattern is \"{name}\"; {allowed}"))),
+            PatternFile::Rows(rows) => Pattern::parse(rows).map_err(|message| self.error(pattern.span(), &message)),
+        }
+    }
+
+    /// The keys of a family; those left out are the preset's, or the warp's.
+    fn thread(
+        &self,
+        family: Family,
+        table: Option<&Spanned<ThreadFile>>,
+        base: Option<&Thread>,
+        span: Range<usize>,
+    ) -> Result<Thread, Error> {
+        let none = ThreadFile::default();
+        let file = table.map_or(&none, Spanned::get_ref);
+        let span = table.map_or(span, Spanned::span);
+        let length = |key: &str, value: &Option<Spanned<f64>>, of_base: Option<f64>| {
+            let key = format!("{}.{key}", family.name());
+            match (value, of_base) {
+                (Some(value), _) => self.positive(&key, *value.get_ref(), value.span()),
+                (None, Some(number)) => Ok(number),
+                (None, None) => {
+                    let message = format!("{key} is missing; allowed: {POSITIVE}, or a preset of the weave");
+                    Err(self.error(span.clone(), &message))
+                }
+            }
+        };
+        Ok(Thread {
+            pitch: length("pitch", &file.pitch, base.map(|base| base.pitch))?,
+            section: file.section.or(base.map(|base| base.section)).unwrap_or(Section::Ellipse),
+            width: length("width", &file.width, base.map(|base| base.width))?,
+            height: length("height", &file.height, base.map(|base| base.height))?,
+        })
+    }
+
+    fn panel(&self, table: &Spanned<PanelFile>, weave: &Weave) -> Result<Panel, Error> {
+        let file = table.get_ref();
+        let missing =
+            |key: &str, allowed: &str| self.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"));
+        let foreign = match file.shape {
+            ShapeName::Circle => file.half.as_ref().map(|half| (half.span(), "half, of a rectangle; allowed: radius")),
+            ShapeName::Rectangle => {
+                file.radius.as_ref().map(|radius| (radius.span(), "radius, of a circle; allowed: half"))
+            }
+        };
+        if let Some((span, message)) = foreign {
+            return Err(self.error(span, &format!("panel has {message}")));
+        }
+        let outline = match file.shape {
+            ShapeName::Circle => {
+                let radius = file.radius.as_ref().ok_or_else(|| missing("radius", POSITIVE))?;
+                Outline::Circle(self.positive("radius", *radius.get_ref(), radius.span())?)
+            }
+            ShapeName::Rectangle => {
+                let half = file.half.as_ref().ok_or_else(|| missing("half", "half sizes along x and y, each > 0"))?;
+                let [x, y] = half.get_ref().0;
+                Outline::Rectangle([self.positive("half", x, half.span())?, self.positive("half", y, half.span())?])
+            }
+        };
+        let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
+        let panel = Panel { outline, part, centre: file.centre };
+        let place = file.part.as_ref().map_or(table.span(), Spanned::span);
+        panel.check_mirror_planes(weave).map_err(|message| self.error(place, &message))?;
+        Ok(panel)
+    }
+
+    /// A whole number in this range, or the default.
+    fn number(
+        &self,
+        key: &str,
+        value: &Option<Spanned<i64>>,
+        [least, most]: [usize; 2],
+        default: usize,
+    ) -> Result<usize, Error> {
+        let Some(value) = value else { return Ok(default) };
+        let number = usize::try_from(*value.get_ref()).ok().filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| {
+            let message = format!("{key} is {}; allowed: a whole number from {least} to {most}", value.get_ref());
+            self.error(value.span(), &message)
+        })
+    }
+}

@@ -1,0 +1,269 @@
+//! The mesh as a whole: no yarn goes into another, and all are as far apart as was asked for.
+
+use std::collections::HashSet;
+
+use super::distance::{self, Quad};
+use super::figures::Figures;
+use super::geometry::{Family, Weave};
+use super::model::{Crossing, Model, Yarn};
+use super::panel::{Centre, Outline, Panel, Part};
+use super::pattern::Pattern;
+use super::preset::Preset;
+use super::reader::Scene;
+use super::section::{Section, Thread};
+use toron::host::units::UnitSystem;
+
+fn millimetres() -> UnitSystem {
+    UnitSystem::parse("mm-tonne-s").expect("a unit system")
+}
+
+fn s706() -> Weave {
+    Preset::find("kevlar-s706").expect("a preset").weave(&millimetres())
+}
+
+fn rows(rows: &[&str]) -> Pattern {
+    Pattern::parse(&rows.iter().map(|row| (*row).to_string()).collect::<Vec<_>>()).expect("a pattern")
+}
+
+fn patterns() -> [Pattern; 3] {
+    [Pattern::plain(), rows(&["oouu", "uoou", "uuoo", "ouuo"]), rows(&["oouu", "oouu", "uuoo", "uuoo"])]
+}
+
+fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
+    Panel { outline, part, centre }
+}
+
+/// A panel of some crossings of each kind.
+fn small(weave: &Weave) -> Panel {
+    let half = [1, 0].map(|family: usize| 2.0 * weave.threads[family].pitch);
+    panel(Outline::Rectangle(half), Part::Whole, Centre::Crossing)
+}
+
+/// The least distance between the faces of two yarns within half a pitch of their crossing, up to a bound.
+fn separation(model: &Model, crossing: &Crossing, reach: [f64; 2], bound: f64) -> f64 {
+    let quads = |yarn: &Yarn| -> Vec<Quad> {
+        let faces = model.faces[yarn.faces.clone()].iter();
+        let quads = faces.map(|face| face.nodes.map(|node| model.nodes[node as usize]));
+        let near = |quad: &Quad| {
+            (0..2).all(|axis| quad.iter().any(|point| (point[axis] - crossing.place[axis]).abs() <= reach[axis]))
+        };
+        quads.filter(near).collect()
+    };
+    let others = quads(&model.yarns[crossing.weft]);
+    let mut least = bound;
+    for face in quads(&model.yarns[crossing.warp]) {
+        for other in &others {
+            least = distance::quads(&face, other, least);
+        }
+    }
+    least
+}
+
+/// Faces of crossing yarns do not meet, their least distance is the clearance, and the one that is over is above.
+fn check_clearance(weave: &Weave) {
+    let name = format!("{:?} along {} columns {} rows {}", weave.threads, weave.along, weave.columns, weave.rows);
+    let model = Model::new(weave, &small(weave)).expect("a mesh");
+    let bound = 1.5 * weave.clearance;
+    let mut least = bound;
+    for crossing in &model.crossings {
+        let [warp, weft] = [&model.yarns[crossing.warp], &model.yarns[crossing.weft]];
+        let pitches = [1, 0].map(|family: usize| 0.5 * weave.threads[family].pitch);
+        least = least.min(separation(&model, crossing, pitches, bound));
+        let height = |yarn: &Yarn, axis: usize| {
+            let at = crossing.place[axis];
+            let near = yarn.nodes.clone().filter(|&node| (model.nodes[node][axis] - at).abs() < 1e-9);
+            let heights: Vec<f64> = near.map(|node| model.nodes[node][2]).collect();
+            heights.iter().sum::<f64>() / heights.len() as f64
+        };
+        if crossing.place[0].abs() < 1.9 * weave.threads[1].pitch
+            && crossing.place[1].abs() < 1.9 * weave.threads[0].pitch
+        {
+            assert_eq!(height(warp, 0) > height(weft, 1), crossing.warp_is_over, "{name}");
+        }
+    }
+    assert!((least - weave.clearance).abs() < 1e-9, "{name}: {least}");
+    let figures = Figures::of(&model, &weave.solve().expect("an amplitude"));
+    assert!(figures.least_jacobian > 0.0 && figures.least_scaled_jacobian > 0.3, "{name}: {figures:?}");
+}
+
+#[test]
+fn yarns_are_the_clearance_apart_whatever_pattern_section_and_mesh() {
+    for pattern in patterns() {
+        for section in [Section::Ellipse, Section::Lens, Section::Rectangle] {
+            for [along, columns, rows] in [[4, 4, 2], [8, 6, 2]] {
+                let mut weave = Weave { pattern: pattern.clone(), along, columns, rows, ..s706() };
+                weave.threads = weave.threads.map(|thread| Thread { section, ..thread });
+                check_clearance(&weave);
+            }
+        }
+    }
+    for [along, columns, rows] in [[2, 1, 1], [12, 8, 3]] {
+        check_clearance(&Weave { along, columns, rows, ..s706() });
+    }
+}
+
+#[test]
+fn warp_and_weft_may_differ_and_columns_be_odd() {
+    let warp = Thread { pitch: 0.9, section: Section::Ellipse, width: 0.7, height: 0.15 };
+    let weft = Thread { pitch: 0.6, section: Section::Lens, width: 0.5, height: 0.08 };
+    for pattern in patterns() {
+        check_clearance(&Weave { pattern, threads: [warp, weft], columns: 5, rows: 1, clearance: 2e-3, ..s706() });
+    }
+}
+
+#[test]
+fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
+    let weave = s706();
+    let geometry = weave.solve().expect("an amplitude");
+    let disc = panel(Outline::Circle(19.05), Part::Quarter, Centre::Crossing);
+    let model = Model::new(&weave, &disc).expect("a mesh");
+    let figures = Figures::of(&model, &geometry);
+    let density = 1.3514e-6; // kg/mm³
+    let areal = 1e6 * density * figures.volume_by_area;
+    let straight = 1e6 * density * 2.0 * weave.threads[0].area() / weave.threads[0].pitch;
+    assert!((straight - 0.1744).abs() < 1e-4, "{straight}");
+    assert!((areal / (0.1744 * (1.0 + figures.crimp[0])) - 1.0).abs() < 1e-3, "{areal}");
+    assert!((0.014..0.017).contains(&figures.crimp[0]) && figures.crimp[0] == figures.crimp[1], "{figures:?}");
+    assert!((0.232..0.235).contains(&figures.thickness), "{figures:?}");
+    assert!(figures.least_scaled_jacobian > 0.9);
+    assert_eq!(figures.elements, 98_136);
+    assert_eq!(figures.elements, model.yarns.iter().map(|yarn| yarn.layers * yarn.columns * 2).sum::<usize>());
+}
+
+/// Places to a picometre, to be found in a set.
+fn key(node: [f64; 3]) -> [i64; 3] {
+    node.map(|x| (x * 1e9).round() as i64)
+}
+
+#[test]
+fn a_quarter_is_the_whole_where_x_and_y_are_positive() {
+    let basket = Weave { pattern: rows(&["ouuo", "uoou", "uoou", "ouuo"]), ..s706() };
+    for (weave, centre) in [(s706(), Centre::Crossing), (basket, Centre::Gap)] {
+        let of = |part: Part| Model::new(&weave, &panel(Outline::Circle(4.0), part, centre)).expect("a mesh");
+        let [whole, quarter] = [of(Part::Whole), of(Part::Quarter)];
+        let places: HashSet<[i64; 3]> = whole.nodes.iter().map(|&node| key(node)).collect();
+        for &[x, y, z] in &quarter.nodes {
+            assert!(x >= 0.0 && y >= 0.0);
+            for image in [[x, y, z], [-x, y, z], [x, -y, z], [-x, -y, z]] {
+                assert!(places.contains(&key(image)), "{image:?}");
+            }
+        }
+        assert_eq!(4 * quarter.elements.len(), whole.elements.len());
+        assert!(whole.on_x.is_empty() && whole.on_y.is_empty());
+        for (set, axis) in [(&quarter.on_x, 0), (&quarter.on_y, 1)] {
+            let on = quarter.nodes.iter().filter(|node| node[axis] == 0.0).count();
+            assert!(on == set.len() && on > 0 && set.iter().all(|&node| quarter.nodes[node as usize][axis] == 0.0));
+        }
+        // The rim is one section of each yarn of the quarter, two of the whole.
+        let ends = |model: &Model| model.yarns.iter().map(Yarn::nodes_per_section).sum::<usize>();
+        assert_eq!([quarter.rim.len(), whole.rim.len()], [ends(&quarter), 2 * ends(&whole)]);
+        // No face lies on a plane of symmetry.
+        for face in &quarter.faces {
+            assert!((0..2).all(|axis| face.nodes.iter().any(|&node| quarter.nodes[node as usize][axis] != 0.0)));
+        }
+    }
+}
+
+#[test]
+fn yarns_are_contiguous_and_fibres_unit_tangents_of_their_centre_lines() {
+    let weave = s706();
+    let model = Model::new(&weave, &small(&weave)).expect("a mesh");
+    let (mut node, mut element, mut face) = (0, 0, 0);
+    for yarn in &model.yarns {
+        assert_eq!([yarn.nodes.start, yarn.elements.start, yarn.faces.start], [node, element, face]);
+        (node, element, face) = (yarn.nodes.end, yarn.elements.end, yarn.faces.end);
+        assert_eq!(yarn.section(yarn.layers).end, node);
+        assert_eq!(yarn.layer(yarn.layers - 1).end, element);
+        let centre = |section: usize| {
+            let nodes = yarn.section(section).map(|node| nalgebra::Vector3::from(model.nodes[node]));
+            nodes.sum::<nalgebra::Vector3<f64>>() / yarn.nodes_per_section() as f64
+        };
+        for layer in 0..yarn.layers {
+            let tangent = (centre(layer + 1) - centre(layer)).normalize();
+            for element in yarn.layer(layer) {
+                assert!((nalgebra::Vector3::from(model.fibre[element]) - tangent).norm() < 1e-12);
+                let corners = model.elements[element];
+                assert!(corners.iter().all(|&corner| yarn.nodes.contains(&(corner as usize))));
+            }
+        }
+        for face in &model.faces[yarn.faces.clone()] {
+            let points = face.nodes.map(|node| nalgebra::Vector3::from(model.nodes[node as usize]));
+            let corners = model.elements[face.element as usize];
+            let middle = corners
+                .map(|corner| nalgebra::Vector3::from(model.nodes[corner as usize]))
+                .iter()
+                .sum::<nalgebra::Vector3<f64>>()
+                / 8.0;
+            let normal = (points[2] - points[0]).cross(&(points[3] - points[1]));
+            assert!(face.nodes.iter().all(|node| corners.contains(node)));
+            assert!(normal.dot(&(points[0] - middle)) > 0.0, "{face:?}");
+        }
+    }
+    assert_eq!([node, element, face], [model.nodes.len(), model.elements.len(), model.faces.len()]);
+    assert_eq!(model.yarns.iter().filter(|yarn| yarn.family == Family::Warp).count(), 5);
+    assert_eq!(model.crossings.len(), 25);
+}
+
+const SCENE: &str = "units = \"mm-tonne-s\"\n[weave]\npreset = \"kevlar-s706\"\n";
+
+#[test]
+fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
+    let disc = "panel = { shape = \"circle\", radius = 4 }\n";
+    let quarter = "panel = { shape = \"circle\", radius = 4, part = \"quarter\" }\n";
+    let twill = "pattern = [\"oouu\", \"uoou\", \"uuoo\", \"ouuo\"]\n";
+    let wide = "the plane x = 0, through";
+    for (text, line, message) in [
+        (String::new(), 2, "missing field `panel`"),
+        (format!("{disc}warps = 3"), 5, "unknown field `warps`"),
+        (format!("{disc}pattern = \"twill\""), 5, "pattern is \"twill\"; allowed: plain, or rows of o"),
+        (format!("{disc}pattern = 3"), 5, "pattern is 3; allowed: \"plain\", or a list of rows"),
+        (format!("{disc}pattern = [\"oo\", \"uu\"]"), 5, "warp yarn 1 is over all others"),
+        (format!("{disc}along = 5"), 5, "along is 5; allowed: an even number"),
+        (format!("{disc}columns = 0"), 5, "columns is 0; allowed: a whole number from 1 to 40"),
+        (format!("{disc}clearance = 0"), 5, "clearance is 0; allowed: a finite number > 0"),
+        (format!("{disc}warp = {{ width = 0.8 }}"), 5, "warp.width is 0.8; allowed: up to 0.7451, its pitch less"),
+        (format!("{disc}weft = {{ section = \"round\" }}"), 5, "section is \"round\"; allowed: ellipse"),
+        (
+            format!("{twill}{quarter}"),
+            5,
+            &format!(
+                "part is quarter, but {wide} the axes of the first yarns, is no mirror plane of the pattern; allowed: part = \"whole\""
+            ),
+        ),
+        (format!("columns = 5\n{quarter}"), 5, "halve the yarns on them, but columns is 5; allowed: an even number"),
+        (
+            "panel = { shape = \"circle\", radius = 4, part = \"quarter\", centre = \"gap\" }".to_string(),
+            4,
+            "the plane x = 0, through a gap, is no mirror plane of the pattern; allowed: part = \"whole\", or centre = \"crossing\"",
+        ),
+        (
+            "panel = { shape = \"circle\", half = [1, 2] }".to_string(),
+            4,
+            "panel has half, of a rectangle; allowed: radius",
+        ),
+        ("panel = { shape = \"rectangle\" }".to_string(), 4, "panel.half is missing; allowed: half sizes"),
+        ("panel = { shape = \"circle\", radius = 1e9 }".to_string(), 4, "elements; allowed: up to 1e7"),
+        ("panel = { shape = \"circle\", radius = 0.01 }".to_string(), 4, "no yarns of one family"),
+        (
+            format!(
+                "{disc}warp = {{ section = \"rectangle\", width = 0.7 }}\nweft = {{ section = \"rectangle\", width = 0.7 }}"
+            ),
+            2,
+            "the yarns have no room to change sides",
+        ),
+    ] {
+        let error = Scene::parse("weave.toml", &format!("{SCENE}{text}")).map(|_| ()).expect_err(&text).to_string();
+        assert!(error.starts_with(&format!("weave.toml:{line}: ")), "line {line}: {error}");
+        assert!(error.contains(message), "{message}: {error}");
+    }
+    let own = "units = \"mm-tonne-s\"\n[weave]\npattern = \"plain\"\npanel = { shape = \"circle\", radius = 4 }\n";
+    let error = Scene::parse("weave.toml", own).map(|_| ()).expect_err("no sizes").to_string();
+    assert!(
+        error.contains("weave.toml:2: warp.pitch is missing; allowed: a finite number > 0, or a preset"),
+        "{error}"
+    );
+    let own = format!("{own}warp = {{ pitch = 1, width = 0.6, height = 0.1 }}");
+    let scene = Scene::parse("weave.toml", &own).expect("the weft is as the warp");
+    let threads = scene.woven.geometry.weave.threads;
+    assert_eq!(threads[0], threads[1]);
+}

@@ -1,0 +1,89 @@
+//! `toron fabric` on a coarse patch.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use crate::library::{ROOT, folder};
+
+/// A patch of four by four yarns struck for this many microseconds; further keys go into the scene's table.
+fn scene(end: f64, keys: &str) -> String {
+    format!(
+        "units = \"mm-g-ms\"\n\
+         [weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+         [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
+         [scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\ncontact-stiffness = 1e5\nend = {}\nsample = 0.0005\n{keys}\n",
+        1e-3 * end
+    )
+}
+
+fn strike(name: &str, text: &str, threads: usize) -> (Output, PathBuf) {
+    let output = folder(&format!("fabric-{name}-{threads}"));
+    let file = output.join("scene.toml");
+    std::fs::write(&file, text).expect("the scene is written");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    program.env("RAYON_NUM_THREADS", threads.to_string()).current_dir(ROOT);
+    (program.arg("fabric").arg(&file).arg("-o").arg(&output).output().expect("it starts"), output)
+}
+
+/// A column of the history.
+fn column(history: &str, name: &str) -> Vec<f64> {
+    let place = history.lines().next().and_then(|line| line.split(',').position(|title| title == name));
+    let place = place.expect("the column is there");
+    let value = |line: &str| line.split(',').nth(place).and_then(|cell| cell.parse().ok()).expect("a number");
+    history.lines().skip(1).map(value).collect()
+}
+
+/// The history of a run that succeeds.
+fn history(name: &str, text: &str, threads: usize) -> String {
+    let (answer, output) = strike(name, text, threads);
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    std::fs::read_to_string(output.join("scene.csv")).expect("a history")
+}
+
+#[test]
+fn a_patch_keeps_its_energy_and_is_the_same_on_any_number_of_threads() {
+    let text = scene(12.0, "hyperelastic.properties = { k_ld = 126.0 }");
+    let [one, two] = [1, 2].map(|threads| history("threads", &text, threads));
+    assert!(one == two, "the histories differ");
+    let total = column(&one, "total");
+    let largest = total.iter().map(|energy| (energy / total[0] - 1.0).abs()).fold(0.0, f64::max);
+    assert!(largest < 1e-3, "{largest}");
+    let (speed, deflection) = (column(&one, "speed"), column(&one, "deflection"));
+    let last = speed.len() - 1;
+    assert!(speed[last] < 0.99 * speed[0] && speed.windows(2).all(|pair| pair[1] <= pair[0]), "{speed:?}");
+    // The panel moves with the sphere, but for what contact gives way.
+    let travel = column(&one, "travel");
+    assert!((deflection[last] / travel[last] - 1.0).abs() < 0.02, "{} {}", deflection[last], travel[last]);
+    assert!(column(&one, "friction")[last] > 0.0 && column(&one, "contact")[last] > 0.0);
+}
+
+#[test]
+fn yarns_that_fail_are_torn_and_let_the_sphere_through() {
+    let text = scene(60.0, "failure = \"uniaxial\"\nhyperelastic.properties = { k_ld = 126.0, eps_lim = 0.02 }");
+    let history = history("torn", &text, 2);
+    let (torn, speed) = (column(&history, "torn_yarns"), column(&history, "speed"));
+    let (total, last) = (column(&history, "total"), speed.len() - 1);
+    assert!(torn[last] >= 2.0, "{torn:?}");
+    assert!(speed[last] > 0.5 * speed[0] && speed[last] < 0.99 * speed[0], "{}", speed[last]);
+    assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 0.01), "{total:?}");
+}
+
+#[test]
+fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
+    let cases = [
+        ("yarn-friction = -0.1", "yarn-friction is -0.1; allowed: a finite number >= 0"),
+        ("hyperelastic-radius = 1.0", "hyperelastic-radius is 1; allowed: with law = \"hybrid\""),
+        ("law = \"hybrid\"", "hyperelastic-radius is missing; allowed: a finite number > 0"),
+        (
+            "linear-elastic.preset = \"kevlar-km2-600-linear\"",
+            "linear-elastic is not used; allowed: the material of the law",
+        ),
+        ("frames = 10000", "frames is 10000; allowed: a whole number from 0 to 9999"),
+    ];
+    for (keys, message) in cases {
+        let (answer, _) = strike("refused", &scene(1.0, keys), 1);
+        let found = String::from_utf8_lossy(&answer.stderr).into_owned();
+        assert!(!answer.status.success() && found.contains(message), "{found}");
+        assert!(found.contains("scene.toml:"), "{found}");
+    }
+}

@@ -1,0 +1,107 @@
+//! What `toron fabric` writes: on a panel of two crossings its files and its report, and which keys it refuses.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::library::{ROOT, folder};
+
+/// Of a quarter, a warp yarn on the axis and the two weft yarns that it crosses, struck for a microsecond.
+const SCENE: &str = r#"title = "Two crossings"
+units = "mm-g-ms"
+
+[weave]
+preset = "kevlar-s706"
+along = 4
+columns = 4
+
+[weave.panel]
+shape = "rectangle"
+half = [0.8, 0.4]
+part = "quarter"
+
+[scene]
+speed = 60.0
+mass = 0.7
+radius = 2.0
+contact-stiffness = 1e5
+end = 0.001
+sample = 0.0002
+pictures = [0.001, 0.0005]
+frames = 2
+
+[scene.hyperelastic.properties]
+k_ld = 126.0
+
+[[case]]
+name = "yarns"
+
+[[case]]
+name = "linear"
+law = "linear-elastic"
+frames = 0
+"#;
+
+fn run(name: &str, scene: &str) -> (Output, std::path::PathBuf) {
+    let output = folder(name);
+    let file = output.join("scene.toml");
+    std::fs::write(&file, scene).expect("a file");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let answer = program.arg("fabric").arg(&file).arg("-o").arg(&output).current_dir(ROOT).output();
+    (answer.expect("it starts"), output)
+}
+
+#[test]
+fn a_blow_writes_all_files() {
+    let (answer, output) = run("fabric", SCENE);
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let read = |name: &str| std::fs::read_to_string(output.join(name)).unwrap_or_else(|_| panic!("{name}"));
+    let exists = |name: &str| Path::new(&output).join(name).exists();
+
+    let report = String::from_utf8(answer.stdout).expect("UTF-8");
+    assert!(report.starts_with("Two crossings\n\ncase    how it ended"), "{report}");
+    assert!(report.lines().all(|line| line.chars().count() < 130 || line.starts_with("Files in")), "{report}");
+
+    let summary = read("summary.csv");
+    assert!(summary.starts_with("case,law,precision,elements,speed,ending,end,residual_speed,"), "{summary}");
+    assert_eq!(summary.lines().count(), 3);
+    for case in ["yarns", "linear"] {
+        assert!(read(&format!("{case}.csv")).lines().count() > 5);
+        for picture in [case.to_string(), format!("{case}-panel-1"), format!("{case}-panel-2")] {
+            assert!(read(&format!("{picture}.svg")).ends_with("</svg>\n"));
+            assert!(exists(&format!("{picture}.png")));
+        }
+        assert!(!exists(&format!("{case}-panel-3.png")));
+    }
+
+    let elements = summary.lines().nth(1).and_then(|line| line.split(',').nth(3)).expect("elements");
+    let grid = read("yarns-0002.vtu");
+    for part in [&format!("NumberOfCells=\"{elements}\""), "\"displacement\"", "\"velocity\"", "\"w_el\"", "\"yarn\""] {
+        assert!(grid.contains(part), "{part}");
+    }
+    assert_eq!(read("yarns.pvd").matches("<DataSet ").count(), 3);
+    assert!(!exists("linear.pvd"));
+}
+
+#[test]
+fn wrong_keys_are_named() {
+    for (number, (right, wrong, message)) in [
+        (
+            "pictures = [0.001, 0.0005]",
+            "pictures = [0.0005, 0.002]",
+            "scene.toml:21: a time of pictures is 0.002; allowed: a number > 0, up to end = 0.001 of case \"yarns\"",
+        ),
+        ("frames = 2", "frames = -1", "scene.toml:22: frames is -1; allowed: a whole number from 0 to 9999"),
+        (
+            "name = \"linear\"",
+            "name = \"yarns-panel-2\"",
+            "scene.toml:31: case \"yarns-panel-2\"; allowed: a name of its own",
+        ),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (answer, _) = run(&format!("fabric-wrong-{number}"), &SCENE.replace(right, wrong));
+        let error = String::from_utf8(answer.stderr).expect("UTF-8");
+        assert!(!answer.status.success() && error.contains(message), "{error}");
+    }
+}
