@@ -17,6 +17,7 @@ pub mod medium;
 pub mod mesh;
 pub mod mutual_contact;
 pub mod projectile;
+pub mod solid;
 pub mod solver;
 pub mod stress;
 pub mod vector;
