@@ -1,6 +1,6 @@
 //! Where the fibres lie: the cells that symmetry leaves of hexagonal and square packings, and boxes of whole fibres.
 
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::f64::consts::{FRAC_PI_4, PI};
 
 use super::disc::Disc;
 use super::model::{Model, Side};
@@ -11,9 +11,6 @@ use super::scene::{Arrangement, BoxOf, Packing};
 const ROW: f64 = 0.866_025_403_784_438_6;
 /// How far from the direction of its neighbour a fibre of a regular packing can touch it.
 const REGULAR: f64 = FRAC_PI_4;
-/// Neighbours of a random packing move about each other, and fibres that are this far apart come together.
-const RANDOM: f64 = FRAC_PI_2;
-const RANDOM_REACH: f64 = 1.5;
 /// Neighbours of a regular packing are this far apart at most; the next ones are at √2 and √3.
 const REGULAR_REACH: f64 = 1.1;
 /// Fibres whose centre is nearer than this to a wall, in diameters, feel it: the middle is without them.
@@ -23,7 +20,7 @@ const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Bottom, Side::Top];
 /// Builds the model.
 ///
 /// # Errors
-/// Why a random packing cannot be had.
+/// The middle of a box of rows has no fibre.
 pub fn model(arrangement: &Arrangement, elements: usize) -> Result<Model, String> {
     match arrangement {
         Arrangement::Cell(Packing::Hexagonal) => Ok(hexagonal_cell(elements)),
@@ -73,28 +70,36 @@ fn read_from_all(model: &mut Model, fibre_area: f64) {
 
 /// Whole fibres between four walls.
 fn walled_box(contents: &BoxOf, elements: usize) -> Result<Model, String> {
-    let Places { centres, size, area_of_fibre } = places(contents)?;
+    let Places { centres, size, area_of_fibre } = places(contents);
     let mut model = Model { size, area: size[0] * size[1], ..Model::default() };
     let disc = Disc::whole(elements);
+    if matches!(contents, BoxOf::Random { .. }) {
+        for &centre in &centres {
+            model.add_fibre(&disc, centre);
+        }
+        for side in SIDES {
+            model.add_wall(side);
+        }
+        read_from_all(&mut model, FRAC_PI_4 * centres.len() as f64);
+        return Ok(model);
+    }
     for &centre in &centres {
         let first = model.nodes.len();
         model.add_fibre(&disc, centre);
         model.sprung.extend(disc.corners.iter().map(|corner| first + corner));
     }
-    let random = matches!(contents, BoxOf::Random { .. });
-    let (reach, angle) = if random { (RANDOM_REACH, RANDOM) } else { (REGULAR_REACH, REGULAR) };
     for (slave, a) in centres.iter().enumerate() {
         for (master, b) in centres.iter().enumerate().skip(slave + 1) {
-            if (a[0] - b[0]).hypot(a[1] - b[1]) < reach {
-                model.add_contact(slave, master, angle);
+            if (a[0] - b[0]).hypot(a[1] - b[1]) < REGULAR_REACH {
+                model.add_contact(slave, master, REGULAR);
             }
         }
     }
     for side in SIDES {
         let wall = model.add_wall(side);
         for (fibre, centre) in centres.iter().enumerate() {
-            if distance(*centre, side, size) < reach - 0.5 {
-                model.add_wall_contact(fibre, wall, side, angle);
+            if distance(*centre, side, size) < REGULAR_REACH - 0.5 {
+                model.add_wall_contact(fibre, wall, side, REGULAR);
             }
         }
     }
@@ -126,8 +131,8 @@ struct Places {
     area_of_fibre: f64,
 }
 
-fn places(contents: &BoxOf) -> Result<Places, String> {
-    Ok(match *contents {
+fn places(contents: &BoxOf) -> Places {
+    match *contents {
         BoxOf::Rows { packing, rows, fibres_in_row } => {
             let hexagonal = packing == Packing::Hexagonal;
             let height = if hexagonal { ROW } else { 1.0 };
@@ -139,14 +144,11 @@ fn places(contents: &BoxOf) -> Result<Places, String> {
             let size = [fibres_in_row as f64, 1.0 + height * (rows - 1) as f64];
             Places { centres: (0..rows).flat_map(row).collect(), size, area_of_fibre: height }
         }
-        BoxOf::Random { fibres, fraction, seed } => {
-            let side = (FRAC_PI_4 * fibres as f64 / fraction).sqrt();
-            let centres = random_packing::centres(fibres, side, seed).ok_or_else(|| {
-                format!("{fibres} fibres with fraction {fraction} and seed {seed} find no room; allowed: a smaller fraction, or another seed")
-            })?;
+        BoxOf::Random { fibres, seed } => {
+            let random_packing::Packing { centres, side } = random_packing::pack(fibres, seed);
             Places { centres, size: [side, side], area_of_fibre: side * side / fibres as f64 }
         }
-    })
+    }
 }
 
 #[cfg(test)]
@@ -167,12 +169,13 @@ mod tests {
 
     #[test]
     fn random_fibres_do_not_overlap() {
-        let random = BoxOf::Random { fibres: 40, fraction: 0.75, seed: 1 };
-        let Places { centres, size, .. } = places(&random).expect("there is room");
+        let random = BoxOf::Random { fibres: 40, seed: 1 };
+        let Places { centres, size, .. } = places(&random);
         for (i, a) in centres.iter().enumerate() {
             assert!(SIDES.iter().all(|&side| distance(*a, side, size) > 0.5 - 1e-4));
             assert!(centres[..i].iter().all(|b| (a[0] - b[0]).hypot(a[1] - b[1]) > 1.0 - 1e-4));
         }
-        assert_eq!(centres, places(&random).expect("there is room").centres);
+        let model = walled_box(&random, 3).expect("a box");
+        assert_eq!((model.fibres, model.middle.len(), model.bodies.len()), (40, 40, 44));
     }
 }

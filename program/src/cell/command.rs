@@ -9,9 +9,9 @@ use rayon::prelude::*;
 
 use super::model::Model;
 use super::run::{self, Outcome};
-use super::scene::{Arrangement, Load, Scene};
+use super::scene::{Arrangement, BoxOf, Load, Scene};
 use super::solver::{self, Job};
-use super::{arrangement, output, picture, report};
+use super::{arrangement, explicit_run, output, picture, report};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress;
@@ -33,7 +33,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     let scene = Scene::read(path)?;
     let model = arrangement::model(&scene.arrangement, scene.elements)
         .map_err(|message| Error::Input(format!("{}: {message}", path.display())))?;
-    let program = solver::find(ccx)?;
+    let program = if scene.arrangement.is_random() { None } else { Some(solver::find(ccx)?) };
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
@@ -51,7 +51,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     if fit.exists() {
         std::fs::remove_file(&fit).map_err(|error| Error::Input(format!("{}: {error}", fit.display())))?;
     }
-    let runs = run_loads(&program, &scene, &model, output);
+    let runs = run_loads(program.as_deref(), &scene, &model, output);
     let (mut outcomes, mut failures) = (Vec::new(), Vec::new());
     for run in runs {
         match run {
@@ -71,8 +71,8 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     Ok(fit)
 }
 
-/// The loads side by side: CalculiX spends most of a small cell's time on what no second thread shortens.
-fn run_loads(program: &Path, scene: &Scene, model: &Model, output: &Path) -> Vec<Result<Outcome, Error>> {
+/// The loads side by side where that is faster: CalculiX spends most of a small cell's time on what no second thread shortens.
+fn run_loads(program: Option<&Path>, scene: &Scene, model: &Model, output: &Path) -> Vec<Result<Outcome, Error>> {
     let length = (TICKS * scene.loads.len() as f64) as u64;
     let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let done = Mutex::new(vec![0.0; scene.loads.len()]);
@@ -95,7 +95,8 @@ fn run_loads(program: &Path, scene: &Scene, model: &Model, output: &Path) -> Vec
     };
     let runs = match scene.arrangement {
         Arrangement::Cell(_) => scene.loads.par_iter().enumerate().map(one).collect(),
-        // A box takes the memory and the threads of the machine for itself.
+        Arrangement::Box(BoxOf::Random { .. }) => scene.loads.par_iter().enumerate().map(one).collect(),
+        // A box of CalculiX takes the memory and the threads of the machine for itself.
         Arrangement::Box(_) => scene.loads.iter().enumerate().map(one).collect(),
     };
     bar.finish_and_clear();
@@ -104,7 +105,7 @@ fn run_loads(program: &Path, scene: &Scene, model: &Model, output: &Path) -> Vec
 
 /// Runs a load and writes its files.
 fn run_load(
-    program: &Path,
+    program: Option<&Path>,
     scene: &Scene,
     model: &Model,
     load: Load,
@@ -112,15 +113,20 @@ fn run_load(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome, Error> {
     let file = |ending: &str| output.join(format!("{}.{ending}", load.name()));
-    let task = run::task(scene, model, load);
-    let deck = run::deck(&task);
-    output::write(&file("inp"), &deck)?;
-    let threads = match scene.arrangement {
-        Arrangement::Cell(_) => 1,
-        Arrangement::Box(_) => std::thread::available_parallelism().map_or(1, usize::from),
+    let outcome = match program {
+        None => explicit_run::run(scene, model, load, progress)?,
+        Some(program) => {
+            let task = run::task(scene, model, load);
+            let deck = run::deck(&task);
+            output::write(&file("inp"), &deck)?;
+            let threads = match scene.arrangement {
+                Arrangement::Cell(_) => 1,
+                Arrangement::Box(_) => std::thread::available_parallelism().map_or(1, usize::from),
+            };
+            let job = Job { program, output, name: load.name(), threads };
+            run::run(&job, &task, &deck, progress)?
+        }
     };
-    let job = Job { program, output, name: load.name(), threads };
-    let outcome = run::run(&job, &task, &deck, progress)?;
     output::write(&file("csv"), &output::table(scene, &outcome))?;
     picture::write(&file("svg"), &file("png"), scene, model, &outcome)?;
     Ok(outcome)

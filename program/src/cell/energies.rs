@@ -16,6 +16,8 @@ pub struct Increment {
     pub springs: f64,
     /// Work that the supports have done so far, over the whole area.
     pub work: f64,
+    /// What friction has dissipated of it; CalculiX does not tell.
+    pub friction: f64,
 }
 
 /// The increments that were reached, and what is missing where one is not whole: those before it stand.
@@ -61,6 +63,7 @@ fn increment(task: &Task, tables: &[Table], before: &mut Reached) -> Result<Incr
         whole: unit * energy(FIBRES)? / model.area,
         springs: task.fibre.e_2 * springs(task, tables, stretch)? / model.area,
         work: unit * work / model.area,
+        friction: 0.0,
     })
 }
 

@@ -54,7 +54,6 @@ pub struct BoxFile {
     pub rows: Option<Spanned<i64>>,
     pub fibres_in_row: Option<Spanned<i64>>,
     pub fibres: Option<Spanned<i64>>,
-    pub fraction: Option<Spanned<f64>>,
     pub seed: Option<Spanned<i64>>,
 }
 

@@ -1,4 +1,4 @@
-//! `toron cell`: the section of a yarn, fibre by fibre, in CalculiX; its strain energies identify the yarn law's transverse
+//! `toron cell`: the section of a yarn, fibre by fibre, in CalculiX or, where they lie at random, in the explicit host; its strain energies identify the yarn law's transverse
 //! parameters (thesis sections 4.5.2 and 4.5.3).
 //!
 //! Plane strain: the fibres are one layer of C3D8 thick and stay as long as they are. A fibre is transversely isotropic, and
@@ -12,6 +12,7 @@ pub mod command;
 pub mod deck;
 pub mod disc;
 pub mod energies;
+pub mod explicit_run;
 pub mod file;
 pub mod model;
 pub mod output;

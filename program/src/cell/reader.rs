@@ -21,8 +21,6 @@ const MOST_ELEMENTS: usize = 40;
 const MOST_INCREMENTS: usize = 1000;
 const MOST_FIBRES: usize = 1000;
 const MOST_FRICTION: f64 = 2.0;
-/// Of a box with its walls, along which there are voids: 25 fibres and more find room from every seed.
-const DENSEST_RANDOM: f64 = 0.75;
 /// g_23 may differ by this part from e_2/(2 (1 + nu_23)), which it is in a fibre without directions across it.
 const ROUNDED_MODULUS: f64 = 0.02;
 
@@ -116,18 +114,14 @@ impl Source<'_> {
             PackingName::Hexagonal => Packing::Hexagonal,
             PackingName::Square => Packing::Square,
             PackingName::Random => {
-                let wanted = "packing is random and box is missing; allowed: box = { fibres, fraction, seed }";
+                let wanted = "packing is random and box is missing; allowed: box = { fibres, seed }";
                 let walls = cell.walls.as_ref().ok_or_else(|| self.error(span, wanted))?;
                 return self.random(walls.get_ref(), walls.span());
             }
         };
         let Some(walls) = &cell.walls else { return Ok(Arrangement::Cell(packing)) };
         let file = walls.get_ref();
-        let of_random = [
-            file.fibres.as_ref().map(Spanned::span),
-            file.fraction.as_ref().map(Spanned::span),
-            file.seed.as_ref().map(Spanned::span),
-        ];
+        let of_random = [file.fibres.as_ref().map(Spanned::span), file.seed.as_ref().map(Spanned::span)];
         if let Some(span) = of_random.into_iter().flatten().next() {
             return Err(self.error(span, "a key of box of a random packing; allowed here: rows, fibres_in_row"));
         }
@@ -143,16 +137,11 @@ impl Source<'_> {
     fn random(&self, file: &BoxFile, span: Range<usize>) -> Result<Arrangement, Error> {
         let of_rows = [&file.rows, &file.fibres_in_row].into_iter().flatten().next();
         if let Some(key) = of_rows {
-            return Err(
-                self.error(key.span(), "a key of box of a regular packing; allowed here: fibres, fraction, seed")
-            );
+            return Err(self.error(key.span(), "a key of box of a regular packing; allowed here: fibres, seed"));
         }
         let fibres = self.needed("fibres", &file.fibres, [1, MOST_FIBRES], span.clone())?;
-        let missing = || self.error(span, "fraction is missing; allowed: a number > 0, the fibres' part of the box");
-        file.fraction.as_ref().ok_or_else(missing)?;
-        let fraction = self.up_to("fraction", &file.fraction, DENSEST_RANDOM, DENSEST_RANDOM)?;
         let seed = self.count("seed", &file.seed, [0, i64::MAX as usize], 1)? as u64;
-        Ok(Arrangement::Box(BoxOf::Random { fibres, fraction, seed }))
+        Ok(Arrangement::Box(BoxOf::Random { fibres, seed }))
     }
 
     fn loads(&self, file: &LoadsFile, arrangement: &Arrangement) -> Result<Vec<Load>, Error> {

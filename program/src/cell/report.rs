@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::model::Model;
 use super::output::volume_fraction;
-use super::run::Outcome;
+use super::run::{Outcome, Shares};
 use super::scene::{Arrangement, Load, Packing, Scene};
 use crate::common::units::{number, unit};
 use toron::law::parameters::STRESS;
@@ -13,12 +13,19 @@ use toron::law::parameters::STRESS;
 /// The springs that hold free fibres may store this part of the fibres' energy, or they bear the load with them.
 pub const LARGEST_SPRINGS: f64 = 1e-3;
 
+/// The kinetic energy at the end may be this part of the strain energy, or fibres are still on their way.
+pub const LARGEST_KINETIC: f64 = 0.02;
+
 /// Areas, energies and where the files are.
 pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     areas(&mut text, scene, model);
     energies(&mut text, scene, outcomes);
     for outcome in outcomes {
+        if let Some(shares) = outcome.shares {
+            losses(&mut text, outcome.load, shares);
+            continue;
+        }
         let share = largest_spring_share(outcome);
         if share > LARGEST_SPRINGS {
             let _ = writeln!(
@@ -37,8 +44,34 @@ pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path)
             );
         }
     }
-    let _ = writeln!(text, "\nFiles in {}: the table, the deck and the picture of each load", output.display());
+    let files = if scene.arrangement.is_random() { "the table" } else { "the table, the deck" };
+    let _ = writeln!(text, "\nFiles in {}: {files} and the picture of each load", output.display());
     text
+}
+
+/// Where the work has gone in the explicit host.
+fn losses(text: &mut String, load: Load, shares: Shares) {
+    let Shares { kinetic, hourglass, friction, viscosity, contact, balance, steps } = shares;
+    let percent = |share: f64| 100.0 * share;
+    let name = load.name();
+    let _ = writeln!(
+        text,
+        "{name}: of the walls' work friction took {:.1} %, viscosity and brake {:.1} %, contact holds {:.1} %; the balance is off by \
+         {:.3} %. Of the fibres' energy hourglass modes hold {:.1} %; {steps} steps",
+        percent(friction),
+        percent(viscosity),
+        percent(contact),
+        percent(balance),
+        percent(hourglass),
+    );
+    if kinetic > LARGEST_KINETIC {
+        let _ = writeln!(
+            text,
+            "warning: {name}: at the end the fibres still move, with {:.1} % of their strain energy; more than {:.0} %",
+            percent(kinetic),
+            percent(LARGEST_KINETIC)
+        );
+    }
 }
 
 fn areas(text: &mut String, scene: &Scene, model: &Model) {
@@ -56,8 +89,11 @@ fn areas(text: &mut String, scene: &Scene, model: &Model) {
         let _ = writeln!(text, "friction does not act: by symmetry nothing slides in a square packing");
     }
     let area = number(model.middle_area * scale * scale);
-    let of_middle =
-        if model.mirrored { String::new() } else { format!(" of the middle's {} fibres", model.middle.len()) };
+    let of_middle = if model.mirrored || scene.arrangement.is_random() {
+        String::new()
+    } else {
+        format!(" of the middle's {} fibres", model.middle.len())
+    };
     let fraction = volume_fraction(scene, model);
     let _ = writeln!(
         text,
@@ -74,7 +110,7 @@ fn areas(text: &mut String, scene: &Scene, model: &Model) {
 /// The last increment of each load.
 fn energies(text: &mut String, scene: &Scene, outcomes: &[Outcome]) {
     let stress = unit(&scene.units, STRESS);
-    let boxed = matches!(scene.arrangement, Arrangement::Box(_));
+    let boxed = matches!(scene.arrangement, Arrangement::Box(_)) && !scene.arrangement.is_random();
     let whole = if boxed { format!("  {:>12}", "whole box") } else { String::new() };
     let _ = writeln!(text, "\n  {:<12}  {:>8}  {:>8}  {:>12}{whole}  {:>6}", "load", "I_tc", "I_td", "energy", "run");
     let below = if boxed { format!("  {stress:>12}") } else { String::new() };

@@ -28,6 +28,21 @@ pub struct Shape {
     pub rims: Vec<[[f64; 2]; 2]>,
 }
 
+/// Where the work of the walls has gone by the end of a load in the explicit host.
+#[derive(Clone, Copy, Debug)]
+pub struct Shares {
+    /// Over the strain energy: the kinetic energy, and the hourglass modes' part of it.
+    pub kinetic: f64,
+    pub hourglass: f64,
+    /// Over the work: friction, viscosity and brake, penetration.
+    pub friction: f64,
+    pub viscosity: f64,
+    pub contact: f64,
+    /// What the balance of energy is off by.
+    pub balance: f64,
+    pub steps: u64,
+}
+
 /// What came of a load.
 #[derive(Debug)]
 pub struct Outcome {
@@ -35,6 +50,8 @@ pub struct Outcome {
     pub increments: Vec<Increment>,
     /// The fibres at the last increment.
     pub shape: Shape,
+    /// Where the walls' work has gone; of the explicit host.
+    pub shares: Option<Shares>,
     /// Why the load was not taken to its end.
     pub failure: Option<String>,
     pub elapsed: Duration,
@@ -78,7 +95,7 @@ pub fn run(job: &Job, task: &Task, text: &str, progress: &mut dyn FnMut(f64)) ->
         )
     });
     let shape = shape(task, &printed);
-    Ok(Outcome { load: task.load, increments, shape, failure, elapsed: printed.elapsed })
+    Ok(Outcome { load: task.load, increments, shape, shares: None, failure, elapsed: printed.elapsed })
 }
 
 /// The fibres' quadrilaterals with the mean of their corners' stresses, and their circumferences.

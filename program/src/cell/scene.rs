@@ -37,8 +37,8 @@ pub enum Packing {
 pub enum BoxOf {
     /// Rows; in hexagonal packing every other one has a fibre less.
     Rows { packing: Packing, rows: usize, fibres_in_row: usize },
-    /// At random in a square.
-    Random { fibres: usize, fraction: f64, seed: u64 },
+    /// At random in a square, as dense as they get stuck.
+    Random { fibres: usize, seed: u64 },
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +47,13 @@ pub enum Arrangement {
     Cell(Packing),
     /// Between four rigid walls.
     Box(BoxOf),
+}
+
+impl Arrangement {
+    /// Whether fibres lie at random: they rearrange, and inertia carries them over what statics cannot follow.
+    pub fn is_random(&self) -> bool {
+        matches!(self, Arrangement::Box(BoxOf::Random { .. }))
+    }
 }
 
 /// What the section is taken through; x is along the rows, y across them.

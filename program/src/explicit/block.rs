@@ -6,6 +6,7 @@ use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number, largest};
 use super::medium::{Entry, Medium};
+use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::Section;
@@ -186,6 +187,12 @@ impl<T: Number> ElementBlock<T> {
                 scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
                 sums.refused = sums.refused.or(refused(code));
             }
+            Entry::Solid(solid) => {
+                let Shapes { n, stride, .. } = self.shapes;
+                let Scratch { deformation_gradient, stress, wave_speed, status, .. } = scratch;
+                let to = solid::Block { stress, state: &mut self.state, wave_speed, status };
+                solid.evaluate_block(medium.density, deformation_gradient, n, stride, to);
+            }
         }
         sums.law += start.elapsed();
         // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
@@ -330,6 +337,7 @@ impl<T: Number> ElementBlock<T> {
                 [el, tc, td, ld, 0.0]
             }
             Entry::LinearElastic { .. } => [0.0, 0.0, 0.0, 0.0, self.variable(LINEAR_WORK, i)],
+            Entry::Solid(_) => [0.0, 0.0, 0.0, 0.0, self.variable(SOLID_WORK, i)],
         }
     }
 
@@ -338,6 +346,7 @@ impl<T: Number> ElementBlock<T> {
         match medium.entry {
             Entry::Hyperelastic(_) => self.variable(FAILURE_INDEX, i),
             Entry::LinearElastic { .. } if !medium.fails => 0.0,
+            Entry::Solid(_) => 0.0,
             Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
                 self.variable(LINEAR_STRESS, i) / medium.strength
             }
@@ -345,11 +354,18 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1.
+    /// The von Mises stress of a solid; the laws do not keep theirs.
+    pub fn von_mises(&self, medium: &Medium<T>, i: usize) -> Option<f64> {
+        matches!(medium.entry, Entry::Solid(_)).then(|| self.variable(SOLID_VON_MISES, i))
+    }
+
+    /// Logarithmic strain along the fibre: the invariant, or the linear elastic law's stress along it over E1; a solid does not keep
+    /// it.
     pub fn elongation(&self, medium: &Medium<T>, i: usize) -> f64 {
         match &medium.entry {
             Entry::Hyperelastic(_) => self.variable(INVARIANTS, i),
             Entry::LinearElastic { modulus, .. } => self.variable(LINEAR_STRESS, i) / modulus,
+            Entry::Solid(_) => 0.0,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::mesh::Mesh;
 pub struct Support {
     /// Which directions are free.
     pub free: [bool; 3],
-    /// The velocity in the directions that are not.
+    /// The velocity in the directions that are not, where the supports' speed is 1.
     pub velocity: [f64; 3],
 }
 
@@ -26,6 +26,8 @@ pub struct Body<T> {
     mobility: Vec<[T; 3]>,
     pub mass: Vec<f64>,
     supports: Vec<(usize, Support)>,
+    /// The factor of the supports' velocities.
+    speed: f64,
     /// Number of intact elements at each node.
     intact_elements: Vec<u16>,
     pub deleted: Vec<usize>,
@@ -49,6 +51,7 @@ impl<T: Number> Body<T> {
             mobility: Vec::new(),
             mass: vec![0.0; count],
             supports: Vec::new(),
+            speed: 1.0,
             intact_elements: vec![0; count],
             deleted: Vec::new(),
             collapsed: 0,
@@ -93,11 +96,36 @@ impl<T: Number> Body<T> {
     pub fn support(&mut self, node: usize, support: Support) {
         for i in (0..3).filter(|&i| !support.free[i]) {
             self.mobility[node][i] = T::default();
-            self.velocity[node][i] = T::from_f64(support.velocity[i]);
+            self.velocity[node][i] = T::from_f64(self.speed * support.velocity[i]);
         }
         if support.velocity != [0.0; 3] {
             self.supports.push((node, support));
         }
+    }
+
+    /// Moves the supports at this speed.
+    pub fn set_speed(&mut self, speed: f64) {
+        self.speed = speed;
+        for (node, support) in &self.supports {
+            for i in (0..3).filter(|&i| !support.free[i]) {
+                self.velocity[*node][i] = T::from_f64(speed * support.velocity[i]);
+            }
+        }
+    }
+
+    /// Brakes the free directions by a force of this many times the momentum; returns its power.
+    pub fn brake(&mut self, rate: f64) -> f64 {
+        let mut power = 0.0;
+        for (((v, f), mobility), &mass) in
+            self.velocity.iter().zip(&mut self.forces).zip(&self.mobility).zip(&self.mass)
+        {
+            for i in (0..3).filter(|&i| mobility[i] != T::default()) {
+                let brake = rate * mass * v[i].into();
+                f[i] -= T::from_f64(brake);
+                power += brake * v[i].into();
+            }
+        }
+        power
     }
 
     /// The elements' forces at this instant; what they sum up to is in `sums`.
@@ -164,7 +192,7 @@ impl<T: Number> Body<T> {
     pub fn external_power(&self) -> f64 {
         let mut power = 0.0;
         for (node, support) in &self.supports {
-            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * support.velocity[i] };
+            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * self.speed * support.velocity[i] };
             power += (0..3).filter(|&i| !support.free[i]).map(reaction).sum::<f64>();
         }
         power

@@ -2,6 +2,7 @@
 //! control take from them.
 
 use super::lanes::Number;
+use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
 use super::wave_bounds::WaveBounds;
 use crate::common::error::Error;
 use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
@@ -24,10 +25,11 @@ pub struct Control {
     pub by_direction: bool,
 }
 
-/// Names of the energy densities: the hyperelastic law's modes, and the linear elastic law's work, which has no modes.
+/// Names of the energy densities: the hyperelastic law's modes, and the work of the linear elastic law and the solid, which have no
+/// modes.
 pub const ENERGY_NAMES: [&str; 5] = ["w_el", "w_tc", "w_td", "w_ld", "work"];
 
-/// A law as its C entry takes it.
+/// A law as its C entry takes it, or a solid of the host's own.
 #[derive(Clone, Debug)]
 pub enum Entry<T> {
     Hyperelastic(HyperelasticLaw<T>),
@@ -38,6 +40,7 @@ pub enum Entry<T> {
         frame: LinearFrame,
         criterion: i32,
     },
+    Solid(Solid),
 }
 
 /// A material as the host uses it.
@@ -115,11 +118,29 @@ impl<T: Number> Medium<T> {
         })
     }
 
+    /// A solid whose nodes do not move along its fibre.
+    pub fn of_solid(solid: Solid, density: f64, control: Control) -> Self {
+        let speed = |modulus: f64| (modulus / density).sqrt();
+        Medium {
+            entry: Entry::Solid(solid),
+            density,
+            control,
+            hourglass: control.hourglass * solid.g_23,
+            bounds: WaveBounds::Isotropic,
+            fails: false,
+            strength: 0.0,
+            wave_speed: speed(solid.c_22),
+            compaction_speed: speed(solid.c_22),
+            distortion_speed: speed(solid.g_23),
+        }
+    }
+
     /// The law's number of state variables, and where the latch stands among them.
     pub fn state(&self) -> (usize, usize) {
         match self.entry {
             Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
             Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
+            Entry::Solid(_) => (SOLID_STATE, SOLID_FAILED),
         }
     }
 }

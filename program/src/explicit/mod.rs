@@ -18,6 +18,7 @@ pub mod mesh;
 pub mod mutual_contact;
 pub mod projectile;
 pub mod snapshot;
+pub mod solid;
 pub mod solver;
 pub mod stress;
 pub mod vector;

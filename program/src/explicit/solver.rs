@@ -1,5 +1,6 @@
 //! The bodies together: forces, contact, central differences, the balance of energy.
 
+use std::f64::consts::PI;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -30,6 +31,12 @@ pub struct Solver<T> {
     pub projectile: Option<Projectile>,
     /// Contact of the bodies with one another.
     pub mutual: Option<MutualContact>,
+    /// How the supports move; at their own speed without.
+    pub ramp: Option<Ramp>,
+    /// Free nodes are braked by this many times their momentum.
+    pub brake: f64,
+    /// A step is no longer than this: contact that closes within a step has not been in the bound of its length.
+    pub longest: f64,
     /// Whether the laws give energies and invariants in every step, or only where they are measured.
     pub all_outputs: bool,
     pub time: f64,
@@ -41,6 +48,21 @@ pub struct Solver<T> {
     pub energies: Energies,
     pub cost: Cost,
     scratch: Scratch<T>,
+}
+
+/// Supports that start and end smoothly: after this time they have gone as far as at their own speed in 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    pub start: f64,
+    pub duration: f64,
+}
+
+impl Ramp {
+    /// The part of the way that they have gone at a time: its speed is a cosine's arch.
+    pub fn share(&self, time: f64) -> f64 {
+        let part = ((time - self.start) / self.duration).clamp(0.0, 1.0);
+        part - (2.0 * PI * part).sin() / (2.0 * PI)
+    }
 }
 
 /// Of all bodies in a step.
@@ -58,6 +80,9 @@ impl<T: Number> Solver<T> {
             media,
             projectile: None,
             mutual: None,
+            ramp: None,
+            brake: 0.0,
+            longest: f64::INFINITY,
             all_outputs: true,
             time: 0.0,
             step: 0.0,
@@ -92,7 +117,15 @@ impl<T: Number> Solver<T> {
         let stable = self.stable_step(bounds)?;
         let before = self.step;
         // Equal steps to the end, rather than a very short last one.
-        self.step = left / (left / stable).ceil();
+        self.step = left / (left / stable.min(self.longest)).ceil();
+        if let Some(ramp) = self.ramp {
+            let speed = (ramp.share(self.time + self.step) - ramp.share(self.time)) / self.step;
+            self.bodies.iter_mut().for_each(|body| body.set_speed(speed));
+        }
+        if self.brake > 0.0 {
+            let power: f64 = self.bodies.iter_mut().map(|body| body.brake(self.brake)).sum();
+            self.viscosity += 0.5 * (before + self.step) * power;
+        }
         self.update_velocities(0.5 * (before + self.step), measured);
         self.cost.steps += 1;
         self.cost.law += self.bodies.iter().map(|body| body.sums.law).sum();

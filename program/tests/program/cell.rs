@@ -1,4 +1,4 @@
-//! The yarn's section in CalculiX, on coarse meshes: against the thesis's parameters, against Hertz, against its own balance of
+//! The yarn's section in CalculiX and in the explicit host, on coarse meshes: against the thesis's parameters, against Hertz, against its own balance of
 //! energy. Those that are too long for every run are ignored; `cargo test -p toron-program cell -- --ignored --nocapture` runs
 //! them, before a release.
 //!
@@ -11,6 +11,7 @@
 //! | energies of 8 elements against 12, 1 % | the finer mesh | the demand on the mesh |
 //! | approach of two cylinders, 3 % | Johnson, Contact Mechanics (1985), Eq. 5.58 | the demand on the contact |
 //! | energy of a box's middle, 5 % | the cell's at the middle's own strain, same mesh | its fibres are not all strained alike; a softer contact |
+//! | energies of the explicit host, 3 % | CalculiX's, same mesh | one-point elements, a softer contact |
 //! | work of the supports, 1.5 % | the strain energy | penalty of the contact, and the trapezoidal rule over 24 increments |
 
 use std::f64::consts::PI;
@@ -21,10 +22,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use toron_program::cell::arrangement;
 use toron_program::cell::disc::Disc;
 use toron_program::cell::energies::Increment;
+use toron_program::cell::explicit_run;
 use toron_program::cell::model::Model;
 use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
-use toron_program::cell::scene::{Arrangement, Load, Packing, Scene};
+use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
 use toron_program::cell::solver::Job;
 
 use crate::calculix_decks::SOLVER;
@@ -147,6 +149,59 @@ fn work_becomes_strain_energy() {
         let (energy, work) = (last(&outcome).energy, last(&outcome).work);
         println!("{}: energy {energy:.4}, work {work:.4}", load.name());
         assert!(work > energy * 0.995 && work < energy * 1.015, "energy {energy}, work {work}");
+    }
+}
+
+/// The hexagonal cell in the explicit host and in CalculiX: the same fibres, another element, contact and way of solving.
+#[test]
+fn the_explicit_host_agrees_with_calculix() {
+    let scene = Scene { elements: 6, increments: 12, ..scene() };
+    let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
+    for load in [Load::Compaction, Load::AcrossRows] {
+        let explicit = explicit_run::run(&scene, &model, load, &mut |_| {}).expect("it runs");
+        assert_eq!(explicit.failure, None);
+        let calculix = on_model(&scene, &model, load);
+        let [found, expected] = [&explicit, &calculix].map(|outcome| last(outcome).energy);
+        println!("{}: explicit {found:.4}, CalculiX {expected:.4}", load.name());
+        assert_within(found, expected, 0.03);
+    }
+}
+
+/// Fibres at random rearrange; in the end they lie still, and the work of the walls is in them or accounted for.
+#[test]
+fn fibres_at_random_are_pressed() {
+    let arrangement = Arrangement::Box(BoxOf::Random { fibres: 8, seed: 1 });
+    let scene = Scene { arrangement, elements: 2, increments: 6, ..scene() };
+    let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
+    let outcome = explicit_run::run(&scene, &model, Load::Compaction, &mut |_| {}).expect("it runs");
+    assert_eq!(outcome.failure, None);
+    let shares = outcome.shares.expect("the explicit host tells");
+    println!("{:.3} MPa: {shares:?}", last(&outcome).energy);
+    assert!(shares.kinetic < 0.02 && shares.balance.abs() < 1e-3 && shares.friction > 1e-3, "{shares:?}");
+    let Increment { energy, work, friction, .. } = *last(&outcome);
+    let expected = work - friction - work * (shares.viscosity + shares.contact);
+    assert_within(energy, expected, 0.01);
+    assert_eq!(outcome.shape.patches.len(), 8 * 48);
+}
+
+/// The files of a random packing, for which no CalculiX is needed.
+#[test]
+fn a_random_packing_needs_no_calculix() {
+    let folder = crate::library::folder("cell-random");
+    let text = std::fs::read_to_string(example("random.toml")).expect("the example");
+    let small = text.replacen("fibres = 25", "fibres = 8", 1).replacen("elements = 3", "elements = 1", 1);
+    let small = small.replacen("increments = 24", "increments = 6\nkinds = [\"compaction\"]", 1);
+    std::fs::write(folder.join("small.toml"), small).expect("a scene");
+    let mut command = toron(&folder, &["cell", "small.toml", "-o", "out"]);
+    let output = command.env_remove("TORON_CCX").env("PATH", "").output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = String::from_utf8_lossy(&output.stdout);
+    assert!(report.contains("of the walls' work friction took"), "{report}");
+    let table = std::fs::read_to_string(folder.join("out/compaction.csv")).expect("a table");
+    let columns = "energy (MPa),work of the walls (MPa),energy lost by friction (MPa)\n";
+    assert!(table.lines().count() == 7 && table.contains(columns), "{table}");
+    for (file, there) in [("compaction.png", true), ("fit.toml", true), ("compaction.inp", false)] {
+        assert_eq!(folder.join("out").join(file).exists(), there, "{file}");
     }
 }
 
@@ -278,10 +333,10 @@ fn errors_name_the_line_and_what_is_allowed() {
     }
     let random = text.replacen("packing = \"hexagonal\"", "packing = \"random\"", 1);
     let error = Scene::parse("cell.toml", &random).expect_err("no box").to_string();
-    assert!(error.contains("box = { fibres, fraction, seed }"), "{error}");
-    let dense = random.replacen("friction", "box = { fibres = 40, fraction = 0.8, seed = 1 }\nfriction", 1);
-    let error = Scene::parse("cell.toml", &dense).expect_err("too dense").to_string();
-    assert!(error.contains("fraction is 0.8; allowed: a number > 0, up to 0.75"), "{error}");
+    assert!(error.contains("box = { fibres, seed }"), "{error}");
+    let rows = random.replacen("friction", "box = { fibres = 40, rows = 8, seed = 1 }\nfriction", 1);
+    let error = Scene::parse("cell.toml", &rows).expect_err("rows").to_string();
+    assert!(error.contains("a key of box of a regular packing; allowed here: fibres, seed"), "{error}");
 }
 
 /// The mesh, the contact's friction, and the range of the distortion.

@@ -3,7 +3,7 @@
 //!
 //! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each with half of
 //! the stiffness. A node's force is divided among the face's corners in the proportion of its place on the face, so that
-//! momentum is kept to rounding. Which nodes are near which faces is found anew when something may have come near that was not.
+//! momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness and no friction. Which nodes are near which faces is found anew when something may have come near that was not.
 //!
 //! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
 
@@ -164,12 +164,14 @@ impl MutualContact {
         let first = self.searches == 0;
         let near = |(number, side): (usize, &Side)| {
             let (mut pairs, mut faces) = (Vec::new(), Vec::new());
-            for &node in &side.surface.nodes {
+            let nodes = if side.surface.wall { &[][..] } else { &side.surface.nodes };
+            for &node in nodes {
                 let point = side.surface.positions[node as usize];
                 grid.near(number, point, &mut faces);
                 for of_body in faces.chunk_by(|a, b| a.body == b.body) {
                     let master = of_body[0].body;
-                    let stiffness = 0.5 * parameters.stiffness * side.surface.area[node as usize];
+                    let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
+                    let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
                     let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
                     if let Some((face, place, depth)) = nearest {
                         let known = first || depth <= 0.0;
@@ -346,7 +348,8 @@ impl Pair {
         let force = self.stiffness * self.depth;
         let trial = add(old, -self.stiffness, slip);
         let trial = add(trial, -dot(trial, met.normal), met.normal);
-        let (size, limit) = (dot(trial, trial).sqrt(), friction * force);
+        let rough = if master.wall { 0.0 } else { friction };
+        let (size, limit) = (dot(trial, trial).sqrt(), rough * force);
         self.friction = if size > limit { times(limit / size, trial) } else { trial };
         let per_stiffness = 0.5 / self.stiffness;
         let (held, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));

@@ -21,6 +21,8 @@ pub struct Surface {
     pub neighbours: Vec<[u32; 4]>,
     /// Whether its element has been deleted.
     pub gone: Vec<bool>,
+    /// Whether it is a rigid wall's: nothing rubs on it, and the nodes of others press against it alone, not its own against others.
+    pub wall: bool,
     /// The nodes of the faces in their order.
     pub nodes: Vec<u32>,
     /// Of all nodes of the body: their share of the faces, as the size of a sum of vectors, so that on an edge what faces another
@@ -55,6 +57,7 @@ impl Surface {
         nodes.dedup();
         Surface {
             gone: vec![false; faces.len()],
+            wall: false,
             positions: mesh.nodes.clone(),
             moved: vec![[0.0; 3]; mesh.nodes.len()],
             faces,

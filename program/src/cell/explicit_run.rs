@@ -1,0 +1,288 @@
+//! A load on the section in the explicit host: what rearranges on the way is carried over by inertia, which statics has not.
+//!
+//! The walls move so slowly that the fibres are near equilibrium all the time. The density is chosen for the number of steps alone:
+//! lengths are counted in diameters, stresses in e_2, masses so that the density is 1. A wave across a fibre then takes a time of
+//! about 1.
+
+use std::time::Instant;
+
+use super::energies::Increment;
+use super::model::{Body as Fibre, Model};
+use super::run::{Outcome, Shape, Shares};
+use super::scene::{Load, Scene};
+use crate::common::error::Error;
+use crate::explicit::body::{Body, Support};
+use crate::explicit::energies::Energies;
+use crate::explicit::medium::{Control, Medium};
+use crate::explicit::mesh::Mesh;
+use crate::explicit::mutual_contact::{MutualContact, Parameters, Surface};
+use crate::explicit::solid::Solid;
+use crate::explicit::solver::{Ramp, Solver};
+
+/// Pressure by depth of penetration over e_2 a diameter.
+const STIFFNESS: f64 = 200.0;
+/// In diameters: nodes nearer to faces than this are looked at in every step, deeper ones have come through from the other side.
+const MARGIN: f64 = 0.05;
+const DEEPEST: f64 = 0.1;
+/// The longest step over the time √(m/k) of a node with the whole stiffness of contact.
+const CONTACT_STEP: f64 = 1.0;
+/// How long a load takes, by the larger side of the section in diameters.
+const DURATION: f64 = 80.0;
+/// Before it, what overlaps at the start is let apart, and its vibrations are braked.
+const SETTLING: f64 = 20.0;
+const SETTLING_BRAKE: f64 = 0.5;
+/// The brake in the load: what has snapped to another place comes to rest within a fraction of it.
+const BRAKE: f64 = 0.01;
+/// With half of the shear modulus against hourglass modes, elements bend about as the solid does.
+const CONTROL: Control = Control { hourglass: 0.5, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
+
+/// Runs a load.
+///
+/// # Errors
+/// None of its increments is reached.
+pub fn run(scene: &Scene, model: &Model, load: Load, progress: &mut dyn FnMut(f64)) -> Result<Outcome, Error> {
+    let started = Instant::now();
+    let mut section = Section::new(scene, model, load);
+    let mut increments = Vec::new();
+    let failure = section
+        .load(scene, load, &mut increments, progress)
+        .err()
+        .map(|error| format!("load {}: increment {} is not reached: {error}", load.name(), increments.len() + 1));
+    if increments.is_empty() {
+        return Err(Error::Evaluation(failure.unwrap_or_default()));
+    }
+    let shape = section.shape(scene.fibre.e_2);
+    Ok(Outcome { load, increments, shape, shares: Some(section.shares()), failure, elapsed: started.elapsed() })
+}
+
+/// The model as bodies.
+struct Section<'a> {
+    model: &'a Model,
+    solver: Solver<f64>,
+    thickness: f64,
+    /// The energies when what overlapped at the start had come to rest.
+    settled: Energies,
+}
+
+impl<'a> Section<'a> {
+    fn new(scene: &Scene, model: &'a Model, load: Load) -> Self {
+        // As thick as the elements on the circumference are wide.
+        let thickness = std::f64::consts::PI / (8 * scene.elements) as f64;
+        let fibre = &scene.fibre;
+        let [e_1, g_23] = [fibre.e_1, fibre.g_23].map(|modulus| modulus / fibre.e_2);
+        // Nothing shears along the fibres: with the modulus of that, steps would only be shorter.
+        let solid = Solid::new([e_1, 1.0], [fibre.nu_12, fibre.nu_23], [g_23, g_23]);
+        let media = vec![Medium::of_solid(solid, 1.0, CONTROL)];
+        let stretches = load.stretches(scene.last_stretch(load));
+        let (mut bodies, mut surfaces) = (Vec::new(), Vec::new());
+        // Of all nodes that may touch, the smallest square of the time in which contact turns one back.
+        let mut lightest = f64::INFINITY;
+        for (number, part) in model.bodies.iter().enumerate() {
+            let wall = number >= model.fibres;
+            let layer =
+                if wall { Layer::of_wall(model, part, thickness) } else { Layer::of_fibre(model, part, thickness) };
+            // The run ends where an element fails: none is taken out of the contact.
+            let elements = vec![0; layer.faces.len()];
+            let mut surface = Surface::new(&layer.mesh, layer.faces, elements);
+            surface.wall = wall;
+            let count = layer.mesh.nodes.len();
+            let mut body = Body::new(layer.mesh, &media, |_| 0);
+            for node in 0..count {
+                // Plane strain; and walls do not deform.
+                body.support(node, Support { free: [false, !wall, !wall], velocity: [0.0; 3] });
+            }
+            let numbers = layer.numbers;
+            for support in &model.supports {
+                let (mut free, mut velocity) = ([true; 3], [0.0; 3]);
+                free[1 + support.axis] = false;
+                velocity[1 + support.axis] = (stretches[support.axis] - 1.0) * support.at;
+                let fronts = (0..count / 2).filter(|&front| support.nodes.contains(&numbers[front]));
+                for node in fronts.flat_map(|front| [front, front + count / 2]) {
+                    body.support(node, Support { free, velocity });
+                }
+            }
+            for &node in &surface.nodes {
+                let node = node as usize;
+                lightest = lightest.min(body.mass[node] / (STIFFNESS * surface.area[node]));
+            }
+            surfaces.push(surface);
+            bodies.push(body);
+        }
+        let mut solver = Solver::new(bodies, media);
+        let parameters =
+            Parameters { stiffness: STIFFNESS, friction: scene.friction, margin: MARGIN, deepest: DEEPEST };
+        solver.mutual = Some(MutualContact::new(parameters, surfaces));
+        solver.longest = CONTACT_STEP * lightest.sqrt();
+        let duration = DURATION * model.size[0].max(model.size[1]);
+        solver.ramp = Some(Ramp { start: SETTLING, duration });
+        Section { model, solver, thickness, settled: Energies::default() }
+    }
+
+    /// Takes the section through the load.
+    fn load(
+        &mut self,
+        scene: &Scene,
+        load: Load,
+        increments: &mut Vec<Increment>,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<(), Error> {
+        let solver = &mut self.solver;
+        let Some(ramp) = solver.ramp else { return Ok(()) };
+        solver.brake = SETTLING_BRAKE;
+        self.advance_to(ramp.start)?;
+        self.solver.brake = BRAKE;
+        self.solver.accelerate(true, ramp.duration)?;
+        self.settled = self.solver.energies;
+        self.solver.displace();
+        let last = scene.last_stretch(load);
+        for number in 1..=scene.increments {
+            let part = number as f64 / scene.increments as f64;
+            self.advance_to(ramp.start + ramp.duration * time_of(part))?;
+            // The forces at the end of the increment, with which the next step begins.
+            self.solver.accelerate(true, ramp.duration)?;
+            increments.push(self.increment(scene, load, 1.0 + part * (last - 1.0)));
+            progress(part);
+            if number < scene.increments {
+                self.solver.displace();
+            }
+        }
+        Ok(())
+    }
+
+    fn advance_to(&mut self, time: f64) -> Result<(), Error> {
+        let solver = &mut self.solver;
+        // A step of rounding's length would be none.
+        while time - solver.time > 1e-9 * time {
+            solver.accelerate(false, time - solver.time)?;
+            if solver.bodies.iter().any(|body| !body.deleted.is_empty()) {
+                return Err(Error::Evaluation("an element has been turned inside out".to_string()));
+            }
+            solver.displace();
+        }
+        Ok(())
+    }
+
+    fn increment(&self, scene: &Scene, load: Load, stretch: f64) -> Increment {
+        let Section { model, solver, thickness, settled } = self;
+        let strain = |number: usize| {
+            let body = &solver.bodies[number];
+            body.internal_energy(&solver.media) + body.sums.hourglass
+        };
+        let over = |area: f64, energy: f64| scene.fibre.e_2 * energy / (thickness * area);
+        Increment {
+            stretch,
+            invariants: load.invariants(stretch),
+            energy: over(model.middle_area, model.middle.iter().map(|&fibre| strain(fibre)).sum()),
+            whole: over(model.area, (0..model.fibres).map(strain).sum()),
+            springs: 0.0,
+            work: over(model.area, solver.energies.external),
+            friction: over(model.area, solver.energies.friction - settled.friction),
+        }
+    }
+
+    fn shares(&self) -> Shares {
+        let energies = self.solver.energies;
+        let settled = self.settled;
+        let (strain, work) = (energies.internal + energies.hourglass, energies.external);
+        Shares {
+            kinetic: energies.kinetic / strain,
+            hourglass: energies.hourglass / strain,
+            friction: (energies.friction - settled.friction) / work,
+            viscosity: (energies.viscosity - settled.viscosity) / work,
+            contact: energies.contact / work,
+            balance: (energies.total() - settled.total()) / work,
+            steps: self.solver.cost.steps,
+        }
+    }
+
+    fn shape(&self, unit: f64) -> Shape {
+        let mut shape = Shape::default();
+        for (fibre, body) in self.model.bodies[..self.model.fibres].iter().zip(&self.solver.bodies) {
+            let place = |node: u32| {
+                let [_, x, y] = body.position(node as usize);
+                [x, y]
+            };
+            let corners: Vec<[[f64; 2]; 4]> =
+                body.mesh.elements.iter().map(|element| [0, 2, 6, 4].map(|corner| place(element[corner]))).collect();
+            for (number, &corners) in corners.iter().enumerate() {
+                let (block, i) = body.element(number);
+                let stress = block.von_mises(&self.solver.media[block.medium], i).unwrap_or_default();
+                shape.patches.push((corners, unit * stress));
+            }
+            let rims = fibre.rim.iter().map(|(edge, _)| [0, 1].map(|i| corners[edge.quad][(edge.edge + i) % 4]));
+            shape.rims.extend(rims);
+        }
+        shape
+    }
+}
+
+/// When a ramp of duration 1 has gone this part of its way.
+fn time_of(part: f64) -> f64 {
+    let ramp = Ramp { start: 0.0, duration: 1.0 };
+    let [mut low, mut high] = [0.0, 1.0];
+    while high - low > 1e-12 {
+        let middle = 0.5 * (low + high);
+        if ramp.share(middle) < part { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// A layer of hexahedra, axis 0 along the fibres: the nodes of the front, then those behind them.
+struct Layer {
+    mesh: Mesh,
+    /// The model's numbers of the front's nodes; of a wall's all the one of its first, with which it moves.
+    numbers: Vec<usize>,
+    faces: Vec<[u32; 4]>,
+}
+
+impl Layer {
+    fn of_fibre(model: &Model, fibre: &Fibre, thickness: f64) -> Layer {
+        let mut numbers: Vec<usize> = fibre.quads.iter().flatten().copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let points: Vec<[f64; 2]> = numbers.iter().map(|&node| model.nodes[node]).collect();
+        let local = |node: &usize| numbers.partition_point(|number| number < node);
+        let quads: Vec<[usize; 4]> = fibre.quads.iter().map(|quad| [0, 1, 2, 3].map(|i| local(&quad[i]))).collect();
+        let rim = fibre.rim.iter().map(|(edge, _)| [0, 1].map(|i| quads[edge.quad][(edge.edge + i) % 4])).collect();
+        Layer::new(&points, &quads, rim, thickness, numbers)
+    }
+
+    /// The wall in pieces that are about as long as it is thick, or the search for contacts would look far.
+    fn of_wall(model: &Model, wall: &Fibre, thickness: f64) -> Layer {
+        let (quad, edge) = (wall.quads[0], wall.rim[0].0.edge);
+        let [from, to, beyond, behind] = [0, 1, 2, 3].map(|i| model.nodes[quad[(edge + i) % 4]]);
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let pieces = (length / thickness).ceil() as usize;
+        let between = |a: [f64; 2], b: [f64; 2], i: usize| {
+            [0, 1].map(|axis| a[axis] + i as f64 / pieces as f64 * (b[axis] - a[axis]))
+        };
+        let points: Vec<[f64; 2]> =
+            (0..=pieces).flat_map(|i| [between(from, to, i), between(behind, beyond, i)]).collect();
+        let quads: Vec<[usize; 4]> = (0..pieces).map(|i| [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1]).collect();
+        let rim = quads.iter().map(|quad| [quad[0], quad[1]]).collect();
+        let numbers = vec![quad[0]; points.len()];
+        Layer::new(&points, &quads, rim, thickness, numbers)
+    }
+
+    /// Of quadrilaterals, counter-clockwise, and the edges that may touch others.
+    fn new(
+        points: &[[f64; 2]],
+        quads: &[[usize; 4]],
+        rim: Vec<[usize; 2]>,
+        thickness: f64,
+        numbers: Vec<usize>,
+    ) -> Layer {
+        let count = points.len();
+        let at = |x: f64| points.iter().map(move |&[y, z]| [x, y, z]);
+        let element = |&[a, b, c, d]: &[usize; 4]| {
+            [a, a + count, b, b + count, d, d + count, c, c + count].map(|node| node as u32)
+        };
+        let mesh = Mesh {
+            nodes: at(0.0).chain(at(thickness)).collect(),
+            elements: quads.iter().map(element).collect(),
+            ..Mesh::default()
+        };
+        let face = |[from, to]: [usize; 2]| [from, to, to + count, from + count].map(|node| node as u32);
+        Layer { mesh, numbers, faces: rim.into_iter().map(face).collect() }
+    }
+}
