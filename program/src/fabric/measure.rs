@@ -5,9 +5,6 @@ use crate::explicit::lanes::{Number, largest};
 use crate::explicit::solver::Solver;
 use crate::weave::model::{Model, Yarn};
 
-/// The front of the transverse wave is where the deflection has this part of its largest value.
-const FRONT: f64 = 0.02;
-
 /// The state at an instant. Energies are those of the whole panel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sample {
@@ -36,7 +33,10 @@ pub struct Sample {
 }
 
 /// Measures all.
-pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64) -> Sample {
+///
+/// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when yarns are
+/// stretched straight before it comes.
+pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64, threshold: f64) -> Sample {
     let whole = 1.0 / share;
     let mut sample = Sample { time: solver.time, ..Sample::default() };
     if let Some(sphere) = &solver.projectile {
@@ -71,7 +71,7 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
             (sample.tilt, sample.slip) = (largest(sample.tilt, tilt), largest(sample.slip, slip));
         }
     }
-    sample.front = front(panel, solver, FRONT * sample.deflection);
+    sample.front = front(panel, solver, threshold);
     sample
 }
 
@@ -100,7 +100,7 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
     let nearest = panel.yarns.iter().map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min);
     let mut farthest: f64 = 0.0;
     for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
-        if yarn.coordinate.abs() > 1.001 * nearest || threshold <= 0.0 {
+        if yarn.coordinate.abs() > 1.001 * nearest {
             continue;
         }
         for (node, [x, y, _]) in body.mesh.nodes.iter().enumerate() {

@@ -124,6 +124,7 @@ impl<'a, T: Number> Run<'a, T> {
     fn steps(&mut self, samples: &mut Vec<Sample>, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let start = self.solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
         let share = share(self.scene);
+        let threshold = self.scene.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
         self.solver.all_outputs = false;
         let (mut next, mut next_frame, mut last_contact) = (0.0, 0.0, 0.0);
         let frame = self.case.end / self.case.frames.max(1) as f64;
@@ -146,7 +147,7 @@ impl<'a, T: Number> Run<'a, T> {
                 self.failed = Some(time);
             }
             if sampled {
-                let sample = measure(self.panel, &self.solver, share, start);
+                let sample = measure(self.panel, &self.solver, share, start, threshold);
                 samples.push(sample);
                 next += self.case.sample;
                 let imbalance = imbalance(samples);
