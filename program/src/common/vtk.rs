@@ -10,7 +10,7 @@ use super::error::Error;
 const CORNERS: [usize; 8] = [0, 1, 3, 2, 4, 5, 7, 6];
 const HEXAHEDRON: u8 = 12;
 
-/// The text of a VTU file of these cells; the data are arrays, as [`array`] and [`vectors`] write them.
+/// The text of a VTU file of these cells; the data are arrays, as [`array()`] and [`vectors`] write them.
 pub fn unstructured_grid(
     points: impl ExactSizeIterator<Item = [f64; 3]>,
     cells: impl ExactSizeIterator<Item = [u32; 8]>,

@@ -17,7 +17,7 @@ pub struct Surface {
     pub faces: Vec<[u32; 4]>,
     /// The element of each.
     pub elements: Vec<u32>,
-    /// Beyond the edges from each corner to the next, or [`NONE`].
+    /// Beyond the edges from each corner to the next, or `NONE`.
     pub neighbours: Vec<[u32; 4]>,
     /// Whether its element has been deleted.
     pub gone: Vec<bool>,
