@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::model::Model;
 use super::run::{self, Outcome};
-use super::scene::{Arrangement, BoxOf, Load, Scene};
+use super::scene::{Arrangement, Load, Scene};
 use super::solver::{self, Job};
 use super::{arrangement, explicit_run, output, picture, report};
 use crate::common::console::{print, print_error};
@@ -33,7 +33,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     let scene = Scene::read(path)?;
     let model = arrangement::model(&scene.arrangement, scene.elements)
         .map_err(|message| Error::Input(format!("{}: {message}", path.display())))?;
-    let program = if scene.arrangement.is_random() { None } else { Some(solver::find(ccx)?) };
+    let program = if scene.explicit { None } else { Some(solver::find(ccx)?) };
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
@@ -94,10 +94,9 @@ fn run_loads(program: Option<&Path>, scene: &Scene, model: &Model, output: &Path
         run_load(program, scene, model, load, output, &mut progress)
     };
     let runs = match scene.arrangement {
-        Arrangement::Cell(_) => scene.loads.par_iter().enumerate().map(one).collect(),
-        Arrangement::Box(BoxOf::Random { .. }) => scene.loads.par_iter().enumerate().map(one).collect(),
         // A box of CalculiX takes the memory and the threads of the machine for itself.
-        Arrangement::Box(_) => scene.loads.iter().enumerate().map(one).collect(),
+        Arrangement::Box(_) if !scene.explicit => scene.loads.iter().enumerate().map(one).collect(),
+        _ => scene.loads.par_iter().enumerate().map(one).collect(),
     };
     bar.finish_and_clear();
     runs

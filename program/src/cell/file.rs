@@ -38,10 +38,19 @@ pub enum PackingName {
     Random,
 }
 
+/// What computes the section.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum HostName {
+    Calculix,
+    Explicit,
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellFile {
     pub packing: PackingName,
+    pub host: Option<Spanned<HostName>>,
     #[serde(rename = "box")]
     pub walls: Option<Spanned<BoxFile>>,
     pub friction: Option<Spanned<f64>>,

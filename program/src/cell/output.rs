@@ -22,10 +22,9 @@ pub fn write(file: &Path, text: &str) -> Result<(), Error> {
 /// The table of a load. A box of rows has columns for what lies outside its middle, a random one for where the work has gone.
 pub fn table(scene: &Scene, outcome: &Outcome) -> String {
     let stress = unit(&scene.units, STRESS);
-    let random = scene.arrangement.is_random();
-    let boxed = matches!(scene.arrangement, Arrangement::Box(_)) && !random;
+    let boxed = matches!(scene.arrangement, Arrangement::Box(_)) && !scene.arrangement.is_random();
     let mut text = format!("I_tc (-),I_td (-),stretch (-),energy ({stress})");
-    if random {
+    if scene.explicit {
         let _ = write!(text, ",work of the walls ({stress}),energy lost by friction ({stress})");
     }
     if boxed {
@@ -34,7 +33,7 @@ pub fn table(scene: &Scene, outcome: &Outcome) -> String {
     text.push('\n');
     for Increment { stretch, invariants: [i_tc, i_td], energy, whole, springs, work, friction } in &outcome.increments {
         let _ = write!(text, "{i_tc:.8},{i_td:.8},{stretch:.8},{energy:.7e}");
-        if random {
+        if scene.explicit {
             let _ = write!(text, ",{work:.7e},{friction:.7e}");
         }
         if boxed {
@@ -60,7 +59,7 @@ const RANDOM_DEVIATION: f64 = 0.05;
 pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
     let fraction = volume_fraction(scene, model);
     let [length, mass, time] = scene.units.names();
-    let solver = if scene.arrangement.is_random() { "the explicit host" } else { "CalculiX" };
+    let solver = if scene.explicit { "the explicit host" } else { "CalculiX" };
     let source = scene.yarn.source.clone().unwrap_or_else(|| format!("{}: fibres in {solver}", scene.title));
     let mut text = format!(
         "title = {}\nunits = \"{length}-{mass}-{time}\"\n\n[yarn]\nname = {}\nsource = {}\n",

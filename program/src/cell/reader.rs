@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{BoxFile, CellFile, FibreFile, LoadsFile, PackingName, SceneFile, YarnFile};
+use super::file::{BoxFile, CellFile, FibreFile, HostName, LoadsFile, PackingName, SceneFile, YarnFile};
 use super::scene::{Arrangement, BoxOf, Fibre, Load, Packing, Scene, YarnName};
 use crate::common::error::Error;
 use crate::common::toml_file::Source;
@@ -44,6 +44,7 @@ impl Scene {
         let file: SceneFile = source.parse()?;
         let cell = file.cell.get_ref();
         let arrangement = source.arrangement(cell, file.cell.span())?;
+        let explicit = source.is_explicit(cell, &arrangement)?;
         let none = LoadsFile::default();
         let loads = file.loads.as_ref().unwrap_or(&none);
         let largest = source.up_to("largest", &loads.largest, MOST_INVARIANT, LARGEST)?;
@@ -51,6 +52,7 @@ impl Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
             units: source.units(&file.units)?,
             fibre: source.fibre(file.fibre.get_ref())?,
+            explicit,
             friction: source.zero_up_to("friction", &cell.friction, MOST_FRICTION, FRICTION)?,
             elements: source.count("elements", &cell.elements, [1, MOST_ELEMENTS], ELEMENTS)?,
             largest,
@@ -107,6 +109,18 @@ impl Source<'_> {
         }
         let message = format!("{key} is {ratio}; allowed: between -{bound} and {bound}, or the fibre is not stable");
         Err(self.error(value.span(), &message))
+    }
+
+    /// Fibres at random are computed by the explicit host alone.
+    fn is_explicit(&self, cell: &CellFile, arrangement: &Arrangement) -> Result<bool, Error> {
+        let random = arrangement.is_random();
+        let Some(host) = &cell.host else { return Ok(random) };
+        let explicit = *host.get_ref() == HostName::Explicit;
+        if random && !explicit {
+            let message = "host is calculix, whose statics does not follow fibres at random; allowed here: explicit";
+            return Err(self.error(host.span(), message));
+        }
+        Ok(explicit)
     }
 
     fn arrangement(&self, cell: &CellFile, span: Range<usize>) -> Result<Arrangement, Error> {

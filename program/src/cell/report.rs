@@ -44,7 +44,7 @@ pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path)
             );
         }
     }
-    let files = if scene.arrangement.is_random() { "the table" } else { "the table, the deck" };
+    let files = if scene.explicit { "the table" } else { "the table, the deck" };
     let _ = writeln!(text, "\nFiles in {}: {files} and the picture of each load", output.display());
     text
 }

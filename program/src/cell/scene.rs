@@ -109,6 +109,8 @@ pub struct Scene {
     pub units: UnitSystem,
     pub fibre: Fibre,
     pub arrangement: Arrangement,
+    /// Whether the explicit host computes it, and not CalculiX.
+    pub explicit: bool,
     /// Between fibres; there is none on walls.
     pub friction: f64,
     /// Along an eighth of a fibre's circumference.
