@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::{BoxFile, CellFile, FibreFile, HostName, LoadsFile, PackingName, SceneFile, YarnFile};
 use super::scene::{Arrangement, BoxOf, Fibre, Load, Packing, Scene, YarnName};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{self, Source};
 
 /// Defaults of the keys: those of the thesis, but for the mesh and the increments.
 const FRICTION: f64 = 0.2;
@@ -30,8 +30,7 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         Scene::parse(&name, &text)
     }
 

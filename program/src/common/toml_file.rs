@@ -32,6 +32,28 @@ impl Source<'_> {
         })
     }
 
+    /// The name of a case, out of which its files' names are made; `taken` says which names there are already.
+    ///
+    /// # Errors
+    /// There is none, it is taken, or files cannot be named by it.
+    pub fn name_of_case(
+        &self,
+        name: Option<&Spanned<String>>,
+        case: Range<usize>,
+        taken: impl Fn(&str) -> bool,
+    ) -> Result<String, Error> {
+        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
+        let Some(name) = name else {
+            return Err(self.error(case, &format!("a case has no name; allowed: {wanted}")));
+        };
+        let text = name.get_ref();
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        if text.is_empty() || taken(text) || !text.chars().all(plain) {
+            return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
+        }
+        Ok(text.clone())
+    }
+
     pub fn error(&self, span: Range<usize>, message: &str) -> Error {
         Error::Input(format!("{}:{}: {message}", self.name, self.line(span)))
     }
@@ -84,6 +106,16 @@ pub fn same_files(one: &str, other: &str, pictures: &str) -> bool {
         number.is_some_and(|number| number.parse::<usize>().is_ok())
     };
     one.eq_ignore_ascii_case(other) || picture_of(one, other) || picture_of(other, one)
+}
+
+/// The name of a file for messages, and its text.
+///
+/// # Errors
+/// It cannot be read.
+pub fn read(path: &Path) -> Result<(String, String), Error> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+    Ok((name, text))
 }
 
 /// A list of so many numbers. The parser would pass over what comes after them.

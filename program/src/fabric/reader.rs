@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::{CaseFile, SceneFile};
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
-use crate::common::toml_file::{Source, same_files};
+use crate::common::toml_file::{self, Source, same_files};
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
@@ -35,8 +35,7 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         Scene::parse(&name, &text)
     }
 
@@ -61,28 +60,15 @@ impl Scene {
         }
         for case in &file.case {
             let (own, span) = (case.get_ref(), case.span());
-            let name = source.fabric_case(case, &cases)?;
+            let taken = |text: &str| {
+                text == "summary" || cases.iter().any(|other: &Case| same_files(&other.name, text, "-panel-"))
+            };
+            let name = source.name_of_case(own.name.as_ref(), span.clone(), taken)?;
             let table = own.over(base);
             let reader = Reader { source: &source, units: &units, woven: &woven, file: &table, own, span };
             cases.push(reader.case(name)?);
         }
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, woven, cases })
-    }
-}
-
-impl Source<'_> {
-    fn fabric_case(&self, case: &Spanned<CaseFile>, others: &[Case]) -> Result<String, Error> {
-        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
-        let Some(name) = &case.get_ref().name else {
-            return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
-        };
-        let text = name.get_ref();
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        let taken = text == "summary" || others.iter().any(|other| same_files(&other.name, text, "-panel-"));
-        if text.is_empty() || taken || !text.chars().all(plain) {
-            return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
-        }
-        Ok(text.clone())
     }
 }
 

@@ -9,7 +9,7 @@ use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Precision, Scene, Striker, Zones};
 use super::smith::{LARGEST_STRAIN, Tension};
 use crate::common::error::Error;
-use crate::common::toml_file::{Source, same_files};
+use crate::common::toml_file::{self, Source, same_files};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
@@ -34,8 +34,7 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         Scene::parse(&name, &text)
     }
 
@@ -62,7 +61,10 @@ impl Scene {
             source.check_used(base, &tables.iter().collect::<Vec<_>>())?;
         }
         for (case, table) in file.case.iter().zip(&tables) {
-            let name = source.case_name(case, &cases)?;
+            let taken = |text: &str| {
+                SUMMARIES.contains(&text) || cases.iter().any(|other| same_files(&other.name, text, "-yarn-"))
+            };
+            let name = source.name_of_case(case.get_ref().name.as_ref(), case.span(), taken)?;
             source.check_used(case.get_ref(), &[table])?;
             let reader = Reader { source: &source, units: &units, file: table, own: case.get_ref(), span: case.span() };
             cases.push(reader.case(name)?);
@@ -73,20 +75,6 @@ impl Scene {
 }
 
 impl Source<'_> {
-    fn case_name(&self, case: &Spanned<CaseFile>, others: &[Case]) -> Result<String, Error> {
-        let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
-        let Some(name) = &case.get_ref().name else {
-            return Err(self.error(case.span(), &format!("a case has no name; allowed: {wanted}")));
-        };
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
-        let taken = SUMMARIES.contains(&name.get_ref().as_str())
-            || others.iter().any(|other| same_files(&other.name, name.get_ref(), "-yarn-"));
-        if name.get_ref().is_empty() || taken || !name.get_ref().chars().all(plain) {
-            return Err(self.error(name.span(), &format!("case \"{}\"; allowed: {wanted}", name.get_ref())));
-        }
-        Ok(name.get_ref().clone())
-    }
-
     /// Refuses keys of a table that none of its cases reads.
     fn check_used(&self, table: &CaseFile, cases: &[&CaseFile]) -> Result<(), Error> {
         table.unused(cases).map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))

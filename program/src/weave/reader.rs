@@ -13,7 +13,7 @@ use super::pattern::Pattern;
 use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
 use super::section::{Section, Thread};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{self, Source};
 use crate::common::units::LENGTH;
 use toron::host::units::UnitSystem;
 
@@ -52,8 +52,7 @@ impl Scene {
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
     pub fn read(path: &Path) -> Result<Scene, Error> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+        let (name, text) = toml_file::read(path)?;
         Scene::parse(&name, &text)
     }
 
