@@ -100,6 +100,15 @@ pub(super) unsafe fn start_at_rest<T: Precision>(f_old: [*mut T; 9], n: usize) {
     }
 }
 
+/// These arrays from entry `first` on. Spelled out: a closure passed to `map` would be called for each of them.
+#[inline(always)]
+pub(super) fn from_entry<T, const N: usize>(mut arrays: [*mut T; N], first: usize) -> [*mut T; N] {
+    for array in &mut arrays {
+        *array = array.wrapping_add(first);
+    }
+    arrays
+}
+
 /// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error.
 #[derive(Clone, Copy)]
 pub(super) struct Message {

@@ -149,7 +149,8 @@ impl Arguments<'_> {
             return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
         }
         if self.is_linear() {
-            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+            let text = "there is no deformation gradient: the step is geometrically linear, give *STEP, NLGEOM";
+            return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
         Ok(properties)
     }

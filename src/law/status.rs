@@ -60,7 +60,7 @@ pub const TABLE: [(i32, &str, &str); 22] = [
     (
         NO_DEFORMATION_GRADIENT,
         "no_deformation_gradient",
-        "there is no deformation gradient: switch to large displacements (NLGEOM); LS-DYNA: IHYPER = 1 or -1, and NHV = 11 (linear elastic law: 19)",
+        "the host passes no deformation gradient, or it is not where it is read",
     ),
     (NOT_PREPARED, "not_prepared", "the law has not been prepared, or it is another law or precision"),
     (BAD_SIZE, "bad_size", "the size of a structure is not set, or wrong"),

@@ -231,7 +231,8 @@ fn double<T: Precision + Scalar>(host: Host, properties: &[f64; HYPERELASTIC_PRO
                 (umat.stress, umat.statev, status)
             }
             Host::Mgis { tangent } => {
-                mgis.gradients = [0, 4, 8, 3, 1, 6, 2, 7, 5].map(|c| columns[c]);
+                let [f11, f21, f31, f12, f22, f32, f13, f23, f33] = columns;
+                mgis.gradients = [f11, f22, f33, f12, f21, f13, f31, f23, f32];
                 mgis.state_old = state;
                 let result =
                     mgis.call(properties, if tangent { MgisTangent::CauchyByGradient } else { MgisTangent::None });

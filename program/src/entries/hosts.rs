@@ -287,36 +287,39 @@ impl MgisPoint {
 
     /// Calls the behaviour; returns what it returns: 1, or −1 if the point is not integrated.
     pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
-        self.k[..3].copy_from_slice(match tangent {
-            MgisTangent::None => &[0.0, 0.0, 0.0],
-            MgisTangent::CauchyByGradient => &[4.0, 0.0, 0.0],
-            MgisTangent::Material => &[4.0, 0.0, 1.0],
-        });
-        // Neither the old stress nor the external state variables are read, nor the first gradients for these tangents.
-        let (rest, nothing, mut rdt) = (MgisPoint::FRESH.gradients, null_mut::<f64>(), 1.0);
-        let state = StateView {
-            gradients: rest.as_ptr(),
-            thermodynamic_forces: nothing,
-            mass_density: nothing,
-            material_properties: properties.as_ptr(),
-            internal_state_variables: self.state_old.as_mut_ptr(),
-            stored_energy: nothing,
-            dissipated_energy: nothing,
-            external_state_variables: nothing,
+        /// Neither the old stress nor the external state variables are read, nor the first gradients for these tangents.
+        const AT_REST: &[f64; 9] = &MgisPoint::FRESH.gradients;
+        (self.k[0], self.k[1], self.k[2]) = match tangent {
+            MgisTangent::None => (0.0, 0.0, 0.0),
+            MgisTangent::CauchyByGradient => (4.0, 0.0, 0.0),
+            MgisTangent::Material => (4.0, 0.0, 1.0),
         };
+        let (nothing, mut rdt) = (null_mut::<f64>(), 1.0);
         let mut view = BehaviourDataView {
             error_message: null_mut(),
             dt: 0.0,
             k: self.k.as_mut_ptr(),
             rdt: &mut rdt,
             speed_of_sound: nothing,
-            s0: state,
+            s0: StateView {
+                gradients: AT_REST.as_ptr(),
+                thermodynamic_forces: nothing,
+                mass_density: nothing,
+                material_properties: properties.as_ptr(),
+                internal_state_variables: self.state_old.as_mut_ptr(),
+                stored_energy: nothing,
+                dissipated_energy: nothing,
+                external_state_variables: nothing,
+            },
             s1: StateView {
                 gradients: self.gradients.as_ptr(),
                 thermodynamic_forces: self.stress.as_mut_ptr(),
+                mass_density: nothing,
+                material_properties: properties.as_ptr(),
                 internal_state_variables: self.state.as_mut_ptr(),
                 stored_energy: &mut self.stored_energy,
-                ..state
+                dissipated_energy: nothing,
+                external_state_variables: nothing,
             },
         };
         // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.

@@ -274,7 +274,7 @@ fn wrong_decks_are_refused() {
         ("CONSTANTS=11", "CONSTANTS=10", "number of properties: 10 given, 11 needed"),
         ("2.2,", "1.0,", "property 3 (p, transverse compaction exponent) is 1.0; allowed: a number > 1, at most 40"),
         ("*DEPVAR\n11", "*DEPVAR\n10", "number of state variables (*DEPVAR): 10 given, 11 needed"),
-        (", NLGEOM", "", "switch to large displacements (NLGEOM)"),
+        (", NLGEOM", "", "the step is geometrically linear, give *STEP, NLGEOM"),
         ("*STEP,", "*INITIAL CONDITIONS, TYPE=STRESS\n1, 1, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0\n*STEP,", "initial stress is"),
     ];
     for (i, (from, to, message)) in wrong.into_iter().enumerate() {

@@ -108,7 +108,8 @@ where
 #[cold]
 fn check_umat(nstatv: i32, ndi: i32, nshr: i32, nlgeom: i32, state: usize) -> Result<(), Error> {
     if nlgeom == 0 {
-        return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        let text = "there is no deformation gradient: the step is geometrically linear, give *STEP, NLGEOM=YES";
+        return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
     }
     check_counts(ndi, nshr, UMAT_COUNTS, nstatv, state)
 }

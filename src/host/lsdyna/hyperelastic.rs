@@ -6,7 +6,7 @@ use core::ffi::c_int;
 use libc::{c_char, size_t};
 
 use super::{CHUNK, Elements, HYPERELASTIC, element_range, store_moduli};
-use crate::host::border::{Message, check_pointers, entry, properties};
+use crate::host::border::{Message, check_pointers, entry, from_entry, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
@@ -51,7 +51,7 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
             energies_old: row(ENERGIES),
             invariants_old: row(INVARIANTS),
             failure_old: row(FAILURE_INDEX),
-            stress: elements.stress.map(|component| component.wrapping_add(start)),
+            stress: from_entry(elements.stress, start),
             energies: row(ENERGIES),
             invariants: row(INVARIANTS),
             failure: row(FAILURE_INDEX),
@@ -84,7 +84,7 @@ unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Resul
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
         if !HYPERELASTIC.is_plausible(|j| *hsv.add(j)) {
             Hyperelastic::new(properties)?;
-            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+            return Err(HYPERELASTIC.no_gradient());
         }
         Ok((properties, &*hsv.add(HYPERELASTIC_STATE).cast(), &*hsv.cast()))
     }
@@ -189,7 +189,7 @@ unsafe fn vector<T: Precision>(
     unsafe {
         let law = law(cm, nhv)?;
         if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *elements.variable(j, elements.first)) {
-            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+            return Err(HYPERELASTIC.no_gradient());
         }
         evaluate(&law, &elements)
     }
@@ -336,7 +336,7 @@ unsafe fn vector_tangent<T: Precision>(
     unsafe {
         let law = law(cm, nhv)?;
         if pointers.n > 0 && !HYPERELASTIC.is_plausible(|j| *row(j)) {
-            return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+            return Err(HYPERELASTIC.no_gradient());
         }
         law.raw_block(&pointers)
     }

@@ -5,9 +5,9 @@ use core::ffi::c_int;
 use libc::{c_char, size_t};
 
 use super::{CHUNK, Elements, LINEAR_ELASTIC, element_range, store_moduli};
-use crate::host::border::{Message, check_pointers, entry, properties, start_at_rest};
+use crate::host::border::{Message, check_pointers, entry, from_entry, properties, start_at_rest};
 use crate::law::block::linear::LinearPointers;
-use crate::law::block::{Precision, components};
+use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::parameters::{self, LINEAR_ELASTIC_PROPERTIES};
@@ -33,7 +33,7 @@ unsafe fn law<T: Precision>(
     // SAFETY: the caller's promise.
     let law = LinearElastic::new(unsafe { properties(cm, LINEAR_ELASTIC_PROPERTIES, &parameters::LINEAR_ELASTIC) }?)?;
     if count > 0 && !LINEAR_ELASTIC.is_plausible(first) {
-        return Err(Error::Plain(status::NO_DEFORMATION_GRADIENT));
+        return Err(LINEAR_ELASTIC.no_gradient());
     }
     Ok(law)
 }
@@ -51,14 +51,14 @@ unsafe fn evaluate<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>)
         let (start, n) = (first + done, CHUNK.min(count - done));
         let row = |variable: usize| elements.variable(variable, start);
         let mut codes = [status::OK; CHUNK];
-        let f_old = components_of(row(F_OLD), stride);
+        let f_old = components_mut(row(F_OLD), stride);
         unsafe { start_at_rest(f_old, n) };
         let pointers = LinearPointers {
-            f_old: f_old.map(<*mut T>::cast_const),
+            f_old: components(row(F_OLD).cast_const(), stride),
             f_new: components(row(F), stride),
             state_old: row(0),
             state_new: row(0),
-            stress: elements.stress.map(|component| component.wrapping_add(start)),
+            stress: from_entry(elements.stress, start),
             status: codes.as_mut_ptr(),
             ..LinearPointers::without_arrays(n, stride)
         };
@@ -75,11 +75,6 @@ unsafe fn evaluate<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>)
         done += n;
     }
     Ok(worst)
-}
-
-/// The rows of nine variables.
-fn components_of<T>(first: *mut T, stride: usize) -> [*mut T; 9] {
-    [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|c: usize| first.wrapping_add(c.wrapping_mul(stride)))
 }
 
 /// The tangent of a further, infinitesimal step from the state that the material routine has written: its symmetric part.

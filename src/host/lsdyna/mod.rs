@@ -48,16 +48,24 @@ struct History {
     alive: usize,
     /// NHV: F is behind.
     variables: usize,
+    /// What to say if there is no F there.
+    no_gradient: &'static str,
 }
 
-const HYPERELASTIC: History =
-    History { law: "number of history variables, NHV", failed: FAILED, alive: ALIVE, variables: HYPERELASTIC_STATE };
+const HYPERELASTIC: History = History {
+    law: "number of history variables, NHV",
+    failed: FAILED,
+    alive: ALIVE,
+    variables: HYPERELASTIC_STATE,
+    no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11",
+};
 
 const LINEAR_ELASTIC: History = History {
     law: "number of history variables, NHV, of the linear elastic law",
     failed: LINEAR_FAILED,
     alive: LINEAR_ALIVE,
     variables: LINEAR_ELASTIC_STATE + 9,
+    no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 19 (linear elastic law)",
 };
 
 /// The elements that a vectorised routine evaluates at once.
@@ -166,6 +174,11 @@ impl History {
         }
         let (found, wanted) = (i64::from(nhv), self.variables as i64);
         Err(Error::Count { code: status::STATE_COUNT, what: self.law, found, wanted })
+    }
+
+    /// The error of a history without F.
+    fn no_gradient(&self) -> Error {
+        Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: self.no_gradient }
     }
 
     /// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j

@@ -30,7 +30,16 @@ pub(super) fn material([r1, r2, r3, r4, r5, r6]: [[f64; 6]; 6]) -> [[f64; 6]; 6]
 #[inline(always)]
 pub(super) fn nominal(entry: impl Fn(usize, usize) -> f64) -> [[f64; 9]; 9] {
     const ORDER: [usize; 9] = [0, 4, 8, 3, 1, 6, 2, 7, 5];
-    ORDER.map(|row| ORDER.map(|column| entry(row, column)))
+    let (mut rows, mut r) = ([[0.0; 9]; 9], 0);
+    while r < 9 {
+        let mut c = 0;
+        while c < 9 {
+            rows[r][c] = entry(ORDER[r], ORDER[c]);
+            c += 1;
+        }
+        r += 1;
+    }
+    rows
 }
 
 /// dσ/dF, from the columns of the Jaumann modulus over J, 11 22 33 12 23 31, and the Cauchy stress: with L = dF F⁻¹,

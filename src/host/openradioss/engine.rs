@@ -1,9 +1,9 @@
 //! The engine: a group of elements in one cycle, evaluated in the solver's own arrays.
 
-use core::slice;
+use core::{ptr, slice};
 
 use crate::law::block::linear::LinearPointers;
-use crate::law::block::{Pointers, Precision};
+use crate::law::block::{Pointers, Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
@@ -12,7 +12,7 @@ use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
-use crate::host::border::{check_pointers, start_at_rest};
+use crate::host::border::{check_pointers, from_entry, start_at_rest};
 use crate::host::environment::in_default_environment;
 
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
@@ -131,23 +131,30 @@ impl<T: Precision> Group<T> {
                 return Err(Error::Range { code: status::BAD_COUNT, name, value, least: 0, greatest });
             }
         }
-        // Each pointer is looked at only if one of them is null.
-        let null = |missing: bool, array: *const T| missing | array.is_null();
-        let [uvar, off, sound] = [self.uvar, self.off, self.sound_speed].map(<*mut T>::cast_const);
-        let own = [self.uparam, self.density, uvar, off, sound];
-        let stress = self.stress.map(<*mut T>::cast_const);
-        if own.into_iter().chain(self.deformation_gradient).chain(stress).fold(false, null) {
-            check_pointers(&[
-                (self.uparam, "UPARAM"),
-                (self.density, "RHO0"),
-                (uvar, "UVAR"),
-                (off, "OFF"),
-                (sound, "SOUNDSP"),
-            ])?;
-            check_pointers(&self.deformation_gradient.map(|f| (f, "FPSXX, FPSYY, ... of the deformation gradient")))?;
-            check_pointers(&stress.map(|s| (s, "SIGNXX, SIGNYY, ... of the stress")))?;
+        let mut missing = self.uparam.is_null() | self.density.is_null() | self.sound_speed.is_null();
+        missing |= self.uvar.is_null() | self.off.is_null();
+        for component in &self.deformation_gradient {
+            missing |= component.is_null();
         }
-        Ok(())
+        for component in &self.stress {
+            missing |= component.is_null();
+        }
+        if missing { self.missing() } else { Ok(()) }
+    }
+
+    /// # Errors
+    /// The first of the pointers that is null and must not be.
+    #[cold]
+    fn missing(&self) -> Result<(), Error> {
+        check_pointers(&[
+            (self.uparam, "UPARAM"),
+            (self.density, "RHO0"),
+            (self.uvar.cast_const(), "UVAR"),
+            (self.off.cast_const(), "OFF"),
+            (self.sound_speed.cast_const(), "SOUNDSP"),
+        ])?;
+        check_pointers(&self.deformation_gradient.map(|f| (f, "FPSXX, FPSYY, ... of the deformation gradient")))?;
+        check_pointers(&self.stress.map(|s| (s.cast_const(), "SIGNXX, SIGNYY, ... of the stress")))
     }
 
     /// The error of element `i`: its number, or its place in the group from 1 where that is not known.
@@ -229,7 +236,8 @@ impl<T: Precision> Group<T> {
 
     /// There is no viscosity.
     unsafe fn clear_viscosity(&self) {
-        for array in self.viscous.into_iter().chain([self.viscosity]) {
+        let [xx, yy, zz, xy, yz, zx] = self.viscous;
+        for array in &[xx, yy, zz, xy, yz, zx, self.viscosity] {
             if !array.is_null() {
                 // SAFETY: the caller's promise. A number whose bytes are all 0 is 0.
                 unsafe { array.write_bytes(0, self.count()) };
@@ -240,15 +248,23 @@ impl<T: Precision> Group<T> {
     /// The fibre's rows, from element `first` on; null for the direction of the card.
     fn fibre(&self, card: &Card<'_, T>, first: usize) -> [*const T; 3] {
         match card.fibre_from {
-            FibreFrom::Card => [core::ptr::null(); 3],
-            _ => [0, 1, 2].map(|c| self.row(card.layout.fibre + c).wrapping_add(first).cast_const()),
+            FibreFrom::Card => [ptr::null(); 3],
+            _ => {
+                let row = |c| self.row(card.layout.fibre + c).wrapping_add(first).cast_const();
+                [row(0), row(1), row(2)]
+            }
         }
     }
 
     /// The columns of F, from element `first` on.
+    #[inline(always)]
     fn columns(&self, first: usize) -> [*const T; 9] {
         let [xx, yy, zz, xy, yz, zx, yx, zy, xz] = self.deformation_gradient;
-        [xx, yx, zx, xy, yy, zy, xz, yz, zz].map(|component| component.wrapping_add(first))
+        let mut columns = [xx, yx, zx, xy, yy, zy, xz, yz, zz];
+        for component in &mut columns {
+            *component = component.wrapping_add(first);
+        }
+        columns
     }
 
     unsafe fn evaluate_hyperelastic(&self, card: &Card<'_, T>) -> Result<(), Error> {
@@ -263,7 +279,7 @@ impl<T: Precision> Group<T> {
                 failure_old: row(FAILURE_INDEX),
                 // SAFETY: the caller's promise: not null.
                 density: unsafe { *self.density },
-                stress: self.stress.map(|component| component.wrapping_add(first)),
+                stress: from_entry(self.stress, first),
                 energies: row(ENERGIES),
                 invariants: row(INVARIANTS),
                 failure: row(FAILURE_INDEX),
@@ -283,19 +299,19 @@ impl<T: Precision> Group<T> {
     unsafe fn evaluate_linear(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = LinearElastic::new(card.properties)?;
         let n = self.count();
-        let f_old = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|c| self.row(card.layout.f_old + c));
+        let f_old = components_mut(self.row(card.layout.f_old), n);
         // SAFETY: the caller's promise, here and below.
         unsafe { start_at_rest(f_old, n) };
         let part = |first: usize, n: usize, codes: *mut i32| {
             let row = |variable| self.row(variable).wrapping_add(first);
             let block = LinearPointers {
-                f_old: f_old.map(|row| row.wrapping_add(first).cast_const()),
+                f_old: components(row(card.layout.f_old).cast_const(), self.count()),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 state_old: row(0),
                 state_new: row(0),
                 density: unsafe { *self.density },
-                stress: self.stress.map(|component| component.wrapping_add(first)),
+                stress: from_entry(self.stress, first),
                 wave_speed: self.sound_speed.wrapping_add(first),
                 status: codes,
                 active: self.off.wrapping_add(first),

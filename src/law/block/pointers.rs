@@ -94,14 +94,11 @@ impl<T> Pointers<T> {
         let input = |p: *const T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
         let output = |p: *mut T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
         let Strides { deformation_gradient, fibre, state, stress, modes, tangent } = self.strides;
-        Pointers {
+        let mut rest = Pointers {
             n: self.n - first,
-            deformation_gradient: self.deformation_gradient.map(|p| input(p, deformation_gradient)),
-            fibre: self.fibre.map(|p| input(p, fibre)),
             energies_old: input(self.energies_old, state),
             invariants_old: input(self.invariants_old, state),
             failure_old: input(self.failure_old, state),
-            stress: self.stress.map(|p| output(p, stress)),
             energies: output(self.energies, state),
             invariants: output(self.invariants, state),
             failure: output(self.failure, state),
@@ -111,7 +108,17 @@ impl<T> Pointers<T> {
             status: if self.status.is_null() { self.status } else { self.status.wrapping_add(first) },
             active: output(self.active, 1),
             ..self
+        };
+        for component in &mut rest.deformation_gradient {
+            *component = input(*component, deformation_gradient);
         }
+        for component in &mut rest.fibre {
+            *component = input(*component, fibre);
+        }
+        for component in &mut rest.stress {
+            *component = output(*component, stress);
+        }
+        rest
     }
 }
 
