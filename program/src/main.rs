@@ -55,6 +55,9 @@ enum Command {
         /// Where the histories and pictures go.
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
+        /// Go on from the checkpoints in that directory.
+        #[arg(long)]
+        restart: bool,
     },
     /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
     Fit {
@@ -109,7 +112,7 @@ fn main() -> ExitCode {
         Command::Deck(arguments) => deck::command::run(&arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
-        Command::Fabric { scene, output } => fabric::command::run(&scene, &output),
+        Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),

@@ -66,12 +66,21 @@ impl Frames {
         Frames { directory: directory.into(), name: name.to_string(), files: Vec::new() }
     }
 
+    /// Goes on behind the files of these times, which another run has written.
+    pub fn resume(&mut self, times: &[f64]) {
+        self.files = times.iter().enumerate().map(|(number, &time)| (time, self.name_of(number))).collect();
+    }
+
+    fn name_of(&self, number: usize) -> String {
+        format!("{}-{number:04}.vtu", self.name)
+    }
+
     /// Writes the text of the next VTU file, and the PVD file anew.
     ///
     /// # Errors
     /// A file cannot be written.
     pub fn write(&mut self, time: f64, text: &str) -> Result<(), Error> {
-        let name = format!("{}-{:04}.vtu", self.name, self.files.len());
+        let name = self.name_of(self.files.len());
         self.write_file(&name, text)?;
         self.files.push((time, name));
         self.write_file(&format!("{}.pvd", self.name), &self.collection())

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::archive::Archive;
 use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number, largest};
@@ -163,6 +164,14 @@ impl<T: Number> ElementBlock<T> {
             f_old: shapes.at_rest(),
             shapes,
         }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let ElementBlock { state, intact, f_old, viscosity, .. } = self;
+        [state, intact, f_old].into_iter().try_for_each(|values| archive.keep_all(values))?;
+        viscosity.archive(archive)
     }
 
     /// From the nodes' displacements to their forces; updates the history.

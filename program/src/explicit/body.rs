@@ -1,5 +1,6 @@
 //! One body: lumped masses, supports, the motion of its nodes, the forces of its elements.
 
+use super::archive::Archive;
 use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::Number;
 use super::medium::Medium;
@@ -90,6 +91,19 @@ impl<T: Number> Body<T> {
             }
         }
         self.mobility = self.mass.iter().map(|mass| [T::from_f64(1.0 / mass); 3]).collect();
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep_all(&mut self.displacement)?;
+        archive.keep_all(&mut self.velocity)?;
+        archive.keep(&mut self.speed)?;
+        archive.keep_all(&mut self.intact_elements)?;
+        archive.keep(&mut self.deleted)?;
+        archive.keep(&mut self.collapsed)?;
+        archive.keep(&mut self.released)?;
+        self.blocks.iter_mut().try_for_each(|block| block.archive(archive))
     }
 
     /// Fixes a node, or prescribes its velocity. Directions that another support holds stay held.

@@ -1,7 +1,9 @@
 //! A rigid cylinder or sphere against the nodes of a body's surface: penalty and Coulomb friction.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
+use super::archive::Archive;
 use super::lanes::Number;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +36,7 @@ pub struct Rigid {
 }
 
 /// A node that may be touched.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Node {
     number: u32,
     /// Force by depth: the stiffness times the surface that belongs to it.
@@ -78,6 +80,14 @@ impl Contact {
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
         Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.nodes)?;
+        let Contact { stored, dissipated, released, touching, .. } = self;
+        [stored, dissipated, released, touching].into_iter().try_for_each(|value| archive.keep(value))
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.

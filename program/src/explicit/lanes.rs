@@ -4,6 +4,9 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
 use crate::entries::precision::BlockPrecision;
 
 /// Elements side by side in an inner loop.
@@ -20,6 +23,8 @@ pub trait Number:
     + Neg<Output = Self>
     + AddAssign
     + SubAssign
+    + Serialize
+    + DeserializeOwned
 {
 }
 

@@ -5,6 +5,7 @@
 //! deletion by the latch. The energies of its balance are those that the laws report, so that the balance tells whether
 //! stress and energy belong together and whether the step is short enough.
 
+pub mod archive;
 pub mod block;
 pub mod body;
 pub mod contact;

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::archive::Archive;
 use super::body::Body;
 use super::contact::Contact;
 use super::lanes::Number;
@@ -25,6 +26,14 @@ pub struct Projectile {
 impl Projectile {
     pub fn new(mass: f64, position: f64, velocity: f64, held: bool, contacts: Vec<Contact>) -> Self {
         Projectile { mass, position, velocity, held, contacts, force: 0.0, moved: 0.0 }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let Projectile { position, velocity, force, moved, contacts, .. } = self;
+        [position, velocity, force, moved].into_iter().try_for_each(|value| archive.keep(value))?;
+        contacts.iter_mut().try_for_each(|contact| contact.archive(archive))
     }
 
     /// Adds the forces of its contact to those of the bodies.

@@ -1,10 +1,12 @@
 //! The bodies at an instant, to be drawn.
 
+use serde::{Deserialize, Serialize};
+
 use super::lanes::Number;
 use super::solver::Solver;
 
 /// Nodes and elements body by body.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
     pub time: f64,
     pub positions: Vec<[f64; 3]>,

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use super::archive::Archive;
 use super::block::{Scratch, StepOptions};
 use super::body::Body;
 use super::energies::{Cost, Energies};
@@ -93,6 +94,20 @@ impl<T: Number> Solver<T> {
             cost: Cost::default(),
             scratch: Scratch::default(),
         }
+    }
+
+    /// Its state between two steps.
+    ///
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let Solver { time, step, first_step, viscosity, external, cost, .. } = self;
+        [time, step, viscosity, external].into_iter().try_for_each(|value| archive.keep(value))?;
+        archive.keep(first_step)?;
+        archive.keep(cost)?;
+        self.bodies.iter_mut().try_for_each(|body| body.archive(archive))?;
+        self.projectile.iter_mut().try_for_each(|projectile| projectile.archive(archive))?;
+        self.mutual.iter_mut().try_for_each(|contact| contact.archive(archive))
     }
 
     /// The forces of this instant and the velocities in the middle of the coming step, which ends within `left`. With

@@ -13,6 +13,7 @@
 //! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
+use super::archive::Archive;
 use super::element::{Measures, Shapes};
 use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
@@ -60,6 +61,13 @@ impl<T: Number> Viscosity<T> {
         metric[2 * shapes.stride..].fill(T::default());
         let section = vec![T::default(); 3 * shapes.stride];
         Viscosity { along: array(0.0), section, stretch_square: array(1.0), metric, length, breadth }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let Viscosity { along, section, stretch_square, metric, .. } = self;
+        [along, section, stretch_square, metric].into_iter().try_for_each(|values| archive.keep_all(values))
     }
 
     /// A deleted element resists nothing.

@@ -1,6 +1,7 @@
 //! `toron fabric`: from the file of a scene to its histories and table.
 
-use std::path::Path;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
@@ -18,11 +19,12 @@ use crate::weave::model::Model;
 
 const TICKS: u64 = 1000;
 
-/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`.
+/// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
+/// go on from their checkpoints there.
 ///
 /// # Errors
 /// The input, a file that cannot be written, or a case that has no result.
-pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
+pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     let scene = Scene::read(path)?;
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
@@ -32,8 +34,15 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
-        let mut observer = CaseObserver { name: &case.name, bar: &bar, frames: Frames::new(output, &case.name) };
-        let result = run::run(&scene, case, &panel, &mut observer);
+        let checkpoint = output.join(format!("{}.checkpoint", case.name));
+        let bytes = if restart { read(&checkpoint)? } else { None };
+        if !restart && checkpoint.exists() {
+            // That of another run.
+            std::fs::remove_file(&checkpoint).map_err(|error| file_error(&checkpoint, &error))?;
+        }
+        let frames = Frames::new(output, &case.name);
+        let mut observer = CaseObserver { name: &case.name, bar: &bar, frames, checkpoint };
+        let result = run::run(&scene, case, &panel, bytes.as_deref(), &mut observer);
         bar.finish_and_clear();
         let mut outcome = result?;
         write_case(&scene, case, &panel, &outcome, output)?;
@@ -44,6 +53,15 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     summary::write(&output.join("summary.csv"), &results)?;
     print(&report::report(&scene, &results, output));
     if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(failures.join("\n"))) }
+}
+
+/// A checkpoint, if there is one.
+fn read(file: &Path) -> Result<Option<Vec<u8>>, Error> {
+    match std::fs::read(file) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(file_error(file, &error)),
+    }
 }
 
 fn write_case(scene: &Scene, case: &Case, panel: &Model, outcome: &Outcome, output: &Path) -> Result<(), Error> {
@@ -62,11 +80,12 @@ fn file_error(file: &Path, error: &dyn std::fmt::Display) -> Error {
     Error::Input(format!("{}: {error}", file.display()))
 }
 
-/// Moves the bar, and writes ParaView's files as they come.
+/// Moves the bar, and writes ParaView's files and the checkpoints as they come.
 struct CaseObserver<'a> {
     name: &'a str,
     bar: &'a ProgressBar,
     frames: Frames,
+    checkpoint: PathBuf,
 }
 
 impl Observer for CaseObserver<'_> {
@@ -78,5 +97,16 @@ impl Observer for CaseObserver<'_> {
 
     fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
         self.frames.write(time, text)
+    }
+
+    fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        // In one go: who stops the program while it writes has the last checkpoint still.
+        let new = self.checkpoint.with_extension("checkpoint-new");
+        let written = std::fs::write(&new, bytes).and_then(|()| std::fs::rename(&new, &self.checkpoint));
+        written.map_err(|error| file_error(&self.checkpoint, &error))
+    }
+
+    fn resumed(&mut self, frames: &[f64]) {
+        self.frames.resume(frames);
     }
 }

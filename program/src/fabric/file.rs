@@ -39,10 +39,22 @@ pub struct CaseFile {
     pub hourglass: Option<Spanned<f64>>,
     pub viscosity: Option<Spanned<Numbers<3>>>,
     pub end: Option<Spanned<f64>>,
+    pub until: Option<Until>,
     pub sample: Option<Spanned<f64>>,
     pub pictures: Option<Spanned<Vec<f64>>>,
     pub frames: Option<Spanned<i64>>,
+    pub checkpoints: Option<Spanned<i64>>,
     pub precision: Option<Precision>,
+}
+
+/// What ends a run before its time is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Until {
+    /// The sphere has stopped, or gone through.
+    Stopped,
+    /// It has gone through; when it turns back, the run goes on.
+    End,
 }
 
 impl CaseFile {
@@ -77,9 +89,11 @@ impl CaseFile {
             hourglass: own.hourglass.or(base.hourglass),
             viscosity: own.viscosity.or(base.viscosity),
             end: own.end.or(base.end),
+            until: own.until.or(base.until),
             sample: own.sample.or(base.sample),
             pictures: own.pictures.or(base.pictures),
             frames: own.frames.or(base.frames),
+            checkpoints: own.checkpoints.or(base.checkpoints),
             precision: own.precision.or(base.precision),
         }
     }

@@ -1,12 +1,14 @@
 //! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections tilt.
 
+use serde::{Deserialize, Serialize};
+
 use crate::explicit::energies::Energies;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::solver::Solver;
 use crate::weave::model::{Model, Yarn};
 
 /// The state at an instant. Energies are those of the whole panel.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Sample {
     pub time: f64,
     /// Of the sphere, in the direction of the blow; how far it has come; the force that holds it up.

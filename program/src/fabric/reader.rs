@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, SceneFile};
+use super::file::{CaseFile, SceneFile, Until};
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
@@ -20,7 +20,7 @@ use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
 /// Files for ParaView are numbered by four digits.
-const MOST_FRAMES: i64 = 9999;
+const MOST_FILES: i64 = 9999;
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
 /// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
@@ -124,20 +124,23 @@ impl Reader<'_> {
             },
             control: Control { by_direction: true, ..self.source.control(&file.hourglass, &file.viscosity)? },
             end,
+            rebounds: file.until == Some(Until::End),
             sample,
             pictures: self.source.pictures(&file.pictures, &name, end)?,
-            frames: self.frames()?,
+            frames: self.number("frames", &file.frames)?,
+            checkpoints: self.number("checkpoints", &file.checkpoints)?,
             single_precision: file.precision == Some(Precision::F32),
             name,
         })
     }
 
-    fn frames(&self) -> Result<usize, Error> {
-        let Some(frames) = &self.file.frames else { return Ok(0) };
-        let number = *frames.get_ref();
-        if !(0..=MOST_FRAMES).contains(&number) {
-            let message = format!("frames is {number}; allowed: a whole number from 0 to {MOST_FRAMES}");
-            return Err(self.source.error(frames.span(), &message));
+    /// How many files a case writes on its way.
+    fn number(&self, name: &str, given: &Option<Spanned<i64>>) -> Result<usize, Error> {
+        let Some(given) = given else { return Ok(0) };
+        let number = *given.get_ref();
+        if !(0..=MOST_FILES).contains(&number) {
+            let message = format!("{name} is {number}; allowed: a whole number from 0 to {MOST_FILES}");
+            return Err(self.source.error(given.span(), &message));
         }
         Ok(number as usize)
     }

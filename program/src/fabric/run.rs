@@ -7,6 +7,7 @@ use super::model::{share, solver};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
 use crate::common::units::number;
+use crate::explicit::archive::Archive;
 use crate::explicit::energies::Cost;
 use crate::explicit::lanes::Number;
 use crate::explicit::snapshot::Snapshot;
@@ -19,11 +20,14 @@ const LARGEST_IMBALANCE: f64 = 0.05;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
 
+/// Of the checkpoints: raised when what they contain changes.
+const CHECKPOINT_FORMAT: u32 = 1;
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     Time,
-    /// The sphere turns back.
+    /// The sphere has turned back.
     Stopped,
     /// It has gone through, and nothing has touched it for some time.
     Left,
@@ -73,19 +77,36 @@ pub trait Observer {
     fn frame(&mut self, _time: f64, _text: &str) -> Result<(), Error> {
         Ok(())
     }
+
+    /// A checkpoint from which the run can go on.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn checkpoint(&mut self, _bytes: &[u8]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// The run goes on behind frames of these times.
+    fn resumed(&mut self, _frames: &[f64]) {}
 }
 
 impl Observer for () {}
 
-/// Runs a case.
+/// Runs a case, from a checkpoint on if there is one.
 ///
 /// # Errors
-/// A material that the host cannot use.
-pub fn run(scene: &Scene, case: &Case, panel: &Model, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
+/// A material that the host cannot use; a checkpoint that is not this case's.
+pub fn run(
+    scene: &Scene,
+    case: &Case,
+    panel: &Model,
+    checkpoint: Option<&[u8]>,
+    observer: &mut (dyn Observer + Send),
+) -> Result<Outcome, Error> {
     if case.single_precision {
-        Ok(Run::new(scene, case, panel, solver::<f32>(scene, case, panel)?).run(observer))
+        Run::new(scene, case, panel, solver::<f32>(scene, case, panel)?).resume(checkpoint, observer)
     } else {
-        Ok(Run::new(scene, case, panel, solver::<f64>(scene, case, panel)?).run(observer))
+        Run::new(scene, case, panel, solver::<f64>(scene, case, panel)?).resume(checkpoint, observer)
     }
 }
 
@@ -94,63 +115,140 @@ struct Run<'a, T> {
     case: &'a Case,
     panel: &'a Model,
     solver: Solver<T>,
+    record: Record,
+}
+
+/// What a run has recorded, and what it is going to.
+#[derive(Debug, Default)]
+struct Record {
+    samples: Vec<Sample>,
     snapshots: Vec<Snapshot>,
+    /// When the frames were written.
+    frames: Vec<f64>,
     failed: Option<f64>,
+    /// The sphere's position at first.
+    start: f64,
+    next_sample: f64,
+    next_frame: f64,
+    next_checkpoint: f64,
+    last_contact: f64,
+    /// The number of pictures that have been taken.
+    pictures: usize,
+}
+
+impl Record {
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.samples)?;
+        archive.keep(&mut self.snapshots)?;
+        archive.keep(&mut self.frames)?;
+        archive.keep(&mut self.failed)?;
+        archive.keep(&mut self.pictures)?;
+        let Record { start, next_sample, next_frame, next_checkpoint, last_contact, .. } = self;
+        let times = [start, next_sample, next_frame, next_checkpoint, last_contact];
+        times.into_iter().try_for_each(|time| archive.keep(time))
+    }
 }
 
 impl<'a, T: Number> Run<'a, T> {
-    fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, solver: Solver<T>) -> Self {
-        Run { scene, case, panel, solver, snapshots: Vec::new(), failed: None }
+    fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, mut solver: Solver<T>) -> Self {
+        let start = solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
+        solver.all_outputs = false;
+        Run { scene, case, panel, solver, record: Record { start, ..Record::default() } }
     }
 
-    fn run(mut self, observer: &mut (dyn Observer + Send)) -> Outcome {
+    /// What a checkpoint begins with: one of another scene or version is not to be taken.
+    fn identity(&self) -> String {
+        let version = env!("CARGO_PKG_VERSION");
+        format!("toron {version} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", self.scene.woven, self.case)
+    }
+
+    fn checkpoint(&mut self) -> Result<Vec<u8>, postcard::Error> {
+        let mut archive = Archive::Writes(Vec::new());
+        archive.keep(&mut self.identity())?;
+        self.record.archive(&mut archive)?;
+        self.solver.archive(&mut archive)?;
+        match archive {
+            Archive::Writes(bytes) => Ok(bytes),
+            Archive::Reads(_) => Ok(Vec::new()), // not reached
+        }
+    }
+
+    fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
+        let name = &self.case.name;
+        let refused = |reason: &str| {
+            let allowed = "allowed: that of the same scene and version, or none";
+            Error::Input(format!("the checkpoint of case {name} is {reason}; {allowed}"))
+        };
+        let mut archive = Archive::Reads(checkpoint);
+        let mut identity = String::new();
+        archive.keep(&mut identity).map_err(|_| refused("damaged"))?;
+        if identity != self.identity() {
+            return Err(refused("of another scene or version"));
+        }
+        let read = self.record.archive(&mut archive).and_then(|()| self.solver.archive(&mut archive));
+        if read.is_err() || !matches!(archive, Archive::Reads([])) {
+            return Err(refused("damaged"));
+        }
+        Ok(())
+    }
+
+    fn resume(mut self, checkpoint: Option<&[u8]>, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
+        if let Some(checkpoint) = checkpoint {
+            self.read(checkpoint)?;
+            observer.resumed(&self.record.frames);
+        }
         let begun = Instant::now();
-        let mut samples = Vec::new();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
-        let end = rayon::scope(|_| self.steps(&mut samples, observer));
-        Outcome {
-            samples,
-            snapshots: self.snapshots,
-            failed: self.failed,
+        let end = rayon::scope(|_| self.steps(observer));
+        Ok(Outcome {
+            samples: self.record.samples,
+            snapshots: self.record.snapshots,
+            failed: self.record.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
             failure: end.err(),
             elements: self.panel.elements.len(),
             cost: self.solver.cost,
             searches: self.solver.mutual.as_ref().map_or(0, |contact| contact.searches),
             wall: begun.elapsed(),
-        }
+        })
     }
 
-    fn steps(&mut self, samples: &mut Vec<Sample>, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
-        let start = self.solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
+    fn steps(&mut self, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let share = share(self.scene);
         let threshold = self.scene.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
-        self.solver.all_outputs = false;
-        let (mut next, mut next_frame, mut last_contact) = (0.0, 0.0, 0.0);
-        let frame = self.case.end / self.case.frames.max(1) as f64;
+        let every = |count: usize| self.case.end / count.max(1) as f64;
+        let (frame, between_checkpoints) = (every(self.case.frames), every(self.case.checkpoints));
         let mut pictures = self.case.pictures.clone();
-        pictures.sort_by(|a, b| b.total_cmp(a));
+        pictures.sort_by(f64::total_cmp);
+        if self.solver.time == 0.0 {
+            self.record.next_checkpoint = between_checkpoints;
+        }
         loop {
             let time = self.solver.time;
             let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
-            let end = self.end(reached(self.case.end), time - last_contact);
-            let sampled = reached(next) || end.is_some();
-            let drawn = pictures.last().is_some_and(|&picture| reached(picture));
-            let framed = self.case.frames > 0 && reached(next_frame);
+            let end = self.end(reached(self.case.end), time - self.record.last_contact);
+            if self.case.checkpoints > 0 && (reached(self.record.next_checkpoint) || end.is_some()) {
+                self.record.next_checkpoint += between_checkpoints;
+                let bytes = self.checkpoint().map_err(|error| self.error(&error.to_string()))?;
+                observer.checkpoint(&bytes)?;
+            }
+            let sampled = reached(self.record.next_sample) || end.is_some();
+            let drawn = pictures.get(self.record.pictures).is_some_and(|&picture| reached(picture));
+            let framed = self.case.frames > 0 && reached(self.record.next_frame);
             let left = if reached(self.case.end) { self.case.end } else { self.case.end - time };
             self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
-                last_contact = time;
+                self.record.last_contact = time;
             }
             let failed = || self.solver.bodies.iter().any(|yarn| yarn.deleted.len() > yarn.collapsed);
-            if self.failed.is_none() && failed() {
-                self.failed = Some(time);
+            if self.record.failed.is_none() && failed() {
+                self.record.failed = Some(time);
             }
             if sampled {
-                let sample = measure(self.panel, &self.solver, share, start, threshold);
-                samples.push(sample);
-                next += self.case.sample;
-                let imbalance = imbalance(samples);
+                let sample = measure(self.panel, &self.solver, share, self.record.start, threshold);
+                self.record.samples.push(sample);
+                self.record.next_sample += self.case.sample;
+                let imbalance = imbalance(&self.record.samples);
                 observer.progress(time / self.case.end, &sample, imbalance);
                 if imbalance.is_nan() || imbalance > LARGEST_IMBALANCE {
                     let moved = number(100.0 * imbalance);
@@ -158,11 +256,12 @@ impl<'a, T: Number> Run<'a, T> {
                 }
             }
             if drawn {
-                pictures.pop();
-                self.snapshots.push(Snapshot::of(&self.solver, self.case.sphere.radius));
+                self.record.pictures += 1;
+                self.record.snapshots.push(Snapshot::of(&self.solver, self.case.sphere.radius));
             }
             if framed {
-                next_frame += frame;
+                self.record.next_frame += frame;
+                self.record.frames.push(time);
                 observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
             }
             if let Some(end) = end {
@@ -176,7 +275,7 @@ impl<'a, T: Number> Run<'a, T> {
     fn end(&self, at_end: bool, free: f64) -> Option<End> {
         let sphere = self.solver.projectile.as_ref()?;
         if sphere.velocity >= 0.0 {
-            return Some(End::Stopped);
+            return (at_end || !self.case.rebounds).then_some(End::Stopped);
         }
         // In which it goes on by its own radius.
         let gone = free * -sphere.velocity > self.case.sphere.radius;

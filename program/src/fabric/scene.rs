@@ -29,12 +29,16 @@ pub struct Case {
     pub mutual: Parameters,
     pub control: Control,
     pub end: f64,
+    /// Whether the run goes on when the sphere turns back.
+    pub rebounds: bool,
     /// Time between two samples of the history.
     pub sample: f64,
     /// When the panel is drawn.
     pub pictures: Vec<f64>,
     /// How many files ParaView gets after the first.
     pub frames: usize,
+    /// How many times the run writes what it takes to go on from there.
+    pub checkpoints: usize,
     pub single_precision: bool,
 }
 

@@ -20,7 +20,7 @@ pub struct Figures {
     pub last: Sample,
     /// The largest deflection, and when it was there.
     pub deflection: (f64, f64),
-    /// From when on the front of the transverse wave is at the rim. At first, the slightest ripple there is before the front.
+    /// When the front of the transverse wave has reached the rim.
     pub front_at_rim: Option<f64>,
     /// The largest hourglass energy over the largest internal energy.
     pub hourglass: f64,
@@ -36,13 +36,12 @@ impl Figures {
         let deflection = most(|sample| sample.deflection);
         let deepest = samples.iter().find(|sample| sample.deflection == deflection);
         let rim = AT_RIM * rim(panel);
-        let before = samples.iter().rposition(|sample| sample.front < rim).map_or(0, |last| last + 1);
         let internal = most(|sample| sample.energies.internal);
         let cycles = outcome.cost.steps as f64 * outcome.elements as f64;
         Figures {
             last: samples.last().copied().unwrap_or_default(),
             deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
-            front_at_rim: samples.get(before).map(|sample| sample.time),
+            front_at_rim: samples.iter().find(|sample| sample.front >= rim).map(|sample| sample.time),
             hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
             ns_per_zone_cycle: outcome.cost.total().as_nanos() as f64 / cycles.max(1.0),

@@ -1,14 +1,16 @@
 //! `toron fabric` on a coarse patch.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::Duration;
 
 use crate::library::{ROOT, folder};
 
 /// A patch of four by four yarns struck for this many microseconds; further keys go into the scene's table.
 fn scene(end: f64, keys: &str) -> String {
     format!(
-        "units = \"mm-g-ms\"\n\
+        "title = \"a patch\"\nunits = \"mm-g-ms\"\n\
          [weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
          [weave.panel]\nshape = \"circle\"\nradius = 3.0\npart = \"quarter\"\n\
          [scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\ncontact-stiffness = 1e5\nend = {}\nsample = 0.0005\n{keys}\n",
@@ -18,11 +20,17 @@ fn scene(end: f64, keys: &str) -> String {
 
 fn strike(name: &str, text: &str, threads: usize) -> (Output, PathBuf) {
     let output = folder(&format!("fabric-{name}-{threads}"));
+    (program(&output, text, threads).output().expect("it starts"), output)
+}
+
+/// The program, about to run a scene in this folder.
+fn program(output: &Path, text: &str, threads: usize) -> Command {
     let file = output.join("scene.toml");
     std::fs::write(&file, text).expect("the scene is written");
     let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
     program.env("RAYON_NUM_THREADS", threads.to_string()).current_dir(ROOT);
-    (program.arg("fabric").arg(&file).arg("-o").arg(&output).output().expect("it starts"), output)
+    program.arg("fabric").arg(&file).arg("-o").arg(output);
+    program
 }
 
 /// A column of the history.
@@ -46,8 +54,7 @@ fn a_patch_keeps_its_energy_and_is_the_same_on_any_number_of_threads() {
     let [one, two] = [1, 2].map(|threads| history("threads", &text, threads));
     assert!(one == two, "the histories differ");
     let total = column(&one, "total");
-    let largest = total.iter().map(|energy| (energy / total[0] - 1.0).abs()).fold(0.0, f64::max);
-    assert!(largest < 1e-3, "{largest}");
+    assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 1e-3), "{total:?}");
     let (speed, deflection) = (column(&one, "speed"), column(&one, "deflection"));
     let last = speed.len() - 1;
     assert!(speed[last] < 0.99 * speed[0] && speed.windows(2).all(|pair| pair[1] <= pair[0]), "{speed:?}");
@@ -86,4 +93,55 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
         assert!(!answer.status.success() && found.contains(message), "{found}");
         assert!(found.contains("scene.toml:"), "{found}");
     }
+}
+
+#[test]
+fn a_run_that_was_killed_goes_on_with_the_same_bits() {
+    let keys = "failure = \"uniaxial\"\nframes = 6\npictures = [0.001, 0.009]\n\
+                hyperelastic.properties = { k_ld = 126.0, eps_lim = 0.02 }";
+    let whole = folder("fabric-whole");
+    let text = scene(12.0, keys);
+    assert!(program(&whole, &text, 2).output().expect("it starts").status.success());
+    let stopped = folder("fabric-stopped");
+    let text = text + "checkpoints = 5\n";
+    let checkpoint = stopped.join("scene.checkpoint");
+    let _ = std::fs::remove_file(&checkpoint);
+    let _ = std::fs::remove_file(stopped.join("scene.csv"));
+    let mut child = program(&stopped, &text, 2).spawn().expect("it starts");
+    while !checkpoint.exists() {
+        sleep(Duration::from_millis(2));
+        assert!(child.try_wait().expect("a process").is_none(), "it ended without a checkpoint");
+    }
+    child.kill().expect("it is there");
+    child.wait().expect("it ends");
+    assert!(!stopped.join("scene.csv").exists(), "it was killed too late");
+    let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let mut names = ["scene.csv", "scene.pvd", "scene-panel-1.svg", "scene-panel-2.svg"].map(str::to_string).to_vec();
+    names.extend((0..=6).map(|frame| format!("scene-{frame:04}.vtu")));
+    for name in names {
+        let [one, other] = [&whole, &stopped].map(|from| std::fs::read(from.join(&name)).expect("a file"));
+        assert!(one == other, "{name} differs");
+    }
+    // A checkpoint of something else is refused.
+    let other = text.replace("0.02 }", "0.03 }");
+    let answer = program(&stopped, &other, 1).arg("--restart").output().expect("it starts");
+    let error = String::from_utf8_lossy(&answer.stderr).to_string();
+    let wanted = "the checkpoint of case scene is of another scene or version; allowed: that of the same scene and version, or none";
+    assert!(!answer.status.success() && error.contains(wanted), "{error}");
+    std::fs::write(&checkpoint, b"not one").expect("it is written");
+    let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
+    let error = String::from_utf8_lossy(&answer.stderr).to_string();
+    assert!(!answer.status.success() && error.contains("the checkpoint of case scene is"), "{error}");
+}
+
+#[test]
+fn a_sphere_that_turns_back_is_followed_to_the_end() {
+    let text = scene(60.0, "until = \"end\"\nhyperelastic.properties = { k_ld = 126.0 }")
+        .replace("speed = 142.0", "speed = 20.0")
+        .replace("mass = 0.692", "mass = 0.2");
+    let history = history("rebound", &text, 2);
+    let (time, speed) = (column(&history, "time"), column(&history, "speed"));
+    assert!(time.last().is_some_and(|&time| (time - 0.06).abs() < 1e-6), "{time:?}");
+    assert!(speed.last().is_some_and(|&speed| speed < 0.0), "{speed:?}");
 }

@@ -1,10 +1,12 @@
 //! A point and the faces of a surface: the place on them that is nearest to it.
 
+use serde::{Deserialize, Serialize};
+
 use super::surface::{NONE, Surface};
 use crate::explicit::vector::{Vector, add, cross, dot, minus, times};
 
 /// A place on a face, from −1 to 1 both ways.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Place {
     pub xi: f64,
     pub eta: f64,

@@ -14,7 +14,9 @@ mod search;
 mod surface;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
+use super::archive::Archive;
 use super::body::Body;
 use super::lanes::Number;
 use super::vector::{Vector, add, dot, times};
@@ -54,7 +56,7 @@ impl Parameters {
 }
 
 /// A node near a face of another body.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Pair {
     node: u32,
     /// The other body, and the face of it that the node was last nearest to.
@@ -80,7 +82,7 @@ struct Pair {
 }
 
 /// A force on the corners of a face.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct OnFace {
     force: Vector,
     weights: [f64; 4],
@@ -138,6 +140,22 @@ impl MutualContact {
         }
     }
 
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.searches)?;
+        let MutualContact { moved, stored, dissipated, released, frequency, .. } = self;
+        [moved, stored, dissipated, released, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
+        for side in &mut self.sides {
+            side.surface.archive(archive)?;
+            archive.keep(&mut side.pairs)?;
+            archive.keep(&mut side.incoming)?;
+            let Side { stored, dissipated, frequency, .. } = side;
+            [stored, dissipated, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
+        }
+        Ok(())
+    }
+
     /// Adds the forces of the contact to those of the bodies.
     pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         let follow = |(side, body): (&mut Side, &Body<T>)| side.surface.follow(body);
@@ -190,7 +208,8 @@ impl MutualContact {
                 match place {
                     Ok(place) if touching => pairs[place] = Pair { free_until: 0.0, ..old.clone() },
                     Err(place) if touching => pairs.insert(place, Pair { free_until: 0.0, ..old.clone() }),
-                    Ok(place) => pairs[place].known |= old.known,
+                    // What was outside one face has not come through another one.
+                    Ok(place) => pairs[place].known |= old.known && old.face == pairs[place].face,
                     Err(_) => {}
                 }
             }
@@ -365,6 +384,7 @@ impl Pair {
         self.on_face = OnFace::default();
         self.friction = [0.0; 3];
         self.stiffness = 0.0;
+        self.known = false;
         std::mem::take(&mut self.stored)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::explicit::archive::Archive;
 use crate::explicit::body::Body;
 use crate::explicit::lanes::Number;
 use crate::explicit::mesh::Mesh;
@@ -66,6 +67,15 @@ impl Surface {
             nodes,
             area: area.iter().map(nalgebra::Vector3::norm).collect(),
         }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep_all(&mut self.gone)?;
+        archive.keep(&mut self.nodes)?;
+        archive.keep_all(&mut self.positions)?;
+        archive.keep_all(&mut self.moved)
     }
 
     /// Takes the nodes' places over; returns how far the one has moved that has moved farthest.

@@ -4,7 +4,7 @@ use super::*;
 use crate::explicit::body::Support;
 use crate::explicit::medium::{Control, Medium};
 use crate::explicit::mesh::{Mesh, Section, Yarn};
-use crate::explicit::solver::Solver;
+use crate::explicit::solver::{Ramp, Solver};
 use crate::material::model::{Law, Material};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
@@ -13,8 +13,14 @@ const PARAMETERS: Parameters = Parameters { stiffness: 1e15, friction: 0.5, marg
 
 /// The yarn of the thesis, without failure.
 fn media() -> Vec<Medium<f64>> {
+    media_with(0.0)
+}
+
+/// The same with this stiffness against longitudinal shear.
+fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
     let preset = parameters::preset("kevlar-km2-600").expect("it exists");
     let mut values = preset.values.to_vec();
+    values[4] = k_ld;
     values[5..8].fill(0.0);
     let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
     let material = Material { law, values, density: Some(preset.density), label: String::new() };
@@ -213,4 +219,97 @@ fn what_is_deleted_leaves_the_contact() {
     contact.apply(&mut bodies);
     assert_eq!([force(&bodies[0]), force(&bodies[1])], [Vector3::zeros(); 2]);
     assert!((contact.stored / stored - 1.0).abs() < 1e-12, "the balance keeps what was stored");
+}
+
+/// A ribbon that lies on a quarter of a cylinder, with a straight tail at either end; it is thin beside the cylinder.
+const RADIUS: f64 = 1e-3;
+const TAIL: f64 = 3e-4;
+const THICKNESS: f64 = 5e-5;
+
+/// Layers of one element along a line: its points with the outward directions there, from the inner side to the outer one.
+fn ribbon(line: &[([f64; 2], [f64; 2])], thickness: f64, width: f64) -> Mesh {
+    let mut mesh = Mesh { elements_per_layer: 1, nodes_per_section: 4, ..Mesh::default() };
+    for &([x, y], [nx, ny]) in line {
+        for [out, across] in [[0.0, -0.5], [1.0, -0.5], [0.0, 0.5], [1.0, 0.5]] {
+            mesh.nodes.push([x + out * thickness * nx, y + out * thickness * ny, across * width]);
+        }
+    }
+    for (layer, pair) in (0..).zip(line.windows(2)) {
+        // Corner c is on the upper side of axis i where bit i of c is set.
+        let corner = |c: u32| 4 * (layer + c % 2) + c / 2;
+        mesh.elements.push(std::array::from_fn(|c| corner(c as u32)));
+        let ([a, _], [b, _]) = ([pair[0].0, pair[0].1], [pair[1].0, pair[1].1]);
+        let along = Vector3::new(b[0] - a[0], b[1] - a[1], 0.0).normalize();
+        mesh.fibre.push(along.into());
+    }
+    mesh
+}
+
+/// Points on a circle about the origin, clockwise from an angle to another.
+fn arc(radius: f64, from: f64, to: f64, count: usize) -> Vec<([f64; 2], [f64; 2])> {
+    let angle = |i: usize| from + (to - from) * i as f64 / (count - 1) as f64;
+    (0..count).map(|i| [angle(i).cos(), angle(i).sin()]).map(|n| (n.map(|x| radius * x), n)).collect()
+}
+
+/// The yarn's angle on the cylinder, and the coefficient of friction.
+const WRAP: f64 = std::f64::consts::FRAC_PI_2;
+const FRICTION: f64 = 0.3;
+
+/// One end of the ribbon is held, the other one pulled; the ratio of the forces at the ends, while it slides.
+fn ratio_of_forces(k_ld: f64) -> (f64, f64) {
+    let media = media_with(k_ld);
+    let gap = 1e-9;
+    let tail = |i: usize| TAIL * i as f64 / 8.0;
+    let before = (1..=8).rev().map(|i| ([-tail(i), RADIUS + gap], [0.0, 1.0]));
+    let after = (1..=8).map(|i| ([RADIUS + gap, -tail(i)], [1.0, 0.0]));
+    let line: Vec<_> = before.chain(arc(RADIUS + gap, WRAP, 0.0, 41)).chain(after).collect();
+    let yarn = ribbon(&line, THICKNESS, 1e-4);
+    // With finer faces than the yarn's, so that its polygon has no corners to speak of.
+    let cylinder = ribbon(&arc(RADIUS - 1e-4, WRAP + 0.3, -0.3, 140), 1e-4, 3e-4);
+    let (mut bodies, mut contact) = bodies(vec![yarn, cylinder], &media);
+    contact.parameters.friction = FRICTION;
+    contact.parameters.margin = 1e-5;
+    let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
+    let last = bodies[0].mesh.nodes.len() - 4;
+    for i in 0..4 {
+        bodies[0].support(i, held([0.0; 3]));
+        bodies[0].support(last + i, held([0.0, -5e-6, 0.0]));
+    }
+    for node in 0..bodies[1].mesh.nodes.len() {
+        bodies[1].support(node, held([0.0; 3]));
+    }
+    let mut solver = Solver::new(bodies, media);
+    solver.mutual = Some(contact);
+    solver.ramp = Some(Ramp { start: 0.0, duration: 2e-5 });
+    solver.brake = 1e6;
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    while solver.time < 1.5e-5 {
+        solver.accelerate(false, 1.0).expect("stable");
+        if solver.time > 1e-5 {
+            let end = |first: usize| -> f64 {
+                let forces = &solver.bodies[0].forces[first..first + 4];
+                forces.iter().map(|&force| Vector3::from(force)).sum::<Vector3<f64>>().norm()
+            };
+            let ratio = end(last) / end(0);
+            (least, most) = (least.min(ratio), most.max(ratio));
+        }
+        solver.displace();
+    }
+    (least, most)
+}
+
+/// Euler's and Eytelwein's formula: the forces at the ends of a rope that slides over a cylinder have the ratio exp(μθ).
+#[test]
+fn a_yarn_slides_over_a_cylinder_as_a_rope_over_a_capstan() {
+    let (least, most) = ratio_of_forces(126e6);
+    let expected = (FRICTION * WRAP).exp();
+    assert!(least > 0.98 * expected && least <= most && most < 1.02 * expected, "{least} {most} {expected}");
+}
+
+/// Without stiffness against longitudinal shear nothing carries friction from the yarn's surface to its inside: the surface sticks
+/// to the cylinder, and the yarn slides past it.
+#[test]
+fn friction_does_not_reach_the_inside_of_a_yarn_without_shear_stiffness() {
+    let (least, most) = ratio_of_forces(0.0);
+    assert!(least > 1.0 && least <= most && most < 1.03, "{least} {most}");
 }
