@@ -193,7 +193,8 @@ impl MutualContact {
                     let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
                     if let Some((face, place, depth)) = nearest {
                         let known = first || depth <= 0.0;
-                        pairs.push(Pair { node, master, face, place, stiffness, known, ..Pair::default() });
+                        let depth = if first { depth.max(0.0) } else { 0.0 };
+                        pairs.push(Pair { node, master, face, place, stiffness, known, depth, ..Pair::default() });
                     }
                 }
             }
@@ -334,7 +335,6 @@ impl Pair {
         if self.stiffness == 0.0 {
             return (None, 0.0);
         }
-        let before = self.face;
         let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
@@ -348,22 +348,12 @@ impl Pair {
             self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
-        let mut lost = 0.0;
-        if !self.known {
-            self.uncounted = met.depth;
-        } else if self.face != before {
-            // The force goes on: no energy comes from another face being nearer.
-            self.uncounted = (met.depth - self.depth).max(0.0);
-            lost = 0.5 * self.stiffness * (self.depth * self.depth - met.depth * met.depth).max(0.0);
-        }
-        self.known = true;
-        self.uncounted = self.uncounted.min(met.depth);
-        self.depth = met.depth - self.uncounted;
         let mut slip = own.moved[node];
         let corners = master.faces[self.face as usize];
         for k in 0..4 {
             slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
         }
+        let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
         let force = self.stiffness * self.depth;
         let trial = add(old, -self.stiffness, slip);
         let trial = add(trial, -dot(trial, met.normal), met.normal);
@@ -377,6 +367,19 @@ impl Pair {
         let total = add(self.friction, force, met.normal);
         self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
         (Some(total), lost + work - (after - held))
+    }
+
+    /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
+    /// more: what it jumps by, since another face is nearer now, does not count, and brings no energy in. Returns the energy that
+    /// is lost where less depth is left than counted.
+    fn deepen(&mut self, depth: f64, slip: f64) -> f64 {
+        let before = if self.known { self.depth + self.uncounted } else { depth };
+        let expected = self.depth + (depth - before).clamp(-slip, slip);
+        let least = (self.depth - slip).max(0.0);
+        self.depth = expected.clamp(0.0, depth);
+        self.uncounted = depth - self.depth;
+        self.known = true;
+        0.5 * self.stiffness * (least * least - self.depth * self.depth).max(0.0)
     }
 
     /// Lets go for good; returns what was stored.
