@@ -3,7 +3,8 @@
 //!
 //! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each with half of
 //! the stiffness. A node's force is divided among the face's corners in the proportion of its place on the face, so that
-//! momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness and no friction. Which nodes are near which faces is found anew when something may have come near that was not.
+//! momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness and no friction. Which nodes
+//! are near which faces is found anew when something may have come near that was not.
 //!
 //! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
 
