@@ -45,7 +45,9 @@ if ! command -v cargo >/dev/null 2>&1; then
     curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y --profile minimal
     . "$HOME/.cargo/env"
 fi
-# CalculiX and felupe, into the cache folder; the first time takes some minutes.
+# CalculiX and the environments for Python, into the cache folder; the first time takes some minutes.
 ffi-tests/calculix/build.sh >/dev/null
-ffi-tests/felupe/environment.sh >/dev/null
+for requirements in python/tests ffi-tests/felupe ffi-tests/fedoo ffi-tests/akantu; do
+    ffi-tests/python/environment.sh "$requirements/requirements.txt" >/dev/null
+done
 cargo test --locked --workspace "$@"

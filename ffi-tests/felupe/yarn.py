@@ -1,14 +1,11 @@
 """A yarn segment with clamped ends, pressed by a rigid plate: an eighth of it, by symmetry. Newton's residuals, a line an
-increment. `yarn.py path/to/libtoron.so`"""
-
-import sys
+increment."""
 
 import felupe
 import numpy as np
-from toron_material import Yarn
+import toron
+from toron_material import material
 
-# Kevlar KM2 600 in N, mm, MPa, fibre along x, with some longitudinal shear stiffness: without it the ends would hold nothing.
-PROPERTIES = [82341.0, 1055.0, 2.2, 649.74, 100.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]
 HALF_LENGTH, HALF_WIDTH, HALF_HEIGHT = 0.3, 0.5337 / 2, 0.115 / 2
 
 
@@ -39,11 +36,12 @@ def segment(n, layers):
     return felupe.Mesh(np.vstack([points, plate]), cells, "hexahedron"), skin, len(points)
 
 
-def main(library):
+def main():
     mesh, skin, plate = segment(n=3, layers=6)
     field = felupe.FieldContainer([felupe.Field(felupe.RegionHexahedron(mesh), dim=3)])
-    yarn = Yarn(library, PROPERTIES)
-    solid = felupe.SolidBody(yarn.material, field)
+    # N, mm, MPa, fibre along x, with some longitudinal shear stiffness: without it the ends would hold nothing.
+    yarn = toron.Hyperelastic.from_preset("kevlar-km2-600", units="mm-tonne-s", k_ld=100.0)
+    solid = felupe.SolidBody(material(yarn), field)
     # The plate covers the half of the segment that is far from the clamp.
     under = skin[mesh.points[skin, 0] > 0.5 * HALF_LENGTH]
     contact = felupe.ContactRigidPlane(field, points=under, centerpoint=plate, normal=[0, 0, -1], multiplier=1e3)
@@ -66,4 +64,4 @@ def main(library):
         print(f"{depth:.6f}", *(f"{norm:.3e}" for norm in result.fnorms))
 
 
-main(sys.argv[1])
+main()

@@ -2,10 +2,13 @@
 
 #[path = "../../../tests/common/library.rs"]
 mod library;
+#[path = "../../../tests/common/python.rs"]
+mod python;
 
 mod abaqus;
 mod c_programs;
 mod environment;
+mod fedoo;
 mod felupe;
 mod ffi;
 mod fortran_module;
@@ -16,5 +19,7 @@ mod instruction_counts;
 mod instrumented;
 mod machine_code;
 mod mgis;
+mod newton;
 mod openradioss;
+mod package;
 mod structures;

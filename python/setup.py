@@ -1,0 +1,76 @@
+"""Builds the shared library with cargo, or takes the one that TORON_LIBRARY names, and makes a wheel for any Python of the platform."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Distribution, setup
+from setuptools.command.bdist_wheel import bdist_wheel
+from setuptools.command.build_py import build_py
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE))
+
+import interface  # noqa: E402
+
+
+def version() -> str:
+    """The version of the workspace."""
+    for line in (ROOT / "Cargo.toml").read_text(encoding="utf-8").splitlines():
+        if line.startswith("version = "):
+            return line.split('"')[1]
+    sys.exit("Cargo.toml has no version")
+
+
+def shared_library() -> Path:
+    """The library to be packed."""
+    given = os.environ.get("TORON_LIBRARY")
+    if given:
+        if not Path(given).is_file():
+            sys.exit(f"TORON_LIBRARY is {given}, which is no file; allowed: a libtoron.so that has been built")
+        return Path(given)
+    if not shutil.which("cargo"):
+        sys.exit(
+            "The package contains a library in Rust, and cargo, which builds it, is not installed. Install Rust 1.89 or later "
+            "(https://rustup.rs), or set TORON_LIBRARY to a libtoron.so that has been built."
+        )
+    command = ["cargo", "build", "--release", "--locked", "-p", "toron-c", "--message-format=json-render-diagnostics"]
+    built = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, check=False)
+    if built.returncode != 0:
+        sys.exit("cargo build failed")
+    for line in built.stdout.splitlines():
+        message = json.loads(line)
+        if message.get("reason") == "compiler-artifact" and "cdylib" in message["target"]["crate_types"]:
+            for name in map(Path, message["filenames"]):
+                if name.suffix in (".so", ".dylib", ".dll"):
+                    return name
+    sys.exit("cargo has built no shared library")
+
+
+class BuildWithLibrary(build_py):
+    """Adds the library and the module made from its header."""
+
+    def run(self) -> None:
+        super().run()
+        package = HERE / "src/toron" if self.editable_mode else Path(self.build_lib) / "toron"
+        interface.write(ROOT / "include/toron.h", package / "_interface.py")
+        shutil.copyfile(shared_library(), package / "libtoron.so")
+
+
+class PlatformWheel(bdist_wheel):
+    """The wheel depends on the platform, but not on the version of Python."""
+
+    def get_tag(self) -> tuple[str, str, str]:
+        return "py3", "none", super().get_tag()[2]
+
+
+class WithLibrary(Distribution):
+    def has_ext_modules(self) -> bool:
+        return True
+
+
+setup(version=version(), distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})

@@ -1,0 +1,190 @@
+"""What both laws have in common: properties by name, the prepared law, and calls on arrays."""
+
+from collections.abc import Iterable, Mapping
+from math import prod
+from operator import is_
+from types import MappingProxyType
+from typing import Any, ClassVar, Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from toron import tables
+from toron._library import CAPACITY, buffers, constants, ffi, lib
+from toron.arrays import Arrays
+from toron.call import Call
+from toron.errors import ArgumentError, PropertyError, raise_for
+from toron.placement import Member
+from toron.tables import Row
+
+Tangent = Literal["material", "truesdell", "jaumann", "nominal"]
+Level = Literal["best", "baseline", "avx2", "avx512"]
+Points = Literal["first", "last"]
+
+TANGENTS = constants("TORON_TANGENT_")
+LEVELS = constants("TORON_LEVEL_")
+POINTS = {"first": 0, "last": 1}
+SUFFIX = {np.dtype(np.float64): "f64", np.dtype(np.float32): "f32"}
+
+STATUS = Member("status", (), written=True)
+
+#: How many calls with `out` a law remembers, and up to how many points: with more of them looking at the arrays takes no time to
+#: speak of, and holding them would be a burden.
+_CALLS = 8
+_POINTS = 2048
+
+
+def choice(name: str, value: Any, choices: dict[str, int]) -> int:
+    """The library's constant for an option."""
+    try:
+        return choices[value]
+    except (KeyError, TypeError):
+        raise ArgumentError(f"{name} is {value!r}; allowed: {', '.join(choices)}", lib.TORON_BAD_ARGUMENT) from None
+
+
+class Law:
+    """A law prepared from its properties. Laws do not change; they may be used by several threads, and be pickled."""
+
+    _number: ClassVar[int]
+    _structure: ClassVar[str]
+
+    def __init__(self, density: float | None = None, **properties: float) -> None:
+        indices = {name: tables.property_index(self._number, name) for name in properties}
+        given = {index: float(properties[name]) for name, index in indices.items()}
+        values = []
+        for index, row in enumerate(self.properties_table()):
+            value = given.get(index, row.default)
+            if value is None:
+                raise PropertyError(f"property {row.name} is missing; allowed: {row.allowed}", lib.TORON_PROPERTY_COUNT)
+            values.append(value)
+        self._values = np.array(values, np.float64)
+        self._density = None if density is None else float(density)
+        self._prepared: dict[np.dtype, Any] = {}
+        self._calls: tuple[tuple[Call, tuple[Any, ...]], ...] = ()
+        self._law_in(np.dtype(np.float64))
+
+    @classmethod
+    def from_values(cls, values: ArrayLike, density: float | None = None, **options: Any) -> Self:
+        """The law from its properties in the order of the table, and options of the class."""
+        names = [row.name for row in cls.properties_table()]
+        numbers = np.asarray(values, np.float64)
+        if numbers.shape != (len(names),):
+            raise PropertyError(f"values has shape {numbers.shape}; allowed: ({len(names)},)", lib.TORON_PROPERTY_COUNT)
+        return cls(density=density, **options, **dict(zip(names, numbers.tolist())))
+
+    @classmethod
+    def from_preset(cls, name: str, units: str, **changes: Any) -> Self:
+        """The law of a preset of the library, such as "kevlar-km2-600" or "kevlar-km2-600-linear", with its density.
+
+        `units`: those of your model, length, mass and time joined by "-": "m-kg-s" (or "si"), "mm-tonne-s", "mm-g-ms", …;
+        `changes`: properties and options that replace those of the preset.
+
+        Raises `ArgumentError` for a name or unit that does not exist, `PropertyError` for a property.
+        """
+        names = [row.name for row in cls.properties_table()]
+        values, density = tables.preset(name, units, len(names))
+        return cls(**({"density": density} | dict(zip(names, values)) | changes))
+
+    @classmethod
+    def properties_table(cls) -> tuple[Row, ...]:
+        """The properties: names, dimensions, defaults, bounds and meanings."""
+        return tables.properties(cls._number)
+
+    @classmethod
+    def state_table(cls) -> tuple[Row, ...]:
+        """The state variables, in the order in which they stand in a `state` array; all are 0 at the start."""
+        return tables.state_variables(cls._number)
+
+    @classmethod
+    def state_index(cls, name: str) -> int:
+        """The index of a state variable in a `state` array. Raises `ArgumentError`, which lists the names, if there is none."""
+        return raise_for(lib.toron_state_index(cls._number, name.encode(), buffers.message, CAPACITY))
+
+    @property
+    def properties(self) -> Mapping[str, float]:
+        """The properties by name."""
+        return MappingProxyType({row.name: value for row, value in zip(self.properties_table(), self._values.tolist())})
+
+    @property
+    def density(self) -> float | None:
+        """The reference density, which the wave speed needs; None if it has not been given."""
+        return self._density
+
+    def _options(self) -> dict[str, Any]:
+        """What a law is made of beside its properties."""
+        return {"density": self._density}
+
+    def replace(self, **changes: Any) -> Self:
+        """The law with other properties or options."""
+        return type(self)(**(self._options() | dict(self.properties) | changes))
+
+    def __repr__(self) -> str:
+        arguments = ", ".join(f"{name}={value!r}" for name, value in (dict(self.properties) | self._options()).items())
+        return f"{type(self).__name__}({arguments})"
+
+    def __reduce__(self) -> Any:
+        return _remade, (type(self), self._options() | dict(self.properties))
+
+    def new_state(self, points: int | tuple[int, ...] = (), dtype: DTypeLike = np.float64, layout: Points = "first") -> NDArray[Any]:
+        """The state of so many points at the start, zeros: (n, number of state variables), or (…, n) with `layout="last"`."""
+        shape = (points,) if isinstance(points, int) else tuple(points)
+        count = (len(self.state_table()),)
+        return np.zeros(count + shape if layout == "last" else shape + count, dtype)
+
+    def _law_in(self, dtype: np.dtype) -> Any:
+        """The prepared law in this precision."""
+        if dtype not in self._prepared:
+            suffix = SUFFIX[dtype]
+            law = ffi.new(f"{self._structure}_{suffix} *")
+            prepare = getattr(lib, f"{self._structure}_prepare_{suffix}")
+            values = ffi.new("double[]" if suffix == "f64" else "float[]", self._values.tolist())
+            raise_for(prepare(law, ffi.sizeof(law[0]), values, len(self._values), buffers.message, CAPACITY))
+            self._prepared[dtype] = law
+        return self._prepared[dtype]
+
+    def _set_density(self, block: Any, density: float | None, outputs: Iterable[str]) -> None:
+        if "wave_speed" in outputs:
+            density = self._density if density is None else density
+            if density is None:
+                raise ArgumentError("density is missing; allowed: a finite number > 0, for the wave speed", lib.TORON_BAD_ARGUMENT)
+            block.density = density
+
+    def _evaluate(
+        self, inputs: tuple[Any, ...], out: Mapping[str, np.ndarray] | None, outputs: str | Iterable[str] | None, options: tuple[Any, ...]
+    ) -> Mapping[str, np.ndarray]:
+        """Calls what `_bind` makes, or has made before for the very same objects: to look at arrays anew takes longer than to
+        evaluate some points.
+        """
+        if out is None or outputs is not None:
+            return self._bind(inputs, out, outputs, options)()
+        given = (*inputs, *options, *out, *out.values())
+        for call, before in self._calls:
+            if len(before) == len(given) and all(map(is_, before, given)) and call.unchanged():
+                call()
+                return out
+        call = self._bind(inputs, out, outputs, options)
+        # What is no array is read once, when it is converted.
+        if call.points <= _POINTS and all(array is None or isinstance(array, np.ndarray) for array in inputs):
+            self._calls = ((call, given), *self._calls)[:_CALLS]
+        call()
+        return out
+
+    def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
+        """Checks the arguments and places the arrays; `frozen`: inputs may be what NumPy makes arrays of."""
+        raise NotImplementedError
+
+    def _call(self, function: str, block: Any, placed: Arrays, outputs: dict[str, np.ndarray]) -> Call:
+        """The call whose arrays and options are set."""
+        status = outputs.get("status")
+        if status is None and prod(placed.points) != 1:
+            # With it the message names the point.
+            status = placed.empty(STATUS)
+            placed.put(STATUS, status)
+        copies = placed.place(block)
+        reported = "status" in outputs
+        law = self._law_in(placed.dtype)
+        return Call(getattr(lib, function), law, block, copies, placed.all, placed.written.values(), outputs, status, reported)
+
+
+def _remade(law: type[Law], arguments: dict[str, Any]) -> Law:
+    return law(**arguments)

@@ -1,0 +1,79 @@
+"""The tables of properties and state variables, and the presets, as the library tells them."""
+
+from dataclasses import dataclass
+
+from toron._library import CAPACITY, buffers, ffi, lib, structure, text
+from toron.errors import raise_for
+
+
+@dataclass(frozen=True)
+class Row:
+    """A property or a state variable.
+
+    `unit` is the physical dimension in words ("stress", "-"), `mass`, `length` and `time` are its exponents. `default` is None where
+    the property must be given. The value is at least `minimum` (more, if `minimum_excluded`) and at most `maximum`.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    mass: int
+    length: int
+    time: int
+    default: float | None
+    minimum: float
+    maximum: float
+    minimum_excluded: bool
+    allowed: str
+    meaning: str
+
+
+def _rows(count: int, read) -> tuple[Row, ...]:
+    rows = []
+    for index in range(raise_for(count)):
+        row = structure("toron_table_row")
+        raise_for(read(index, row))
+        rows.append(
+            Row(
+                name=text(row.name),
+                symbol=text(row.symbol),
+                unit=text(row.unit),
+                mass=row.mass,
+                length=row.length,
+                time=row.time,
+                default=row.default_value if row.has_default else None,
+                minimum=row.minimum,
+                maximum=row.maximum,
+                minimum_excluded=bool(row.minimum_excluded),
+                allowed=text(row.allowed),
+                meaning=text(row.meaning),
+            )
+        )
+    return tuple(rows)
+
+
+def properties(law: int) -> tuple[Row, ...]:
+    """The properties of a law (`lib.TORON_HYPERELASTIC`, …) in the library's order."""
+    count = lib.toron_property_count(law, buffers.message, CAPACITY)
+    return _rows(count, lambda index, row: lib.toron_property(law, index, row, buffers.message, CAPACITY))
+
+
+def state_variables(law: int) -> tuple[Row, ...]:
+    """The state variables of a law in the library's order."""
+    count = lib.toron_state_count(law, buffers.message, CAPACITY)
+    return _rows(count, lambda index, row: lib.toron_state_variable(law, index, row, buffers.message, CAPACITY))
+
+
+def property_index(law: int, name: str) -> int:
+    """The index of a property, counted from 0. Raises `ArgumentError`, which lists the names, if there is none."""
+    return raise_for(lib.toron_property_index(law, name.encode(), buffers.message, CAPACITY))
+
+
+def preset(name: str, units: str, count: int) -> tuple[list[float], float]:
+    """The `count` properties of a preset in the library's order, and the reference density, in these units.
+
+    Raises `ArgumentError` for a name or a unit that does not exist, `PropertyError` if the preset is of another law.
+    """
+    values, density = ffi.new("double[]", count), ffi.new("double *")
+    raise_for(lib.toron_preset_f64(name.encode(), units.encode(), values, count, density, buffers.message, CAPACITY))
+    return list(values), density[0]

@@ -1,0 +1,31 @@
+"""The programs of docs/python.md, one after the other, print what stands there; the gallery draws its pictures."""
+
+import contextlib
+import io
+import re
+import runpy
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_documents_programs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+    programs = re.findall(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.DOTALL)
+    assert len(programs) >= 7
+    names: dict = {}
+    for program, expected in programs:
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            exec(program, names)
+        assert printed.getvalue() == expected
+    assert (tmp_path / "yarn.png").stat().st_size > 10_000
+
+
+def test_the_gallery(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "argv", ["gallery.py", str(tmp_path)])
+    runpy.run_path(str(ROOT / "examples/python/gallery.py"), run_name="__main__")
+    for name in ("modes", "failure-surface"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 10_000

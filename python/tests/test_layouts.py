@@ -1,0 +1,243 @@
+"""Arrays of every layout give the same numbers, and are copied only where the documentation says so."""
+
+import sys
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import toron
+
+N = 100_000
+
+
+def copies_of(call, size: int) -> int:
+    """How many arrays of so many bytes a call allocates; NumPy reports its allocations to tracemalloc."""
+    call()
+    tracemalloc.start()
+    call()
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return round(peak / size)
+
+
+def last(array: np.ndarray) -> np.ndarray:
+    """(n, …) as (…, n) in memory."""
+    return np.ascontiguousarray(np.moveaxis(array, 0, -1))
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("kind", ["material", "truesdell", "jaumann", "nominal"])
+def test_both_layouts_give_the_same(yarn, gradients, dtype, kind):
+    F = gradients(50, dtype)
+    names = ("stress", "modes", "tangent", "state", "wave_speed", "active")
+    first = yarn.evaluate(F, outputs=names, tangent=kind)
+    second = yarn.evaluate(last(F), outputs=names, tangent=kind, points="last")
+    for name in names:
+        assert first[name].dtype == dtype
+        np.testing.assert_array_equal(np.moveaxis(second[name], -1, 0), first[name], err_msg=name)
+    assert first["tangent"].shape == ((50, 3, 3, 3, 3) if kind == "nominal" else (50, 6, 6))
+    assert np.abs(first["stress"]).max() > 100 and np.abs(first["tangent"]).max() > 1000
+
+
+def test_one_point_many_points_and_axes_of_points(yarn, gradients):
+    F = gradients(12)
+    whole = yarn.stress(F)
+    assert whole.shape == (12, 6)
+    for one, expected in zip(F, whole):
+        found = yarn.stress(one)
+        assert found.shape == (6,)
+        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-9)
+    np.testing.assert_array_equal(yarn.stress(F.reshape(3, 4, 3, 3)), whole.reshape(3, 4, 6))
+    cells = last(F).reshape(3, 3, 3, 4)
+    np.testing.assert_array_equal(yarn.stress(cells, points="last"), whole.T.reshape(6, 3, 4))
+    assert yarn.stress(F[:0]).shape == (0, 6)
+
+
+#: Views of the same numbers (n, 3, 3), with the number of copies of F that a call needs.
+VIEWS = {
+    "rows": (lambda F: np.ascontiguousarray(F), 0),
+    "columns": (lambda F: np.ascontiguousarray(F.transpose(0, 2, 1)).transpose(0, 2, 1), 0),
+    "component-major": (lambda F: np.ascontiguousarray(F.transpose(1, 2, 0)).transpose(2, 0, 1), 0),
+    "every second point": (lambda F: np.repeat(F, 2, axis=0)[::2], 0),
+    "part of larger matrices": (lambda F: np.pad(F, ((0, 0), (0, 1), (1, 1)))[:, :3, 1:4], 0),
+    "components backwards": (lambda F: np.ascontiguousarray(F[:, ::-1, ::-1])[:, ::-1, ::-1], 0),
+    "points backwards": (lambda F: np.ascontiguousarray(F[::-1])[::-1], 1),
+    "in other byte order": (lambda F: F.astype(F.dtype.newbyteorder()), 1),
+}
+
+
+@pytest.mark.parametrize("name", VIEWS)
+def test_inputs_are_read_where_they_are(yarn, gradients, name):
+    F, (view, copies) = gradients(N), VIEWS[name]
+    array = view(F)
+    np.testing.assert_array_equal(array, F)
+    out = {"stress": np.empty((N, 6)), "status": np.empty(N, np.int32)}
+    np.testing.assert_array_equal(yarn.evaluate(array, out=out)["stress"], yarn.stress(F))
+    assert copies_of(lambda: yarn.evaluate(array, out=out), F.nbytes) == copies
+
+
+@pytest.mark.parametrize("layout", ["first", "last"])
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_outputs_and_state_are_written_where_they_are(yarn, gradients, layout, dtype):
+    F = gradients(N, dtype)
+    F = F if layout == "first" else last(F)
+    state = yarn.new_state(N, dtype, layout)
+    names = ("stress", "modes", "wave_speed", "active", "tangent")
+    out = dict(yarn.evaluate(F, outputs=names, points=layout, tangent="jaumann"))
+    expected = {name: array.copy() for name, array in out.items()}
+    for array in out.values():
+        array.fill(np.nan)
+    out["status"] = np.full(N, -1, np.int32)
+
+    def call():
+        yarn.evaluate(F, out=out, state=state, points=layout)
+
+    call()
+    for name, array in expected.items():
+        np.testing.assert_array_equal(out[name], array, err_msg=name)
+    assert (out["status"] == 0).all() and state.any()
+    assert copies_of(call, N * np.dtype(dtype).itemsize) == 0
+
+
+def test_the_nominal_tangent_is_written_in_place_where_the_package_made_it(yarn, gradients):
+    F = gradients(10_000)
+    made = yarn.evaluate(F, outputs="tangent", tangent="nominal")
+    expected, own = made["tangent"].copy(), np.empty((10_000, 3, 3, 3, 3))
+    made["tangent"].fill(0)
+    status = {"status": np.empty(10_000, np.int32)}
+    assert copies_of(lambda: yarn.evaluate(F, out=made | status, tangent="nominal"), own.nbytes) == 0
+    np.testing.assert_array_equal(made["tangent"], expected)
+    # Of any other array it is a copy.
+    assert copies_of(lambda: yarn.tangent(F, "nominal", out=own), own.nbytes) == 1
+    np.testing.assert_array_equal(own, expected)
+
+
+def test_outputs_that_the_library_cannot_write_go_through_a_copy(yarn, gradients):
+    F = gradients(20)
+    expected = yarn.evaluate(F, outputs=("stress", "wave_speed", "energies"))
+    out = {
+        "stress": np.empty((20, 6))[::-1],
+        "wave_speed": np.empty(40)[::2],
+        "energies": np.empty((20, 4), order="F"),
+    }
+    for name, array in yarn.evaluate(F, out=out).items():
+        assert array is out[name]
+        np.testing.assert_array_equal(array, expected[name], err_msg=name)
+    state = np.zeros((11, 20))[:, ::-1].T
+    yarn.evaluate(F, state=state)
+    np.testing.assert_array_equal(state, yarn.evaluate(F, outputs="state")["state"])
+
+
+def test_entries_between_each_other_go_through_a_copy(yarn, gradients):
+    F, lattice = gradients(3), np.lib.stride_tricks.as_strided(np.empty(40), (3, 11), (16, 24))
+    found = yarn.evaluate(F, out={"state": lattice})["state"]
+    np.testing.assert_array_equal(found, yarn.evaluate(F, outputs="state")["state"])
+
+
+def test_a_separate_old_state_is_only_read(yarn, gradients):
+    F = gradients(30)
+    old = yarn.new_state(30)
+    old[::3, yarn.state_index("failed")] = 1
+    before = old.copy()
+    for new in (np.empty((30, 11)), np.empty((11, 30)).T):
+        found = yarn.evaluate(F, state_old=old, out={"state": new, "stress": np.empty((30, 6))})
+        np.testing.assert_array_equal(old, before)
+        assert not found["stress"][::3].any() and found["stress"][1::3].any()
+        assert (new[::3, yarn.state_index("failed")] == 1).all()
+
+
+def test_fibre_directions_of_points(yarn):
+    turned = yarn.replace(m_1=0.0, m_2=1.0)
+    F = np.tile(np.diag([1.01, 1.02, 0.97]), (8, 1, 1))
+    fibre = np.tile([0.0, 3.0, 0.0], (8, 1))
+    np.testing.assert_allclose(yarn.stress(F, fibre=fibre), turned.stress(F), rtol=1e-14, atol=1e-12)
+    np.testing.assert_allclose(yarn.stress(last(F), fibre=last(fibre), points="last").T, turned.stress(F), rtol=1e-14, atol=1e-12)
+
+
+def test_what_is_no_array_of_numbers_of_the_library_is_converted(yarn):
+    rows = [[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]
+    np.testing.assert_array_equal(yarn.stress(rows), np.zeros(6))
+    np.testing.assert_array_equal(yarn.stress(np.eye(3, dtype=int)), np.zeros(6))
+    out = {"stress": np.zeros(6)}
+    yarn.evaluate(rows, out=out)
+    rows[0][0] = 1.01
+    yarn.evaluate(rows, out=out)
+    assert out["stress"][0] > 100, "a list that has changed is read anew"
+
+
+def test_parts_of_the_state(yarn, gradients):
+    F = gradients(5)
+    whole = yarn.evaluate(F, outputs="state")["state"]
+    parts = yarn.evaluate(F, outputs=("energies", "invariants", "failure"))
+    np.testing.assert_array_equal(np.concatenate(list(parts.values()), axis=1), whole)
+    np.testing.assert_array_equal(yarn.evaluate(F, outputs="invariants")["invariants"], whole[:, 4:8])
+    np.testing.assert_array_equal(yarn.evaluate(F, outputs="failure")["failure"], whole[:, 8:])
+    for names in (("energies",), ("failure",), ("invariants", "failure")):
+        out = {name: np.empty((5, 3 if name == "failure" else 4)) for name in names}
+        for name, array in yarn.evaluate(F, out=out).items():
+            np.testing.assert_array_equal(array, parts[name])
+    both = yarn.evaluate(F, outputs=("state", "energies"))
+    assert np.shares_memory(both["state"], both["energies"])
+
+
+def test_the_same_arrays_again_and_others(yarn, gradients):
+    """The law remembers its last calls: whatever changes between two of them is seen."""
+    F, other = gradients(4), gradients(4, size=0.01)
+    a, b = np.empty((4, 6)), np.empty((4, 6))
+    assert yarn.stress(F, out=a) is a
+    expected = yarn.stress(F)
+    np.testing.assert_array_equal(a, expected)
+    a.fill(0)
+    yarn.stress(F, out=a)
+    np.testing.assert_array_equal(a, expected)
+    yarn.stress(F, out=b)
+    np.testing.assert_array_equal(b, expected)
+    yarn.stress(other, out=b)
+    np.testing.assert_array_equal(b, yarn.stress(other))
+    F[...] = other
+    yarn.stress(F, out=b)
+    np.testing.assert_array_equal(b, yarn.stress(other))
+    out = {"stress": a}
+    yarn.evaluate(F, out=out)
+    out["stress"] = b
+    b.fill(0)
+    assert yarn.evaluate(F, out=out)["stress"] is b
+    np.testing.assert_array_equal(b, yarn.stress(other))
+    b.flags.writeable = False
+    with pytest.raises(toron.ArgumentError, match="read-only"):
+        yarn.evaluate(F, out=out)
+    F.shape = (2, 2, 3, 3)
+    with pytest.raises(toron.ArgumentError, match=r"stress has shape \(4, 6\); allowed: \(2, 2, 6\)"):
+        yarn.evaluate(F, out={"stress": a})
+
+
+def test_no_more_than_some_calls_are_remembered(gradients):
+    yarn = toron.Hyperelastic.from_preset("kevlar-km2-600", "si")
+    arrays = [gradients(2) * (1 + 1e-3 * k) for k in range(50)]
+    held = sys.getrefcount(arrays[0])
+    for _ in range(2):
+        for k, F in enumerate(arrays):
+            out = np.empty((2, 6))
+            np.testing.assert_array_equal(yarn.stress(F, out=out), yarn.stress(F.copy()), err_msg=str(k))
+    del F
+    first, last_ = sys.getrefcount(arrays[0]), sys.getrefcount(arrays[-1])
+    assert first == held and last_ > held
+    many, out = gradients(10_000), np.empty((10_000, 6))
+    before = sys.getrefcount(many)
+    yarn.stress(many, out=out)
+    after = sys.getrefcount(many)
+    assert before == after, "large arrays are not held"
+
+
+def test_a_bound_call_reads_the_arrays_as_they_are(yarn, gradients):
+    F = gradients(6)
+    step = yarn.bind(F, outputs=("stress", "tangent"), state=yarn.new_state(6))
+    # A tangent changes the last digits of the stress.
+    np.testing.assert_array_equal(step()["stress"], yarn.evaluate(F, outputs=("stress", "tangent"))["stress"])
+    F *= 1.001
+    np.testing.assert_allclose(step()["stress"], yarn.stress(F), rtol=1e-12, atol=1e-9)
+    backwards = F[::-1]
+    reverse = yarn.bind(backwards, outputs="stress")
+    F *= 1.001
+    np.testing.assert_array_equal(reverse()["stress"], yarn.stress(F[::-1].copy()))
