@@ -57,12 +57,13 @@ fn losses(text: &mut String, load: Load, shares: Shares) {
     let _ = writeln!(
         text,
         "{name}: of the walls' work friction took {:.1} %, viscosity and brake {:.1} %, contact holds {:.1} %; the balance is off by \
-         {:.3} %. Of the fibres' energy hourglass modes hold {:.1} %; {steps} steps",
+         {:.3} %. Of the fibres' energy hourglass modes hold {:.1} %, and {:.2} % is what they move with; {steps} steps",
         percent(friction),
         percent(viscosity),
         percent(contact),
         percent(balance),
         percent(hourglass),
+        percent(kinetic),
     );
     if kinetic > LARGEST_KINETIC {
         let _ = writeln!(

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use super::bound_child;
 use super::printed::{self, Table};
 use crate::common::error::Error;
 
@@ -106,6 +107,7 @@ impl Job<'_> {
         let mut command = Command::new(self.program);
         command.arg(JOB).current_dir(&scratch.0).env("OMP_NUM_THREADS", self.threads.to_string()).stdin(Stdio::null());
         command.stderr(said.try_clone().map_err(file_error)?).stdout(said);
+        bound_child::bind(&mut command);
         let start = Instant::now();
         let child = command.spawn().map_err(|error| Error::Input(format!("{}: {error}", self.program.display())))?;
         let status = wait(child, &file("sta"), progress).map_err(file_error)?;
