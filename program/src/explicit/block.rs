@@ -120,8 +120,7 @@ impl<T: Number> Loops for Forces<'_, T> {
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             stress: &scratch.stress,
-            along: &block.viscosity.along,
-            section: &block.viscosity.section,
+            viscosity: &block.viscosity,
         };
         nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
         block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);

@@ -2,7 +2,7 @@
 
 use super::archive::Archive;
 use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
-use super::lanes::Number;
+use super::lanes::{Number, largest};
 use super::medium::Medium;
 use super::mesh::Mesh;
 
@@ -23,6 +23,8 @@ pub struct Body<T> {
     pub displacement: Vec<[T; 3]>,
     pub velocity: Vec<[T; 3]>,
     pub forces: Vec<[T; 3]>,
+    /// No node has moved farther in the last step.
+    pub farthest: f64,
     /// Reciprocal mass by direction, 0 where the direction is not free.
     mobility: Vec<[T; 3]>,
     pub mass: Vec<f64>,
@@ -49,6 +51,7 @@ impl<T: Number> Body<T> {
             displacement: vec![[T::default(); 3]; count],
             velocity: vec![[T::default(); 3]; count],
             forces: vec![[T::default(); 3]; count],
+            farthest: 0.0,
             mobility: Vec::new(),
             mass: vec![0.0; count],
             supports: Vec::new(),
@@ -98,6 +101,7 @@ impl<T: Number> Body<T> {
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep_all(&mut self.displacement)?;
         archive.keep_all(&mut self.velocity)?;
+        archive.keep(&mut self.farthest)?;
         archive.keep(&mut self.speed)?;
         archive.keep_all(&mut self.intact_elements)?;
         archive.keep(&mut self.deleted)?;
@@ -215,11 +219,15 @@ impl<T: Number> Body<T> {
     /// Displacements at the end of a step.
     pub fn displace(&mut self, step: f64) {
         let dt = T::from_f64(step);
+        let mut fastest = 0.0;
         for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
             for i in 0..3 {
                 u[i] += dt * v[i];
             }
+            fastest = largest(fastest, (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).into());
         }
+        // Rounding of f32 included.
+        self.farthest = step * fastest.sqrt() * (1.0 + 1e-6);
     }
 
     /// What the laws report.
@@ -228,7 +236,7 @@ impl<T: Number> Body<T> {
         for block in &self.blocks {
             for i in 0..block.shapes.n {
                 let density: f64 = block.energies(&media[block.medium], i).iter().sum();
-                internal += density * block.shapes.volume[i].into();
+                internal += density * block.shapes.volume(i);
             }
         }
         internal
@@ -262,7 +270,7 @@ impl<T: Number> Body<T> {
     /// Reference volume of an element.
     pub fn volume(&self, number: usize) -> f64 {
         let (block, i) = self.element(number);
-        block.shapes.volume[i].into()
+        block.shapes.volume(i)
     }
 
     /// How near an element is to failure, which is at 1.

@@ -41,12 +41,22 @@ struct Node {
     number: u32,
     /// Force by depth: the stiffness times the surface that belongs to it.
     stiffness: f64,
-    reference: Vector3<f64>,
     /// The friction force on it, at the end of the last step.
     friction: Vector3<f64>,
-    displacement: Vector3<f64>,
     /// Energy in its penetration and its sticking.
     stored: f64,
+}
+
+/// Where a body's nodes are, and how they got there.
+#[derive(Clone, Copy, Debug)]
+pub struct Nodes<'a, T> {
+    pub reference: &'a [[f64; 3]],
+    pub displacement: &'a [[T; 3]],
+    /// In the last step, and its length.
+    pub velocity: &'a [[T; 3]],
+    pub step: f64,
+    /// No node has moved farther in it.
+    pub farthest: f64,
 }
 
 /// The surface, and what the contact has done so far.
@@ -59,6 +69,8 @@ pub struct Contact {
     pub dissipated: f64,
     /// What nodes had stored that have left.
     released: f64,
+    /// Nothing touches before body and striker have moved so far.
+    clear: f64,
     /// The square of the highest frequency that it adds to a node's.
     pub frequency: f64,
     /// Sum of the stiffnesses of the nodes that are touched.
@@ -67,27 +79,25 @@ pub struct Contact {
 
 impl Contact {
     /// Nodes with a share of the surface take part.
-    pub fn new(striker: Rigid, reference: &[[f64; 3]], surface: &[f64], mass: &[f64]) -> Self {
-        let met = (0..reference.len()).filter(|&i| surface[i] > 0.0);
+    pub fn new(striker: Rigid, surface: &[f64], mass: &[f64]) -> Self {
+        let met = (0..surface.len()).filter(|&i| surface[i] > 0.0);
         let node = |i: usize| Node {
             number: i as u32,
             stiffness: striker.stiffness * surface[i],
-            reference: reference[i].into(),
             friction: Vector3::zeros(),
-            displacement: Vector3::zeros(),
             stored: 0.0,
         };
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
-        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, frequency, touching: 0.0 }
+        Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, frequency, touching: 0.0 }
     }
 
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep(&mut self.nodes)?;
-        let Contact { stored, dissipated, released, touching, .. } = self;
-        [stored, dissipated, released, touching].into_iter().try_for_each(|value| archive.keep(value))
+        let Contact { stored, dissipated, released, clear, touching, .. } = self;
+        [stored, dissipated, released, clear, touching].into_iter().try_for_each(|value| archive.keep(value))
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
@@ -99,14 +109,25 @@ impl Contact {
 
     /// Adds the contact's forces to the nodes' and returns the force on the striker along its direction. `centre` is where it
     /// is on that axis, `moved` how far it has moved in the step that led here.
-    pub fn apply<T: Number>(&mut self, centre: f64, moved: f64, displacement: &[[T; 3]], forces: &mut [[T; 3]]) -> f64 {
+    pub fn apply<T: Number>(&mut self, centre: f64, moved: f64, body: Nodes<'_, T>, forces: &mut [[T; 3]]) -> f64 {
         (self.stored, self.touching) = (self.released, 0.0);
-        let mut total = 0.0;
+        self.clear -= body.farthest + moved.abs();
+        if self.clear > 0.0 {
+            return 0.0;
+        }
+        let (mut total, mut nearest, mut held) = (0.0, f64::INFINITY, false);
         for node in &mut self.nodes {
-            let [x, y, z] = displacement[node.number as usize];
-            let displacement = Vector3::new(x.into(), y.into(), z.into());
-            let (pressing, dissipated) = node.update(&self.striker, centre, moved, displacement);
+            let ([x, y, z], [u, v, w]) =
+                (body.reference[node.number as usize], body.displacement[node.number as usize]);
+            let place = Vector3::new(x + u.into(), y + v.into(), z + w.into());
+            let [x, y, z] = body.velocity[node.number as usize];
+            let step = body.step * Vector3::new(x.into(), y.into(), z.into());
+            let from = self.striker.from(centre, place);
+            let square = from.dot(&from);
+            nearest = if square < nearest { square } else { nearest };
+            let (pressing, dissipated) = node.update(&self.striker, moved, from, step);
             self.dissipated += dissipated;
+            held |= node.friction != Vector3::zeros();
             let Some(pressing) = pressing else { continue };
             self.stored += node.stored;
             self.touching += node.stiffness;
@@ -117,33 +138,41 @@ impl Contact {
             }
             total -= force[self.striker.shape.direction()];
         }
+        // Not above 0 where a node is inside.
+        self.clear = if held { 0.0 } else { nearest.sqrt() - self.striker.radius };
         total
     }
 }
 
+impl Rigid {
+    /// From its axis or its centre, which is here, to a place.
+    #[inline(always)]
+    fn from(&self, centre: f64, place: Vector3<f64>) -> Vector3<f64> {
+        let mut from = place;
+        from[self.shape.direction()] -= centre;
+        if self.shape == Shape::Cylinder {
+            from.z = 0.0;
+        }
+        from
+    }
+}
+
 impl Node {
-    /// Moves the node to its new displacement; returns the force that presses it outwards, if it is inside the striker, and
-    /// what slipping has dissipated.
+    /// The node is here from the striker's axis or centre, after a step like this; returns the force that presses it outwards, if
+    /// it is inside the striker, and what slipping has dissipated.
     ///
     /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
     /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
+    #[inline(always)]
     fn update(
         &mut self,
         striker: &Rigid,
-        centre: f64,
         moved: f64,
-        displacement: Vector3<f64>,
+        from: Vector3<f64>,
+        mut step: Vector3<f64>,
     ) -> (Option<Vector3<f64>>, f64) {
         let direction = striker.shape.direction();
-        let mut step = displacement - self.displacement;
         step[direction] -= moved;
-        self.displacement = displacement;
-        // From the striker's axis or centre.
-        let mut from = self.reference + displacement;
-        from[direction] -= centre;
-        if striker.shape == Shape::Cylinder {
-            from.z = 0.0;
-        }
         let square = from.dot(&from);
         let old = self.friction;
         let had_friction = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
@@ -181,17 +210,39 @@ mod tests {
     /// A node of unit surface and mass, a tenth inside the cylinder, whose axis is at this height.
     const AXIS: f64 = 0.9;
 
-    fn contact() -> Contact {
-        let mut contact = Contact::new(CYLINDER, &[[0.0; 3]], &[1.0], &[1.0]);
-        step(&mut contact, AXIS, 0.0, [0.0; 3]);
-        contact
+    struct Node {
+        contact: Contact,
+        reference: [f64; 3],
+        displacement: [f64; 3],
     }
 
-    /// The force on the node.
-    fn step(contact: &mut Contact, axis: f64, moved: f64, displacement: [f64; 3]) -> [f64; 3] {
-        let mut forces = [[0.0; 3]];
-        contact.apply(axis, moved, &[displacement], &mut forces);
-        forces[0]
+    impl Node {
+        fn new(striker: Rigid, reference: [f64; 3]) -> Node {
+            Node { contact: Contact::new(striker, &[1.0], &[1.0]), reference, displacement: [0.0; 3] }
+        }
+
+        /// The force on the node, and that on the striker.
+        fn step(&mut self, axis: f64, moved: f64, displacement: [f64; 3]) -> ([f64; 3], f64) {
+            let mut forces = [[0.0; 3]];
+            let velocity = [0, 1, 2].map(|i| displacement[i] - self.displacement[i]);
+            let farthest = Vector3::from(velocity).norm();
+            let nodes = Nodes {
+                reference: &[self.reference],
+                displacement: &[displacement],
+                velocity: &[velocity],
+                step: 1.0,
+                farthest,
+            };
+            let on_striker = self.contact.apply(axis, moved, nodes, &mut forces);
+            self.displacement = displacement;
+            (forces[0], on_striker)
+        }
+    }
+
+    fn inside() -> Node {
+        let mut node = Node::new(CYLINDER, [0.0; 3]);
+        node.step(AXIS, 0.0, [0.0; 3]);
+        node
     }
 
     #[track_caller]
@@ -201,45 +252,53 @@ mod tests {
 
     #[test]
     fn what_sticks_is_a_spring() {
-        let mut contact = contact();
-        let force = step(&mut contact, AXIS, 0.0, [0.0, 0.0, 1e-3]);
+        let mut node = inside();
+        let force = node.step(AXIS, 0.0, [0.0, 0.0, 1e-3]).0;
         assert_close(force[1], -10.0);
         assert_close(force[2], -0.1);
-        assert_close(contact.stored, 0.5 * 100.0 * 0.01 + 0.5 * 100.0 * 1e-6);
-        assert_close(contact.dissipated, 0.0);
+        assert_close(node.contact.stored, 0.5 * 100.0 * 0.01 + 0.5 * 100.0 * 1e-6);
+        assert_close(node.contact.dissipated, 0.0);
     }
 
     #[test]
     fn slipping_dissipates_its_work_and_leaving_the_spring_s() {
-        let mut contact = contact();
-        let force = (1..=100).fold([0.0; 3], |_, i| step(&mut contact, AXIS, 0.0, [0.0, 0.0, 0.01 * f64::from(i)]));
+        let mut node = inside();
+        let force = (1..=100).fold([0.0; 3], |_, i| node.step(AXIS, 0.0, [0.0, 0.0, 0.01 * f64::from(i)]).0);
         // Half of the pressing 10, over all but the 0.05 that stretch the spring.
         assert_close(force[2], -5.0);
-        assert_close(contact.dissipated, 5.0 * 0.95);
-        step(&mut contact, AXIS + 1.0, 1.0, [0.0, 0.0, 1.0]);
-        assert_close(contact.stored, 0.0);
-        assert_close(contact.dissipated, 5.0 * 0.95 + 0.5 * 5.0 * 0.05);
+        assert_close(node.contact.dissipated, 5.0 * 0.95);
+        node.step(AXIS + 1.0, 1.0, [0.0, 0.0, 1.0]);
+        assert_close(node.contact.stored, 0.0);
+        assert_close(node.contact.dissipated, 5.0 * 0.95 + 0.5 * 5.0 * 0.05);
     }
 
     #[test]
     fn a_sphere_presses_towards_its_surface() {
         let sphere = Rigid { shape: Shape::Sphere, ..CYLINDER };
         let reference = [0.48, 0.0, 0.64];
-        let mut contact = Contact::new(sphere, &[reference], &[1.0], &[1.0]);
-        let mut forces = [[0.0; 3]];
+        let mut node = Node::new(sphere, reference);
         // A fifth inside, then slid along the sphere's equator.
-        let on_sphere = contact.apply(0.0, 0.0, &[[0.0; 3]], &mut forces);
-        for (found, expected) in forces[0].into_iter().zip([0.6 * 20.0, 0.0, 0.8 * 20.0]) {
+        let (force, on_sphere) = node.step(0.0, 0.0, [0.0; 3]);
+        for (found, expected) in force.into_iter().zip([0.6 * 20.0, 0.0, 0.8 * 20.0]) {
             assert_close(found, expected);
         }
         assert_close(on_sphere, -16.0);
-        let mut forces = [[0.0; 3]];
-        contact.apply(0.0, 0.0, &[[0.0, 1e-3, 0.0]], &mut forces);
-        assert!(f64::abs(forces[0][1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {forces:?}");
+        let (force, _) = node.step(0.0, 0.0, [0.0, 1e-3, 0.0]);
+        assert!(f64::abs(force[1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {force:?}");
     }
 
     #[test]
     fn a_node_on_the_axis_is_pressed_down() {
-        assert_close(step(&mut contact(), 0.0, -AXIS, [0.0; 3])[1], -100.0);
+        assert_close(inside().step(0.0, -AXIS, [0.0; 3]).0[1], -100.0);
+    }
+
+    #[test]
+    fn what_was_far_is_met_when_it_comes_near() {
+        let mut node = Node::new(CYLINDER, [0.0, -1.5, 0.0]);
+        for i in 1..=20 {
+            let ([_, y, _], _) = node.step(-0.01 * f64::from(i), -0.01, [0.0, 0.02 * f64::from(i), 0.0]);
+            let depth = (0.03 * f64::from(i) - 0.5).max(0.0);
+            assert_close(y, -100.0 * depth);
+        }
     }
 }

@@ -12,6 +12,7 @@
 use std::ops::{Add, Sub};
 
 use super::lanes::{LANES, Lanes, Number, cross, dot, load};
+use super::rows::Rows;
 
 /// The modes that are sums with the signs of one coordinate.
 const LINEAR: [usize; 3] = [1, 2, 4];
@@ -50,26 +51,26 @@ fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [
     values
 }
 
-/// The constant data of a block of elements, component-major: nodes and reference shapes.
+/// Rows of a block's constant data: ⅛ ∂ξ_k/∂X_j, entry k + 3j; mode α of X_j, entry α + 4j; reference volume; stiffness against
+/// the hourglass modes; 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
+const INVERSE: usize = 0;
+const HOURGLASS_OF_X: usize = INVERSE + 9;
+const VOLUME: usize = HOURGLASS_OF_X + 12;
+const STIFFNESS: usize = VOLUME + 1;
+const GRADIENTS: usize = STIFFNESS + 1;
+const ROWS: usize = GRADIENTS + 6;
+
+/// The constant data of a block of elements: nodes and reference shapes.
 #[derive(Clone, Debug)]
 pub struct Shapes<T> {
     /// Elements, and the same rounded up to whole lanes; the surplus has no volume.
     pub n: usize,
     pub stride: usize,
     pub nodes: Vec<[u32; 8]>,
+    constants: Rows<T>,
     /// 9 components by columns, or none where they are those of the unit matrix in all elements: the axes that X refers to, the
     /// fibre's first.
-    axes: Vec<T>,
-    /// 9 components by columns: ⅛ ∂ξ_k/∂X_j, entry k + 3j.
-    inverse: Vec<T>,
-    /// 12: mode α of X_j, entry α + 4j.
-    hourglass: Vec<T>,
-    /// 1: reference volume.
-    pub volume: Vec<T>,
-    /// 1: stiffness against the hourglass modes.
-    stiffness: Vec<T>,
-    /// 6: 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
-    gradients: Vec<T>,
+    axes: Rows<T>,
     /// The largest square of a frequency of the hourglass modes, times the density.
     pub hourglass_frequency: f64,
 }
@@ -125,22 +126,17 @@ impl<T: Number> Shapes<T> {
     /// not see otherwise.
     pub fn new(elements: &[[u32; 8]], fibre: &[[f64; 3]], coordinates: &[[f64; 3]], modulus: f64) -> Self {
         let (n, stride) = (elements.len(), elements.len().next_multiple_of(LANES));
-        let array = |components: usize| vec![T::default(); components * stride];
         let mut block = Shapes {
             n,
             stride,
             nodes: elements.to_vec(),
-            axes: Vec::new(),
-            inverse: array(9),
-            hourglass: array(12),
-            volume: array(1),
-            stiffness: array(1),
-            gradients: array(6),
+            constants: Rows::new(ROWS, n),
+            axes: Rows::new(9, fibre.len()),
             hourglass_frequency: 0.0,
         };
         block.nodes.resize(stride, elements.first().copied().unwrap_or_default());
-        if !fibre.is_empty() {
-            block.axes = block.at_rest();
+        for surplus in fibre.len()..block.axes.values.len() / 9 {
+            [0, 4, 8].into_iter().for_each(|diagonal| block.axes.set(diagonal, surplus, T::from_f64(1.0)));
         }
         for (i, element) in elements.iter().enumerate() {
             let corners = element.map(|node| coordinates[node as usize]);
@@ -148,7 +144,7 @@ impl<T: Number> Shapes<T> {
                 Some(&fibre) => {
                     let axes = axes_of(fibre);
                     for (c, entry) in axes.as_flattened().iter().enumerate() {
-                        block.axes[c * stride + i] = T::from_f64(*entry);
+                        block.axes.set(c, i, T::from_f64(*entry));
                     }
                     let along = |x: [f64; 3], axis: [f64; 3]| x[0] * axis[0] + x[1] * axis[1] + x[2] * axis[2];
                     Shape::new(corners.map(|x| axes.map(|axis| along(x, axis))))
@@ -157,69 +153,82 @@ impl<T: Number> Shapes<T> {
             };
             for j in 0..3 {
                 for k in 0..3 {
-                    block.inverse[(k + 3 * j) * stride + i] = T::from_f64(shape.inverse[j][k]);
+                    block.constants.set(INVERSE + k + 3 * j, i, T::from_f64(shape.inverse[j][k]));
                 }
                 for mode in 0..4 {
-                    block.hourglass[(mode + 4 * j) * stride + i] = T::from_f64(shape.hourglass[j][mode]);
+                    block.constants.set(HOURGLASS_OF_X + mode + 4 * j, i, T::from_f64(shape.hourglass[j][mode]));
                 }
             }
             let trace: f64 = shape.gradients[..3].iter().sum();
-            block.volume[i] = T::from_f64(shape.volume);
+            block.constants.set(VOLUME, i, T::from_f64(shape.volume));
             // Half the modulus times Σ|∇N|², as theirs; the modes are not normalised, hence the eighth.
             let stiffness = 0.5 * modulus * trace * shape.volume / 8.0;
-            block.stiffness[i] = T::from_f64(stiffness);
+            block.constants.set(STIFFNESS, i, T::from_f64(stiffness));
             let frequency = stiffness * shape.hourglass_square() / (shape.volume / 8.0);
             block.hourglass_frequency = block.hourglass_frequency.max(frequency);
             for (c, sum) in shape.gradients.into_iter().enumerate() {
-                block.gradients[c * stride + i] = T::from_f64(8.0 * sum);
+                block.constants.set(GRADIENTS + c, i, T::from_f64(8.0 * sum));
             }
         }
         block
     }
 
-    /// F by columns before anything has moved.
+    /// F by columns before anything has moved, component-major.
     pub fn at_rest(&self) -> Vec<T> {
-        if !self.axes.is_empty() {
-            return self.axes.clone();
-        }
         let mut f = vec![T::default(); 9 * self.stride];
-        for diagonal in [0, 4, 8] {
-            f[diagonal * self.stride..(diagonal + 1) * self.stride].fill(T::from_f64(1.0));
+        for i in 0..self.stride {
+            for c in 0..9 {
+                let unit = T::from_f64(if c % 4 == 0 { 1.0 } else { 0.0 });
+                f[c * self.stride + i] = if self.axes.is_empty() { unit } else { self.axes.number(c, i) };
+            }
         }
         f
     }
 
+    /// Reference volume.
+    pub fn volume(&self, element: usize) -> f64 {
+        self.constants.number(VOLUME, element).into()
+    }
+
+    #[inline(always)]
+    pub fn volumes(&self, first: usize) -> Lanes<T> {
+        let [volume] = self.constants.at(VOLUME, first);
+        volume
+    }
+
     /// Length of an element along axis 0: for a prism of this axis, 8 Σ(∂N/∂X)² is 4 over its square.
     pub fn length(&self, element: usize) -> f64 {
-        2.0 / self.gradients[element].into().sqrt()
+        2.0 / self.constants.number(GRADIENTS, element).into().sqrt()
     }
 
     /// An eighth of the element's mass rests on each corner.
     pub fn corner_volume(&self, element: usize) -> f64 {
-        self.volume[element].into() / 8.0
+        self.volume(element) / 8.0
     }
 
     /// F by columns and the hourglass modes of the displacement, all elements.
     #[inline(always)]
     pub fn deform(&self, displacement: &[[T; 3]], f: &mut [T], modal: &mut [T]) {
         let stride = self.stride;
+        let (zero, one) = (Lanes::zero(), Lanes::constant(1.0));
         for group in 0..stride / LANES {
             let first = group * LANES;
             let u = self.gather(displacement, first);
-            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
-            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
+            let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
+            let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
+            if self.axes.is_empty() {
+                (axes[0], axes[4], axes[8]) = (one, one, one);
+            } else {
+                axes = self.axes.at(0, first);
+            }
             for i in 0..3 {
                 let m = modes(u[i]);
                 // The displacement's gradient, row i.
                 let mut h = [Lanes::zero(); 3];
                 for j in 0..3 {
                     h[j] = m[LINEAR[0]] * b[3 * j] + m[LINEAR[1]] * b[3 * j + 1] + m[LINEAR[2]] * b[3 * j + 2];
-                    let axis = if self.axes.is_empty() {
-                        Lanes::constant(if i == j { 1.0 } else { 0.0 })
-                    } else {
-                        Lanes::at(&self.axes, (i + 3 * j) * stride + first)
-                    };
-                    (axis + h[j]).store(f, (i + 3 * j) * stride + first);
+                    (axes[i + 3 * j] + h[j]).store(f, (i + 3 * j) * stride + first);
                 }
                 for mode in 0..4 {
                     let linear = h[0] * r[mode] + h[1] * r[mode + 4] + h[2] * r[mode + 8];
@@ -252,10 +261,9 @@ impl<T: Number> Shapes<T> {
         for group in 0..stride / LANES {
             let first = group * LANES;
             let p: [Lanes<T>; 9] = load(nominal, stride, first);
-            let b: [Lanes<T>; 9] = load(&self.inverse, stride, first);
-            let r: [Lanes<T>; 12] = load(&self.hourglass, stride, first);
-            let [volume] = load(&self.volume, stride, first);
-            let [stiffness] = load(&self.stiffness, stride, first);
+            let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
+            let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
+            let [volume, stiffness] = self.constants.at(VOLUME, first);
             let [intact] = load(intact, stride, first);
             let k = stiffness * intact;
             let zero = Lanes::zero();
@@ -306,7 +314,7 @@ impl<T: Number> Shapes<T> {
             let [u, v, w] = [[f0, f1, f2], [f3, f4, f5], [f6, f7, f8]];
             let [a, b, c] = [cross(v, w), cross(w, u), cross(u, v)];
             let (ratio, square) = (dot(u, a), dot(u, u));
-            let [aa, bb, cc, ab, bc, ca] = load(&self.gradients, self.stride, first);
+            let [aa, bb, cc, ab, bc, ca] = self.constants.at(GRADIENTS, first);
             let [second, third, both] = [dot(c, c), dot(b, b), dot(b, c)];
             let (squares, products) =
                 (aa * dot(a, a) + bb * third + cc * second, ab * dot(a, b) + bc * both + ca * dot(c, a));
@@ -325,7 +333,7 @@ impl<T: Number> Shapes<T> {
     /// The energy in the hourglass modes of an element.
     pub fn hourglass_energy(&self, element: usize, modal: &[T]) -> f64 {
         let square = |c: usize| modal[c * self.stride + element].into().powi(2);
-        0.5 * self.stiffness[element].into() * (0..12).map(square).sum::<f64>()
+        0.5 * self.constants.number(STIFFNESS, element).into() * (0..12).map(square).sum::<f64>()
     }
 }
 
@@ -372,6 +380,7 @@ impl<T: Number> Measures<T> {
 mod tests {
     use super::*;
     use crate::explicit::stress::{Points, nominal_stress};
+    use crate::explicit::viscosity::Viscosity;
 
     const MODULUS: f64 = 0.6;
     /// A skewed brick, and a prism whose upper rear edge has shrunk to nothing.
@@ -405,9 +414,10 @@ mod tests {
 
     fn forces(shapes: &Shapes<f64>, state: &State, stress: [f64; 6]) -> Vec<[f64; 3]> {
         let stress: Vec<f64> = stress.iter().flat_map(|&s| vec![s; shapes.stride]).collect();
-        let (none, intact) = (vec![0.0; 3 * shapes.stride], vec![1.0; shapes.stride]);
+        let intact = vec![1.0; shapes.stride];
         let mut nominal = vec![0.0; 9 * shapes.stride];
-        let point = Points { deformation_gradient: &state.f, stress: &stress, along: &none, section: &none };
+        let viscosity = Viscosity::new(shapes);
+        let point = Points { deformation_gradient: &state.f, stress: &stress, viscosity: &viscosity };
         nominal_stress(shapes.stride, &point, &mut nominal);
         let mut forces = vec![[0.0; 3]; NODES.len()];
         shapes.forces(&nominal, &state.modal, &intact, &mut forces);
@@ -444,7 +454,7 @@ mod tests {
             assert!((axes.determinant() - 1.0).abs() < 1e-15);
             let difference = of(&turned, &b.f, element) - of(&plain, &a.f, element) * axes;
             assert!(difference.norm() < 1e-14, "{difference}");
-            assert!((turned.volume[element] / plain.volume[element] - 1.0).abs() < 1e-14);
+            assert!((turned.volume(element) / plain.volume(element) - 1.0).abs() < 1e-14);
         }
         for (c, d) in a.modal.iter().zip(&b.modal) {
             assert!((c - d).abs() < 1e-14);
@@ -499,6 +509,6 @@ mod tests {
             .zip(&force)
             .map(|(&x, &f)| -(h * nalgebra::Vector3::from(x)).dot(&nalgebra::Vector3::from(f)))
             .sum();
-        assert!((work - shapes.volume[0] * p.dot(&h)).abs() < 1e-13 * work.abs().max(1.0), "{work}");
+        assert!((work - shapes.volume(0) * p.dot(&h)).abs() < 1e-13 * work.abs().max(1.0), "{work}");
     }
 }

@@ -18,6 +18,7 @@ pub mod medium;
 pub mod mesh;
 pub mod mutual_contact;
 pub mod projectile;
+pub mod rows;
 pub mod snapshot;
 pub mod solid;
 pub mod solver;

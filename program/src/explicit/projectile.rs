@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::archive::Archive;
 use super::body::Body;
-use super::contact::Contact;
+use super::contact::{Contact, Nodes};
 use super::lanes::Number;
 
 /// A rigid body that moves along one axis.
@@ -36,11 +36,13 @@ impl Projectile {
         contacts.iter_mut().try_for_each(|contact| contact.archive(archive))
     }
 
-    /// Adds the forces of its contact to those of the bodies.
-    pub fn meet<T: Number>(&mut self, bodies: &mut [Body<T>]) {
+    /// Adds the forces of its contact to those of the bodies, after a step of this length.
+    pub fn meet<T: Number>(&mut self, bodies: &mut [Body<T>], step: f64) {
         let (position, moved) = (self.position, self.moved);
         let meet = |(contact, body): (&mut Contact, &mut Body<T>)| {
-            contact.apply(position, moved, &body.displacement, &mut body.forces)
+            let Body { mesh, displacement, velocity, forces, farthest, .. } = body;
+            let nodes = Nodes { reference: &mesh.nodes, displacement, velocity, step, farthest: *farthest };
+            contact.apply(position, moved, nodes, forces)
         };
         self.force = match (&mut self.contacts[..], bodies) {
             ([contact], [body]) => meet((contact, body)),

@@ -195,7 +195,7 @@ impl<T: Number> Solver<T> {
             contact.apply(&mut self.bodies);
         }
         if let Some(projectile) = &mut self.projectile {
-            projectile.meet(&mut self.bodies);
+            projectile.meet(&mut self.bodies, self.step);
         }
     }
 

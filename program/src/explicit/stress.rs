@@ -3,14 +3,14 @@
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
 use super::lanes::{LANES, Lanes, Number, add, combine, cross, dot, less, load, sub, times};
+use super::viscosity::Viscosity;
 
 /// The deformation gradient and the stresses that P follows from, component-major.
 pub struct Points<'a, T> {
     pub deformation_gradient: &'a [T],
-    /// Cauchy stress, and viscosity's: along the fibre, and of the section.
+    /// Cauchy stress.
     pub stress: &'a [T],
-    pub along: &'a [T],
-    pub section: &'a [T],
+    pub viscosity: &'a Viscosity<T>,
 }
 
 /// The columns of P = σ cof F less viscosity's part: t f1 in the first column, and R̄ times the second and third column
@@ -40,8 +40,7 @@ pub fn nominal_stress<T: Number>(stride: usize, point: &Points<'_, T>, nominal: 
         let first = group * LANES;
         let f = load(point.deformation_gradient, stride, first);
         let stress = load(point.stress, stride, first);
-        let [along] = load(point.along, stride, first);
-        let section = load(point.section, stride, first);
+        let [along, section @ ..] = point.viscosity.stress(first);
         let p = first_piola_kirchhoff(&f, &stress, along, &section);
         for j in 0..3 {
             for i in 0..3 {

@@ -17,19 +17,23 @@ use super::archive::Archive;
 use super::element::{Measures, Shapes};
 use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
+use super::rows::Rows;
+
+/// Rows of the viscosity's history. Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ
+/// with the square Λ of the stretch, and 22 33 23 of the section's R̄. Then Λ and the section's metric.
+const STRESS: usize = 0;
+const STRETCH_SQUARE: usize = STRESS + 4;
+const METRIC: usize = STRETCH_SQUARE + 1;
+/// What the archive keeps; then in the reference placement: the length along the fibre, and the side of a square as large as
+/// the section.
+const LENGTH: usize = METRIC + 3;
+const BREADTH: usize = LENGTH + 1;
+const ROWS: usize = BREADTH + 1;
 
 /// History of the viscosity, by element.
 #[derive(Clone, Debug)]
 pub struct Viscosity<T> {
-    /// Its stress, compression positive: along the fibre as a multiple of F's first column, q_m J/Λ with the square Λ of the
-    /// stretch, and 22 33 23 of the section's R̄.
-    pub along: Vec<T>,
-    pub section: Vec<T>,
-    stretch_square: Vec<T>,
-    metric: Vec<T>,
-    /// In the reference placement: along the fibre, and the side of a square as large as the section.
-    length: Vec<T>,
-    breadth: Vec<T>,
+    history: Rows<T>,
 }
 
 /// Of one direction: coefficients of the rate and of its square, speeds included.
@@ -51,31 +55,34 @@ impl<T: Number> Direction<T> {
 
 impl<T: Number> Viscosity<T> {
     pub fn new(shapes: &Shapes<T>) -> Self {
-        let array = |value: f64| vec![T::from_f64(value); shapes.stride];
-        let (mut length, mut breadth) = (array(1.0), array(1.0));
-        for i in 0..shapes.n {
-            length[i] = T::from_f64(shapes.length(i));
-            breadth[i] = T::from_f64((shapes.volume[i].into() / shapes.length(i)).sqrt());
+        let mut history = Rows::new(ROWS, shapes.n);
+        for i in 0..shapes.stride {
+            for row in [STRETCH_SQUARE, METRIC, METRIC + 1, LENGTH, BREADTH] {
+                history.set(row, i, T::from_f64(1.0));
+            }
         }
-        let mut metric = vec![T::from_f64(1.0); 3 * shapes.stride];
-        metric[2 * shapes.stride..].fill(T::default());
-        let section = vec![T::default(); 3 * shapes.stride];
-        Viscosity { along: array(0.0), section, stretch_square: array(1.0), metric, length, breadth }
+        for i in 0..shapes.n {
+            history.set(LENGTH, i, T::from_f64(shapes.length(i)));
+            history.set(BREADTH, i, T::from_f64((shapes.volume(i) / shapes.length(i)).sqrt()));
+        }
+        Viscosity { history }
     }
 
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        let Viscosity { along, section, stretch_square, metric, .. } = self;
-        [along, section, stretch_square, metric].into_iter().try_for_each(|values| archive.keep_all(values))
+        archive.keep_all(&mut self.history.values)
     }
 
     /// A deleted element resists nothing.
     pub fn remove(&mut self, i: usize) {
-        let stride = self.along.len();
-        for stress in [&mut self.along[i..], &mut self.section[i..]] {
-            stress.iter_mut().step_by(stride).for_each(|component| *component = T::default());
-        }
+        (STRESS..STRESS + 4).for_each(|row| self.history.set(row, i, T::default()));
+    }
+
+    /// The stress along the fibre, and 22 33 23 of the section.
+    #[inline(always)]
+    pub fn stress(&self, first: usize) -> [Lanes<T>; 4] {
+        self.history.at(STRESS, first)
     }
 
     /// The stresses at the end of a step of this length. Returns the energy dissipated in it, by the trapezoidal rule of
@@ -102,16 +109,16 @@ impl<T: Number> Viscosity<T> {
             let active = measures.active(intact, first);
             let ratio = Lanes::at(&measures.volume_ratio, first);
             let square = Lanes::at(&measures.stretch_square, first);
-            let square_old = Lanes::at(&self.stretch_square, first);
+            let [old_t, old_r22, old_r33, old_r23, square_old, old22, old33, old23, length, breadth] =
+                self.history.at(STRESS, first);
             let [c22, c33, c23] = load(&measures.metric, stride, first);
-            let [old22, old33, old23] = load(&self.metric, stride, first);
             let [d22, d33, d23] = [c22 - old22, c33 - old33, c23 - old23];
             // Λ/J² is 1/det C̄, and half of tr C̄⁻¹ΔC̄ the section's growth; of ΔC̄ the rest changes the shape.
             let per_area = square / (ratio * ratio);
             let growth = half * (c33 * d22 + c22 * d33 - two * c23 * d23) * per_area;
             let [e22, e33, e23] = [d22 - growth * c22, d33 - growth * c33, d23 - growth * c23];
-            let along = Direction { length: Lanes::at(&self.length, first), linear: linear_along, quadratic };
-            let across = Direction { length: Lanes::at(&self.breadth, first), linear: linear_across, quadratic };
+            let along = Direction { length, linear: linear_along, quadratic };
+            let across = Direction { length: breadth, linear: linear_across, quadratic };
             let (q_m, damping_along) = along.resist((square_old - square) / (square_old + square) * per_step);
             let (q_t, damping_across) = across.resist((zero - growth * per_step).max(zero));
             let eta = across.length * shape;
@@ -122,23 +129,16 @@ impl<T: Number> Viscosity<T> {
             let r23 = (zero - scale * (q_t * c23 + turning * e23)).only_where(active);
             let t = (density / square * q_m).only_where(active);
             // Stress power ½ (t Λ̇ + R̄ : C̄̇).
-            let [old_r22, old_r33, old_r23] = load(&self.section, stride, first);
-            let work = (t + Lanes::at(&self.along, first)) * (square_old - square)
+            let work = (t + old_t) * (square_old - square)
                 - (r22 + old_r22) * d22
                 - (r33 + old_r33) * d33
                 - two * (r23 + old_r23) * d23;
-            dissipated = dissipated + half * half * work * Lanes::at(&shapes.volume, first);
+            dissipated = dissipated + half * half * work * shapes.volumes(first);
             let spread = Lanes::at(&measures.spread, first);
             let spread_along = Lanes::at(&measures.spread_along, first);
             let damping = damping_along * spread_along + (damping_across + eta) * (spread - spread_along);
             damping.store(&mut measures.damping, first);
-            t.store(&mut self.along, first);
-            square.store(&mut self.stretch_square, first);
-            let (stress, metric) = ([r22, r33, r23], [c22, c33, c23]);
-            for component in 0..3 {
-                stress[component].store(&mut self.section, component * stride + first);
-                metric[component].store(&mut self.metric, component * stride + first);
-            }
+            self.history.store(STRESS, first, [t, r22, r33, r23, square, c22, c33, c23]);
         }
         dissipated.sum()
     }
@@ -184,13 +184,12 @@ mod tests {
             shapes.measure(&columns, &mut measures);
             dissipated = viscosity.advance(&medium(), &shapes, &mut measures, &intact, step);
         }
-        let splat = |array: &[f64], component: usize| Lanes::splat(array[component * stride]);
-        let section = [0, 1, 2].map(|component| splat(&viscosity.section, component));
+        let [along, section @ ..] = viscosity.stress(0);
         let columns: Vec<Lanes<f64>> = to.iter().map(|&entry| Lanes::splat(entry)).collect();
         let columns = columns.try_into().unwrap_or_else(|_| unreachable!("nine entries"));
-        let nominal = first_piola_kirchhoff(&columns, &[Lanes::splat(0.0); 6], splat(&viscosity.along, 0), &section);
+        let nominal = first_piola_kirchhoff(&columns, &[Lanes::splat(0.0); 6], along, &section);
         let nominal = Matrix3::from_fn(|i, j| nominal[j][i].0[0]);
-        (nominal * to.transpose() / to.determinant(), dissipated / shapes.volume[0])
+        (nominal * to.transpose() / to.determinant(), dissipated / shapes.volume(0))
     }
 
     /// The same by the formulas at the head of this file.

@@ -33,6 +33,7 @@ pub struct CaseFile {
     pub speed: Option<Spanned<f64>>,
     pub mass: Option<Spanned<f64>>,
     pub radius: Option<Spanned<f64>>,
+    pub rim: Option<Rim>,
     pub friction: Option<Spanned<f64>>,
     pub yarn_friction: Option<Spanned<f64>>,
     pub contact_stiffness: Option<Spanned<f64>>,
@@ -55,6 +56,14 @@ pub enum Until {
     Stopped,
     /// It has gone through; when it turns back, the run goes on.
     End,
+}
+
+/// How the yarns' ends at the panel's outline are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rim {
+    Fixed,
+    Free,
 }
 
 impl CaseFile {
@@ -83,6 +92,7 @@ impl CaseFile {
             speed: own.speed.or(base.speed),
             mass: own.mass.or(base.mass),
             radius: own.radius.or(base.radius),
+            rim: own.rim.or(base.rim),
             friction: own.friction.or(base.friction),
             yarn_friction: own.yarn_friction.or(base.yarn_friction),
             contact_stiffness: own.contact_stiffness.or(base.contact_stiffness),

@@ -13,3 +13,5 @@ pub mod report;
 pub mod run;
 pub mod scene;
 pub mod summary;
+#[cfg(test)]
+mod tests;

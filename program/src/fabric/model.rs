@@ -31,11 +31,11 @@ pub fn solver<T: Number>(scene: &Scene, case: &Case, panel: &Model) -> Result<So
         mesh.surface.clone_from(&surface.area);
         let zones: Vec<usize> = (0..mesh.elements.len()).map(|element| zone(&case.zones, &mesh, element)).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);
-        contacts.push(Contact::new(case.sphere, &body.mesh.nodes, &body.mesh.surface, &body.mass));
+        contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
         surfaces.push(surface);
         bodies.push(body);
     }
-    hold(panel, &mut bodies);
+    hold(panel, case.held, &mut bodies);
     let mut solver = Solver::new(bodies, media);
     let mass = case.mass * share(scene);
     let start = first_touch(panel, case.sphere.radius);
@@ -72,8 +72,8 @@ fn zone(zones: &Zones, mesh: &Mesh, element: usize) -> usize {
     usize::from(x.hypot(y) > *radius)
 }
 
-/// The rim is fixed; what lies on a plane of symmetry stays there.
-fn hold<T: Number>(panel: &Model, bodies: &mut [Body<T>]) {
+/// What lies on a plane of symmetry stays there; the rim is fixed, or free.
+fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
     let mut support = |nodes: &[u32], free: [bool; 3]| {
         for &node in nodes {
             let node = node as usize;
@@ -83,7 +83,9 @@ fn hold<T: Number>(panel: &Model, bodies: &mut [Body<T>]) {
     };
     support(&panel.on_x, [false, true, true]);
     support(&panel.on_y, [true, false, true]);
-    support(&panel.rim, [false; 3]);
+    if rim {
+        support(&panel.rim, [false; 3]);
+    }
 }
 
 /// The height of a sphere's centre at which it touches the panel from above.

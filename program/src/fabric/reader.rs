@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, SceneFile, Until};
+use super::file::{CaseFile, Rim, SceneFile, Until};
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
@@ -26,7 +26,7 @@ const SAMPLES: f64 = 400.0;
 /// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
 const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
-const MARGIN: f64 = 0.35;
+const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
 
 impl Scene {
@@ -116,6 +116,7 @@ impl Reader<'_> {
             },
             mass: self.positive("mass", &file.mass)?,
             speed: self.positive("speed", &file.speed)?,
+            held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
                 friction: self.source.zero_or_more("yarn-friction", &file.yarn_friction, of_yarns)?,

@@ -21,7 +21,7 @@ const LARGEST_IMBALANCE: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// Of the checkpoints: raised when what they contain changes.
-const CHECKPOINT_FORMAT: u32 = 1;
+const CHECKPOINT_FORMAT: u32 = 2;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

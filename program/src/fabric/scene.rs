@@ -25,6 +25,8 @@ pub struct Case {
     pub sphere: Rigid,
     pub mass: f64,
     pub speed: f64,
+    /// Whether the yarns' ends at the panel's outline are fixed.
+    pub held: bool,
     /// Of yarns with one another.
     pub mutual: Parameters,
     pub control: Control,

@@ -361,7 +361,7 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
     let Striker::Cylinder { cylinder, mass, held } = case.striker else { return 0.0 };
     let top = yarn.mesh.nodes.iter().map(|node| node[1]).fold(0.0, f64::max);
     let start = top + cylinder.radius;
-    let contact = Contact::new(cylinder, &yarn.mesh.nodes, &yarn.mesh.surface, &yarn.mass);
+    let contact = Contact::new(cylinder, &yarn.mesh.surface, &yarn.mass);
     // Half of it strikes the half model.
     solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, vec![contact]));
     start

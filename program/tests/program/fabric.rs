@@ -145,3 +145,17 @@ fn a_sphere_that_turns_back_is_followed_to_the_end() {
     assert!(time.last().is_some_and(|&time| (time - 0.06).abs() < 1e-6), "{time:?}");
     assert!(speed.last().is_some_and(|&speed| speed < 0.0), "{speed:?}");
 }
+
+#[test]
+fn a_panel_whose_rim_is_free_is_taken_along() {
+    let keys = "hyperelastic.properties = { k_ld = 126.0 }";
+    let speed = |name: &str, rim: &str| {
+        let text = scene(20.0, &format!("rim = \"{rim}\"\n{keys}")).replace("speed = 142.0", "speed = 40.0");
+        let history = history(name, &text, 2);
+        let total = column(&history, "total");
+        assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 1e-3), "{total:?}");
+        column(&history, "speed").last().copied().expect("a speed")
+    };
+    let (fixed, free) = (speed("rim-fixed", "fixed"), speed("rim-free", "free"));
+    assert!(fixed < free - 1.0 && free < 40.0, "{fixed} {free}");
+}

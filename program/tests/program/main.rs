@@ -1,10 +1,14 @@
-//! The program, the load paths and the yarn under impact; CalculiX, whose answers are held against load paths.
+//! The program, the load paths and the yarn under impact; CalculiX and Akantu, whose answers are held against them.
 
 #[path = "../../../tests/common/mod.rs"]
 mod common;
 #[path = "../../../tests/common/library.rs"]
 mod library;
+#[allow(dead_code)]
+#[path = "../../../tests/common/python.rs"]
+mod python;
 
+mod akantu;
 mod calculix;
 #[allow(dead_code)] // each test uses its own part
 mod calculix_decks;

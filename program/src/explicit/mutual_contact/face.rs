@@ -23,9 +23,10 @@ pub struct Met {
     pub weights: [f64; 4],
 }
 
-/// Newton's steps, of which a point that has moved little since the last call needs two.
+/// Newton's steps, of which a point that has moved little since the last call needs one or two.
 const STEPS: usize = 8;
-const CLOSE: f64 = 1e-9;
+/// A step this short is the last one: the next would be as long as its square.
+const CLOSE: f64 = 1e-6;
 /// A point that has moved far is followed over this many faces.
 const MOVES: usize = 6;
 /// What lies beyond a surface's border by this is still on it: nodes on a plane of symmetry are, but for rounding.
@@ -66,14 +67,16 @@ pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: Vector)
         }
         if next == before {
             // In the wedge between two faces: the edge is nearest.
-            *place = Place { xi: xi.clamp(-1.0, 1.0), eta: eta.clamp(-1.0, 1.0) };
-            return patch.met(*place, point);
+            break;
         }
         before = *face;
         *face = next;
         *place = Place::default();
     }
-    None
+    // Round a corner where several faces meet, it is that or one of its edges.
+    *place = Place { xi: place.xi.clamp(-1.0, 1.0), eta: place.eta.clamp(-1.0, 1.0) };
+    let beside = Patch::new(surface, before).met(Place::default(), point)?;
+    Patch::new(surface, *face).met_at_edge(*place, point, beside.normal)
 }
 
 /// The bilinear surface through four corners: mean + ξ a + η b + ξη c.
@@ -109,15 +112,19 @@ impl Patch {
         [add(add(minus(self.mean, point), xi, along), eta, self.b), along, across]
     }
 
-    /// Newton's method for the nearest place, without the patch's curvature.
+    /// Newton's method for the nearest place.
     #[inline(always)]
     fn project(&self, place: &mut Place, point: Vector) {
         for _ in 0..STEPS {
             let [away, along, across] = self.at(*place, point);
             let [aa, bb, ab] = [dot(along, along), dot(across, across), dot(along, across)];
             let [x, y] = [-dot(along, away), -dot(across, away)];
-            let determinant = aa * bb - ab * ab;
-            let [d_xi, d_eta] = [(bb * x - ab * y) / determinant, (aa * y - ab * x) / determinant];
+            // The patch is bent by its twist, which counts where that leaves the distance a least one.
+            let bent = ab + dot(away, self.c);
+            let (flat, twisted) = (aa * bb - ab * ab, aa * bb - bent * bent);
+            let (ab, determinant) = if twisted > 0.5 * flat { (bent, twisted) } else { (ab, flat) };
+            let per_determinant = 1.0 / determinant;
+            let [d_xi, d_eta] = [(bb * x - ab * y) * per_determinant, (aa * y - ab * x) * per_determinant];
             // A place far outside is left for another face.
             place.xi = (place.xi + d_xi).clamp(-2.0, 2.0);
             place.eta = (place.eta + d_eta).clamp(-2.0, 2.0);
@@ -125,6 +132,19 @@ impl Patch {
                 return;
             }
         }
+    }
+
+    /// At an edge, where the distance is not along the face's normal: the force is along the distance, so that it turns from one
+    /// face's normal to the other's and does not jump. The point is inside if it is so by the mean of this normal and that beside it.
+    fn met_at_edge(&self, place: Place, point: Vector, beside: Vector) -> Option<Met> {
+        let met = self.met(place, point)?;
+        let [away, ..] = self.at(place, point);
+        let size = dot(away, away).sqrt();
+        if size == 0.0 {
+            return Some(met);
+        }
+        let depth = if dot(away, add(met.normal, 1.0, beside)) < 0.0 { -size } else { size };
+        Some(Met { depth, normal: times(1.0 / depth, away), ..met })
     }
 
     /// None on a face that has shrunk to a line.
@@ -142,5 +162,109 @@ impl Patch {
             0.25 * (1.0 - xi) * (1.0 + eta),
         ];
         (size > 0.0).then(|| Met { depth: dot(away, normal), normal, weights })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explicit::mesh::Mesh;
+
+    fn surface(nodes: &[[f64; 3]], faces: &[[u32; 4]]) -> Surface {
+        let mesh = Mesh {
+            nodes: nodes.to_vec(),
+            elements: Vec::new(),
+            fibre: Vec::new(),
+            elements_per_layer: 1,
+            nodes_per_section: 1,
+            surface: Vec::new(),
+        };
+        Surface::new(&mesh, faces.to_vec(), vec![0; faces.len()])
+    }
+
+    /// Two faces that meet in an edge along axis 2 at this height over their outer edges; outside is where axis 1 points.
+    fn folded(height: f64) -> Surface {
+        let nodes = [-1.0, 0.0, 1.0].map(|x| [0.0, 1.0].map(|z| [x, if x == 0.0 { height } else { 0.0 }, z]));
+        surface(nodes.as_flattened(), &[[0, 1, 3, 2], [2, 3, 5, 4]])
+    }
+
+    fn met(surface: &Surface, from: u32, point: Vector) -> Met {
+        meet(surface, &mut { from }, &mut Place::default(), point).expect("it is over the surface")
+    }
+
+    #[test]
+    fn the_force_at_an_edge_turns_from_one_normal_to_the_other() {
+        // Under a valley and over a ridge the edge is nearest; from either face the answer is the same.
+        for (height, below) in [(-0.4, 0.3), (0.4, -0.3)] {
+            let surface = folded(height);
+            let mut before: Option<Met> = None;
+            for i in -40..=40 {
+                let point = [0.01 * f64::from(i), height - below, 0.4];
+                let [one, other] = [0, 1].map(|face| met(&surface, face, point));
+                assert!((one.depth - other.depth).abs() < 1e-9, "{point:?} {one:?} {other:?}");
+                assert!(dot(minus(one.normal, other.normal), minus(one.normal, other.normal)) < 1e-16);
+                assert!(one.depth.signum() == below.signum(), "{point:?} {one:?}");
+                // The place that the shares of the corners give is that far off, along the normal.
+                if let Some(before) = before {
+                    let turned = minus(one.normal, before.normal);
+                    assert!(dot(turned, turned).sqrt() < 0.04, "{point:?} {turned:?}");
+                    assert!((one.depth - before.depth).abs() < 0.011);
+                }
+                before = Some(one);
+            }
+        }
+    }
+
+    #[test]
+    fn a_point_outside_a_sharp_edge_is_outside() {
+        // The faces' normals are more than a right angle apart: each alone would have the point inside.
+        let surface = folded(3.0);
+        for x in [-0.2, 0.0, 0.2] {
+            let found = met(&surface, 0, [x, 3.2, 0.5]);
+            assert!((found.depth + (x * x + 0.04_f64).sqrt()).abs() < 1e-6, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_corner_of_many_faces_is_met_from_any_of_them() {
+        // A pyramid of four faces whose top is shared, from above and, with the top as a pit, from below.
+        for height in [0.5, -0.5] {
+            let at = |x: usize, z: usize| (3 * x + z) as u32;
+            let mut nodes = Vec::new();
+            for x in [-1.0, 0.0, 1.0] {
+                nodes.extend([-1.0, 0.0, 1.0].map(|z| [x, if x == 0.0 && z == 0.0 { height } else { 0.0 }, z]));
+            }
+            let face = |x: usize, z: usize| [at(x, z), at(x, z + 1), at(x + 1, z + 1), at(x + 1, z)];
+            let surface = surface(&nodes, &[face(0, 0), face(0, 1), face(1, 0), face(1, 1)]);
+            let point = [0.01, 1.4 * height, -0.02];
+            for from in 0..4 {
+                let found = met(&surface, from, point);
+                let away = minus([0.0, height, 0.0], point);
+                assert!((found.depth.abs() - dot(away, away).sqrt()).abs() < 1e-9, "{from} {found:?}");
+                assert!(found.depth.signum() == -height.signum(), "{from} {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_place_on_a_twisted_face_is_found() {
+        let nodes = [[0.0, 0.0, 0.0], [0.3, 0.5, 1.1], [1.6, -0.4, 1.0], [1.0, 0.5, 0.1]];
+        let surface = surface(&nodes, &[[0, 1, 2, 3]]);
+        let patch = Patch::new(&surface, 0);
+        let distance = |place: Place, point: Vector| {
+            let [away, ..] = patch.at(place, point);
+            dot(away, away).sqrt()
+        };
+        for height in [-0.3, -0.05, 0.05, 0.3] {
+            let mut least = f64::INFINITY;
+            let point = [0.7, 0.15 + height, 0.5];
+            for (i, j) in (0..=400).flat_map(|i| (0..=400).map(move |j| (i, j))) {
+                let place = Place { xi: -1.0 + f64::from(i) / 200.0, eta: -1.0 + f64::from(j) / 200.0 };
+                least = least.min(distance(place, point));
+            }
+            let found = met(&surface, 0, point);
+            assert!(found.depth.abs() <= least && found.depth.abs() > least - 1e-3, "{found:?} {least}");
+            assert!(found.depth.signum() == -height.signum(), "{found:?}");
+        }
     }
 }

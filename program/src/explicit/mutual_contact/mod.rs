@@ -11,17 +11,20 @@
 #![expect(clippy::needless_range_loop, reason = "loops over the components of vectors")]
 
 mod face;
+mod motion;
+mod pair;
 mod search;
 mod surface;
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
 use super::body::Body;
 use super::lanes::Number;
-use super::vector::{Vector, add, dot, times};
+use super::vector::Vector;
 use face::Place;
+use motion::Motion;
+use pair::{OnFace, Pair};
 use search::{Grid, Near};
 pub use surface::{Surface, outer_faces};
 
@@ -56,47 +59,14 @@ impl Parameters {
     }
 }
 
-/// A node near a face of another body.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Pair {
-    node: u32,
-    /// The other body, and the face of it that the node was last nearest to.
-    master: u32,
-    face: u32,
-    place: Place,
-    /// Force by depth.
-    stiffness: f64,
-    /// The node cannot touch the face before this much of motion.
-    free_until: f64,
-    /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but past an
-    /// edge or an open end.
-    depth: f64,
-    uncounted: f64,
-    /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the face.
-    known: bool,
-    /// The friction force on the node, at the end of the last step.
-    friction: Vector,
-    /// Energy in its penetration and its sticking.
-    stored: f64,
-    /// What the node exerts on the face: none where its stiffness is 0.
-    on_face: OnFace,
-}
-
-/// A force on the corners of a face.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct OnFace {
-    force: Vector,
-    weights: [f64; 4],
-    stiffness: f64,
-}
-
 /// What belongs to a body.
 #[derive(Debug, Default)]
 struct Side {
     surface: Surface,
-    /// Its nodes near the faces of others.
+    /// Its nodes near the faces of others, and the numbers of those that touch in this step.
     pairs: Vec<Pair>,
-    /// Which pairs have it as their master: body and number.
+    touched: Vec<u32>,
+    /// Which touched pairs have it as their master: body and number.
     incoming: Vec<(u32, u32)>,
     /// Of each node, the stiffnesses that act on it.
     touching: Vec<f64>,
@@ -110,8 +80,7 @@ struct Side {
 pub struct MutualContact {
     parameters: Parameters,
     sides: Vec<Side>,
-    /// How far something may have moved since the last search; none has been made where this is not finite.
-    moved: f64,
+    motion: Motion,
     pub searches: u64,
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
@@ -124,6 +93,7 @@ pub struct MutualContact {
 impl MutualContact {
     /// Of as many surfaces as there are bodies.
     pub fn new(parameters: Parameters, surfaces: Vec<Surface>) -> Self {
+        let motion = Motion::new(&surfaces.iter().collect::<Vec<_>>());
         let sides = surfaces.into_iter().map(|surface| Side {
             touching: vec![0.0; surface.area.len()],
             surface,
@@ -132,7 +102,7 @@ impl MutualContact {
         MutualContact {
             parameters,
             sides: sides.collect(),
-            moved: f64::INFINITY,
+            motion,
             searches: 0,
             stored: 0.0,
             dissipated: 0.0,
@@ -145,12 +115,12 @@ impl MutualContact {
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
         archive.keep(&mut self.searches)?;
-        let MutualContact { moved, stored, dissipated, released, frequency, .. } = self;
-        [moved, stored, dissipated, released, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
+        self.motion.archive(archive)?;
+        let MutualContact { stored, dissipated, released, frequency, .. } = self;
+        [stored, dissipated, released, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
         for side in &mut self.sides {
             side.surface.archive(archive)?;
             archive.keep(&mut side.pairs)?;
-            archive.keep(&mut side.incoming)?;
             let Side { stored, dissipated, frequency, .. } = side;
             [stored, dissipated, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
         }
@@ -159,11 +129,9 @@ impl MutualContact {
 
     /// Adds the forces of the contact to those of the bodies.
     pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        let follow = |(side, body): (&mut Side, &Body<T>)| side.surface.follow(body);
-        let farthest: Vec<f64> = self.sides.par_iter_mut().zip(&*bodies).map(follow).collect();
-        // Two that move towards each other.
-        self.moved += 2.0 * farthest.into_iter().fold(0.0, f64::max);
-        if self.moved >= self.parameters.margin || !self.moved.is_finite() {
+        self.sides.par_iter_mut().zip(&*bodies).for_each(|(side, body)| side.surface.follow(body));
+        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
+        if self.motion.advance(&surfaces, self.parameters.margin) {
             self.search();
         }
         self.press(bodies);
@@ -216,40 +184,43 @@ impl MutualContact {
                 }
             }
             side.pairs = pairs;
-            side.incoming.clear();
         }
-        for body in 0..self.sides.len() {
-            for number in 0..self.sides[body].pairs.len() {
-                let master = self.sides[body].pairs[number].master as usize;
-                self.sides[master].incoming.push((body as u32, number as u32));
-            }
-        }
-        self.moved = 0.0;
+        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
+        self.motion.restart(&surfaces, self.parameters.margin);
         self.searches += 1;
     }
 
     /// Presses the nodes of every body out of the others' faces.
     fn press<T: Number>(&mut self, bodies: &mut [Body<T>]) {
-        let (parameters, moved) = (self.parameters, self.moved);
-        let mut taken: Vec<(Vec<Pair>, Vec<f64>)> = self
-            .sides
-            .iter_mut()
-            .map(|side| (std::mem::take(&mut side.pairs), std::mem::take(&mut side.touching)))
-            .collect();
+        struct Work {
+            pairs: Vec<Pair>,
+            touched: Vec<u32>,
+            touching: Vec<f64>,
+        }
+        let taken = self.sides.iter_mut().map(|side| Work {
+            pairs: std::mem::take(&mut side.pairs),
+            touched: std::mem::take(&mut side.touched),
+            touching: std::mem::take(&mut side.touching),
+        });
+        let mut taken: Vec<Work> = taken.collect();
+        let (parameters, motion) = (self.parameters, &self.motion);
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        let press = |number: usize, pairs: &mut [Pair], touching: &mut [f64], body: &mut Body<T>| {
+        let press = |(number, (work, body)): (usize, (&mut Work, &mut Body<T>))| {
+            let Work { pairs, touched, touching } = work;
             touching.fill(0.0);
+            touched.clear();
             let (mut stored, mut dissipated) = (0.0, 0.0);
-            let own = surfaces[number];
-            for pair in pairs {
-                if moved < pair.free_until {
+            for place in 0..pairs.len() {
+                let pair = &mut pairs[place];
+                if pair.is_clear(motion) {
                     continue;
                 }
-                let (node, master) = (pair.node as usize, surfaces[pair.master as usize]);
-                let (force, loss) = pair.update(own, master, parameters, moved);
+                let (force, loss) = pair.update(number, &surfaces, parameters, motion);
                 dissipated += loss;
                 stored += pair.stored;
                 let Some(force) = force else { continue };
+                touched.push(place as u32);
+                let node = pair.node as usize;
                 touching[node] += pair.stiffness;
                 for i in 0..3 {
                     body.forces[node][i] += T::from_f64(force[i]);
@@ -257,12 +228,19 @@ impl MutualContact {
             }
             (stored, dissipated)
         };
-        let work = taken.par_iter_mut().zip(bodies).enumerate();
-        let energies: Vec<(f64, f64)> =
-            work.map(|(number, ((pairs, touching), body))| press(number, pairs, touching, body)).collect();
-        for ((side, (pairs, touching)), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
-            (side.pairs, side.touching, side.stored) = (pairs, touching, stored);
+        let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
+        for ((side, work), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
+            Work { pairs: side.pairs, touched: side.touched, touching: side.touching } = work;
+            side.incoming.clear();
+            side.stored = stored;
             side.dissipated += dissipated;
+        }
+        for body in 0..self.sides.len() {
+            for place in 0..self.sides[body].touched.len() {
+                let pair = self.sides[body].touched[place];
+                let master = self.sides[body].pairs[pair as usize].master as usize;
+                self.sides[master].incoming.push((body as u32, pair));
+            }
         }
     }
 
@@ -276,9 +254,6 @@ impl MutualContact {
             for &(other, pair) in &side.incoming {
                 let pair = &sides[other as usize].pairs[pair as usize];
                 let OnFace { force, weights, stiffness } = pair.on_face;
-                if stiffness == 0.0 {
-                    continue;
-                }
                 for (weight, corner) in weights.into_iter().zip(side.surface.faces[pair.face as usize]) {
                     let corner = corner as usize;
                     touching[corner] += weight.abs() * stiffness;
@@ -315,81 +290,6 @@ impl MutualContact {
             released += on_it.map(Pair::leave).sum::<f64>();
         }
         self.released += released;
-    }
-}
-
-impl Pair {
-    /// Looks where the node is on the face; returns the force on it, if it is inside, and what slipping has dissipated. `moved` is
-    /// how far something may have moved since the last search.
-    ///
-    /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
-    /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
-    fn update(
-        &mut self,
-        own: &Surface,
-        master: &Surface,
-        Parameters { friction, deepest, .. }: Parameters,
-        moved: f64,
-    ) -> (Option<Vector>, f64) {
-        let node = self.node as usize;
-        let old = self.friction;
-        if self.stiffness == 0.0 {
-            return (None, 0.0);
-        }
-        let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
-        let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
-        let Some(met) = inside else {
-            // Beyond the surface's border it may touch an edge at once.
-            self.free_until = met.map_or(0.0, |met| moved - met.depth);
-            // What the sticking held is lost; what the depth held has been given back, unless the face is lost as well.
-            let sticking = 0.5 * dot(old, old) / self.stiffness;
-            let lost = if met.is_some_and(|met| met.depth <= 0.0) { sticking } else { self.stored };
-            (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
-            (self.depth, self.uncounted) = (0.0, 0.0);
-            self.known = met.is_some_and(|met| met.depth <= 0.0);
-            return (None, lost);
-        };
-        let mut slip = own.moved[node];
-        let corners = master.faces[self.face as usize];
-        for k in 0..4 {
-            slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
-        }
-        let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
-        let force = self.stiffness * self.depth;
-        let trial = add(old, -self.stiffness, slip);
-        let trial = add(trial, -dot(trial, met.normal), met.normal);
-        let rough = if master.wall { 0.0 } else { friction };
-        let (size, limit) = (dot(trial, trial).sqrt(), rough * force);
-        self.friction = if size > limit { times(limit / size, trial) } else { trial };
-        let per_stiffness = 0.5 / self.stiffness;
-        let (held, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
-        let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
-        self.stored = 0.5 * force * self.depth + after;
-        let total = add(self.friction, force, met.normal);
-        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
-        (Some(total), lost + work - (after - held))
-    }
-
-    /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
-    /// more: what it jumps by, since another face is nearer now, does not count, and brings no energy in. Returns the energy that
-    /// is lost where less depth is left than counted.
-    fn deepen(&mut self, depth: f64, slip: f64) -> f64 {
-        let before = if self.known { self.depth + self.uncounted } else { depth };
-        let expected = self.depth + (depth - before).clamp(-slip, slip);
-        let least = (self.depth - slip).max(0.0);
-        self.depth = expected.clamp(0.0, depth);
-        self.uncounted = depth - self.depth;
-        self.known = true;
-        0.5 * self.stiffness * (least * least - self.depth * self.depth).max(0.0)
-    }
-
-    /// Lets go for good; returns what was stored.
-    fn leave(&mut self) -> f64 {
-        self.on_face = OnFace::default();
-        self.friction = [0.0; 3];
-        self.stiffness = 0.0;
-        self.known = false;
-        std::mem::take(&mut self.stored)
     }
 }
 

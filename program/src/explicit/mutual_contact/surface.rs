@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
+use super::motion::Bounds;
 use crate::explicit::archive::Archive;
 use crate::explicit::body::Body;
 use crate::explicit::lanes::Number;
 use crate::explicit::mesh::Mesh;
-use crate::explicit::vector::{dot, minus};
+use crate::explicit::vector::minus;
 
 /// No face.
 pub const NONE: u32 = u32::MAX;
@@ -26,12 +27,22 @@ pub struct Surface {
     pub wall: bool,
     /// The nodes of the faces in their order.
     pub nodes: Vec<u32>,
-    /// Of all nodes of the body: their share of the faces, as the size of a sum of vectors, so that on an edge what faces another
-    /// body counts once; where they are, and how they have moved in the last step.
+    /// Of all nodes of the body, inner ones included, which have no share: their share of the faces, as the size of a sum of
+    /// vectors, so that on an edge what faces another body counts once; where they are, and how they have moved in the last step.
     pub area: Vec<f64>,
     pub positions: Vec<[f64; 3]>,
     pub moved: Vec<[f64; 3]>,
+    /// How many slabs the body is cut into whose motion is followed, in which of them nodes and faces are, and how
+    /// the nodes of each have moved in the last step.
+    pub slabs: usize,
+    slab_of_node: Vec<u16>,
+    slab_of_face: Vec<u16>,
+    pub moved_by_slab: Vec<Bounds>,
 }
+
+/// A slab is as wide as this many of the longest faces; no body has more slabs than this.
+const FACES_IN_SLAB: f64 = 2.0;
+const MOST_SLABS: f64 = 1024.0;
 
 impl Surface {
     /// These faces of a body's elements.
@@ -56,11 +67,16 @@ impl Surface {
         let mut nodes: Vec<u32> = faces.iter().flatten().copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
+        let (slabs, slab_of_node) = cut(&mesh.nodes, &nodes, &faces);
         Surface {
             gone: vec![false; faces.len()],
             wall: false,
             positions: mesh.nodes.clone(),
             moved: vec![[0.0; 3]; mesh.nodes.len()],
+            slabs,
+            slab_of_face: faces.iter().map(|face| slab_of_node[face[0] as usize]).collect(),
+            slab_of_node,
+            moved_by_slab: vec![Bounds::EMPTY; slabs],
             faces,
             elements,
             neighbours,
@@ -78,17 +94,41 @@ impl Surface {
         archive.keep_all(&mut self.moved)
     }
 
-    /// Takes the nodes' places over; returns how far the one has moved that has moved farthest.
-    pub fn follow<T: Number>(&mut self, body: &Body<T>) -> f64 {
-        let mut farthest: f64 = 0.0;
+    /// Takes the nodes' places over.
+    pub fn follow<T: Number>(&mut self, body: &Body<T>) {
+        self.moved_by_slab.fill(Bounds::EMPTY);
         for &node in &self.nodes {
             let node = node as usize;
             let now = body.position(node);
             let moved = minus(now, self.positions[node]);
             (self.positions[node], self.moved[node]) = (now, moved);
-            farthest = farthest.max(dot(moved, moved));
+            self.moved_by_slab[self.slab_of_node[node] as usize].take(moved);
         }
-        farthest.sqrt()
+    }
+
+    /// Where the nodes of each slab and the corners of its faces are.
+    pub fn places_by_slab(&self) -> Vec<Bounds> {
+        let mut places = vec![Bounds::EMPTY; self.slabs];
+        for &node in &self.nodes {
+            places[self.slab_of_node[node as usize] as usize].take(self.positions[node as usize]);
+        }
+        for face in (0..self.faces.len()).filter(|&face| !self.gone[face]) {
+            for corner in self.faces[face] {
+                places[self.slab_of_face[face] as usize].take(self.positions[corner as usize]);
+            }
+        }
+        places
+    }
+
+    /// The slabs of a node and of a face.
+    #[inline(always)]
+    pub fn slab_of_node(&self, node: u32) -> u16 {
+        self.slab_of_node[node as usize]
+    }
+
+    #[inline(always)]
+    pub fn slab_of_face(&self, face: u32) -> u16 {
+        self.slab_of_face[face as usize]
     }
 
     /// Takes out the faces of deleted elements and the nodes without any.
@@ -98,6 +138,23 @@ impl Surface {
         }
         self.nodes.retain(|&node| !body.is_loose(node as usize));
     }
+}
+
+/// Cuts a body into slabs along the axis in which its surface is largest: their number, and that of each node.
+fn cut(places: &[[f64; 3]], nodes: &[u32], faces: &[[u32; 4]]) -> (usize, Vec<u16>) {
+    let extent = |corners: &[u32], axis: usize| {
+        let along = corners.iter().map(|&node| places[node as usize][axis]);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        [low, (high - low).max(0.0)]
+    };
+    let sizes = [0, 1, 2].map(|axis| extent(nodes, axis)[1]);
+    let axis = (0..3).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
+    let longest = faces.iter().map(|face| extent(face, axis)[1]).fold(0.0, f64::max);
+    let width = (FACES_IN_SLAB * longest).max(sizes[axis] / MOST_SLABS);
+    let last = if width > 0.0 { (sizes[axis] / width) as usize } else { 0 };
+    let low = extent(nodes, axis)[0];
+    let slab = |place: &[f64; 3]| if last > 0 { (((place[axis] - low) / width) as usize).min(last) as u16 } else { 0 };
+    (last + 1, places.iter().map(slab).collect())
 }
 
 /// The faces that one element alone has, counter-clockwise as seen from outside, with their elements.

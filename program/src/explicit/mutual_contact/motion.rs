@@ -1,0 +1,179 @@
+//! How far parts of bodies have moved against one another: what was apart cannot touch before that is as much as the gap.
+//!
+//! A body is cut into slabs along the direction in which it is largest, at rest. A face's corners lie in its slab and the ones beside
+//! it, and so do those of the faces around it. In every step each slab has a box around its nodes' motions; two slabs have
+//! moved against each other by no more than what is between the farthest ends of their boxes. A panel that goes down as one has
+//! moved far and its yarns hardly against each other.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::surface::Surface;
+use crate::explicit::archive::Archive;
+use crate::explicit::vector::{Vector, dot, minus};
+
+/// Slabs that are closer than this many times the margin are followed in pairs, all others by the fastest.
+const NEAR: f64 = 8.0;
+/// Pairs that a thread takes at a time.
+const SHARE: usize = 8192;
+
+/// A box that contains vectors.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    low: Vector,
+    high: Vector,
+}
+
+impl Bounds {
+    pub const EMPTY: Bounds = Bounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+
+    #[inline(always)]
+    pub fn take(&mut self, vector: Vector) {
+        for i in 0..3 {
+            self.low[i] = if vector[i] < self.low[i] { vector[i] } else { self.low[i] };
+            self.high[i] = if vector[i] > self.high[i] { vector[i] } else { self.high[i] };
+        }
+    }
+
+    #[inline(always)]
+    fn with(mut self, other: Bounds) -> Bounds {
+        for i in 0..3 {
+            self.low[i] = self.low[i].min(other.low[i]);
+            self.high[i] = self.high[i].max(other.high[i]);
+        }
+        self
+    }
+
+    /// The largest difference of a vector in one and a vector in the other; negative infinity where one is empty.
+    #[inline(always)]
+    fn largest_difference(&self, other: &Bounds) -> f64 {
+        let a = minus(self.high, other.low);
+        let b = minus(other.high, self.low);
+        let mut farthest = [0.0; 3];
+        for i in 0..3 {
+            farthest[i] = if a[i] > b[i] { a[i] } else { b[i] };
+        }
+        if farthest[0] < 0.0 { f64::NEG_INFINITY } else { dot(farthest, farthest).sqrt() }
+    }
+
+    /// How far two boxes are from each other.
+    fn gap(&self, other: &Bounds) -> f64 {
+        let mut apart = [0.0; 3];
+        for i in 0..3 {
+            apart[i] = (other.low[i] - self.high[i]).max(self.low[i] - other.high[i]).max(0.0);
+        }
+        dot(apart, apart).sqrt()
+    }
+}
+
+/// Two slabs by their numbers, and how far they may have moved against each other since the last search.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Approach {
+    slabs: [u32; 2],
+    moved: f64,
+}
+
+/// The motion of all bodies' slabs since the last search.
+#[derive(Debug, Default)]
+pub struct Motion {
+    /// The number of each body's first slab, and of all slabs.
+    first: Vec<u32>,
+    /// In the order of their slabs, of which the first is the lower one; where those of each begin.
+    approaches: Vec<Approach>,
+    starts: Vec<u32>,
+    /// By slabs that are far from each other.
+    far: f64,
+}
+
+impl Motion {
+    pub fn new(surfaces: &[&Surface]) -> Motion {
+        let mut first = vec![0];
+        for surface in surfaces {
+            first.push(first[first.len() - 1] + surface.slabs as u32);
+        }
+        let starts = vec![0; first[first.len() - 1] as usize + 1];
+        // Before the first search.
+        Motion { first, approaches: Vec::new(), starts, far: f64::INFINITY }
+    }
+
+    /// # Errors
+    /// The archive's.
+    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        archive.keep(&mut self.approaches)?;
+        archive.keep_all(&mut self.starts)?;
+        archive.keep(&mut self.far)
+    }
+
+    /// Adds the motion of a step. Returns whether what was farther than the margin may touch now.
+    pub fn advance(&mut self, surfaces: &[&Surface], margin: f64) -> bool {
+        let mut moved: Vec<Bounds> = Vec::with_capacity(self.starts.len());
+        let mut all = Bounds::EMPTY;
+        for surface in surfaces {
+            let own = &surface.moved_by_slab;
+            for slab in 0..own.len() {
+                let (before, after) = (slab.saturating_sub(1), (slab + 1).min(own.len() - 1));
+                moved.push(own[before].with(own[slab]).with(own[after]));
+                all = all.with(own[slab]);
+            }
+        }
+        self.far += all.largest_difference(&all).max(0.0);
+        let advance = |approach: &mut Approach| {
+            let [a, b] = approach.slabs.map(|slab| &moved[slab as usize]);
+            approach.moved += a.largest_difference(b).max(0.0);
+            approach.moved >= margin
+        };
+        let advance_all = |part: &mut [Approach]| part.iter_mut().fold(false, |far, approach| advance(approach) | far);
+        let parts = self.approaches.par_chunks_mut(SHARE).map(advance_all);
+        parts.reduce(|| false, |a, b| a | b) | (self.far >= NEAR * margin)
+    }
+
+    /// Begins anew from where the bodies are.
+    pub fn restart(&mut self, surfaces: &[&Surface], margin: f64) {
+        let mut places: Vec<(Bounds, u32)> = Vec::with_capacity(self.starts.len());
+        for (body, surface) in surfaces.iter().enumerate() {
+            places.extend(surface.places_by_slab().into_iter().map(|place| (place, body as u32)));
+        }
+        // The boxes in the order of their lower ends: those near a box follow it, until one begins beyond its upper end.
+        let mut order: Vec<u32> = (0..places.len() as u32).collect();
+        order.sort_by(|&a, &b| places[a as usize].0.low[0].total_cmp(&places[b as usize].0.low[0]));
+        let (places, order) = (&places[..], &order[..]);
+        let near = |place: usize| {
+            let (own, body) = places[order[place] as usize];
+            let end = own.high[0] + NEAR * margin;
+            let following = order[place + 1..].iter().take_while(move |&&slab| places[slab as usize].0.low[0] <= end);
+            let near = following.filter(|&&slab| {
+                let (other, of) = &places[slab as usize];
+                *of != body && own.gap(other) <= NEAR * margin
+            });
+            near.map(|&slab| [slab.min(order[place]), slab.max(order[place])]).collect::<Vec<_>>()
+        };
+        let found: Vec<Vec<[u32; 2]>> = (0..order.len()).into_par_iter().map(near).collect();
+        let mut slabs = found.concat();
+        slabs.sort_unstable();
+        self.approaches = slabs.into_iter().map(|slabs| Approach { slabs, moved: 0.0 }).collect();
+        self.far = 0.0;
+        let slabs = self.starts.len() - 1;
+        self.starts.clear();
+        self.starts.push(0);
+        for slab in 0..slabs as u32 {
+            let from = self.starts[slab as usize];
+            let own = self.approaches[from as usize..].partition_point(|approach| approach.slabs[0] == slab);
+            self.starts.push(from + own as u32);
+        }
+    }
+
+    /// The number of two bodies' slabs among those that are followed; `None` where they were far from each other.
+    pub fn between(&self, [a, b]: [usize; 2], [in_a, in_b]: [u16; 2]) -> Option<u32> {
+        let (a, b) = (self.first[a] + u32::from(in_a), self.first[b] + u32::from(in_b));
+        let (lower, upper) = (a.min(b), a.max(b));
+        let [start, end] = [0, 1].map(|i| self.starts[lower as usize + i] as usize);
+        let found = self.approaches[start..end].binary_search_by_key(&upper, |approach| approach.slabs[1]);
+        found.ok().map(|place| (start + place) as u32)
+    }
+
+    /// How far the two have moved against each other.
+    #[inline(always)]
+    pub fn moved(&self, number: u32) -> f64 {
+        self.approaches[number as usize].moved
+    }
+}

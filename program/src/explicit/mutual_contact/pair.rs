@@ -1,0 +1,132 @@
+//! A node and the face of another body that it is near: how deep it is, what presses it out, and what rubs on it.
+
+use serde::{Deserialize, Serialize};
+
+use super::Parameters;
+use super::face::{self, Place};
+use super::motion::Motion;
+use super::surface::Surface;
+use crate::explicit::vector::{Vector, add, dot, times};
+
+/// A node near a face of another body.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Pair {
+    pub node: u32,
+    /// The other body, and the face of it that the node was last nearest to.
+    pub master: u32,
+    pub face: u32,
+    pub place: Place,
+    /// Force by depth.
+    pub stiffness: f64,
+    /// The node cannot touch before its slab and the face's, by this number of [`Motion`]'s, have moved
+    /// so far against each other.
+    pub slabs: u32,
+    pub free_until: f64,
+    /// How deep the node is, and what of its depth does not count: it has not come through this face by so much, but past an
+    /// edge or an open end.
+    pub depth: f64,
+    pub uncounted: f64,
+    /// Whether it touches the face, or was outside when it was last looked at: if neither, it has not come through the face.
+    pub known: bool,
+    /// The friction force on the node, at the end of the last step.
+    pub friction: Vector,
+    /// Energy in its penetration and its sticking.
+    pub stored: f64,
+    /// What the node exerts on the face: none where its stiffness is 0.
+    pub on_face: OnFace,
+}
+
+/// A force on the corners of a face.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct OnFace {
+    pub force: Vector,
+    pub weights: [f64; 4],
+    pub stiffness: f64,
+}
+
+impl Pair {
+    /// Looks where the node of body `number` is on the face; returns the force on it, if it is inside, and what slipping has
+    /// dissipated.
+    ///
+    /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
+    /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
+    pub fn update(
+        &mut self,
+        number: usize,
+        surfaces: &[&Surface],
+        Parameters { friction, deepest, .. }: Parameters,
+        motion: &Motion,
+    ) -> (Option<Vector>, f64) {
+        let (own, master) = (surfaces[number], surfaces[self.master as usize]);
+        let node = self.node as usize;
+        let old = self.friction;
+        if self.stiffness == 0.0 {
+            return (None, 0.0);
+        }
+        let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
+        let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
+        let Some(met) = inside else {
+            // Beyond the surface's border it may touch an edge at once.
+            self.free_until = 0.0;
+            let slabs = [own.slab_of_node(self.node), master.slab_of_face(self.face)];
+            let between = motion.between([number, self.master as usize], slabs);
+            if let (Some(met), Some(between)) = (met, between) {
+                (self.slabs, self.free_until) = (between, motion.moved(between) - met.depth);
+            }
+            // What the sticking held is lost; what the depth held has been given back, unless the face is lost as well.
+            let sticking = 0.5 * dot(old, old) / self.stiffness;
+            let lost = if met.is_some_and(|met| met.depth <= 0.0) { sticking } else { self.stored };
+            (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
+            (self.depth, self.uncounted) = (0.0, 0.0);
+            self.known = met.is_some_and(|met| met.depth <= 0.0);
+            return (None, lost);
+        };
+        let mut slip = own.moved[node];
+        let corners = master.faces[self.face as usize];
+        for k in 0..4 {
+            slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
+        }
+        let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
+        let force = self.stiffness * self.depth;
+        let trial = add(old, -self.stiffness, slip);
+        let trial = add(trial, -dot(trial, met.normal), met.normal);
+        let rough = if master.wall { 0.0 } else { friction };
+        let (size, limit) = (dot(trial, trial).sqrt(), rough * force);
+        self.friction = if size > limit { times(limit / size, trial) } else { trial };
+        let per_stiffness = 0.5 / self.stiffness;
+        let (held, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
+        let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
+        self.stored = 0.5 * force * self.depth + after;
+        let total = add(self.friction, force, met.normal);
+        self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
+        (Some(total), lost + work - (after - held))
+    }
+
+    /// Whether nothing can have changed since it was last looked at.
+    #[inline(always)]
+    pub fn is_clear(&self, motion: &Motion) -> bool {
+        self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until
+    }
+
+    /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
+    /// more: what it jumps by, since another face is nearer now, does not count, and brings no energy in. Returns the energy that
+    /// is lost where less depth is left than counted.
+    fn deepen(&mut self, depth: f64, slip: f64) -> f64 {
+        let before = if self.known { self.depth + self.uncounted } else { depth };
+        let expected = self.depth + (depth - before).clamp(-slip, slip);
+        let least = (self.depth - slip).max(0.0);
+        self.depth = expected.clamp(0.0, depth);
+        self.uncounted = depth - self.depth;
+        self.known = true;
+        0.5 * self.stiffness * (least * least - self.depth * self.depth).max(0.0)
+    }
+
+    /// Lets go for good; returns what was stored.
+    pub fn leave(&mut self) -> f64 {
+        self.on_face = OnFace::default();
+        self.friction = [0.0; 3];
+        self.stiffness = 0.0;
+        self.known = false;
+        std::mem::take(&mut self.stored)
+    }
+}

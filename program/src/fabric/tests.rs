@@ -1,0 +1,108 @@
+//! A yarn that is drawn through a patch, beside the formulas for ropes.
+
+use nalgebra::Vector3;
+
+use super::model;
+use super::scene::Scene;
+use crate::explicit::body::{Body, Support};
+use crate::explicit::solver::{Ramp, Solver};
+use crate::weave::model::Yarn;
+
+/// A warp yarn and the five weft yarns that it crosses, which do not move.
+fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
+    let text = format!(
+        "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 8\ncolumns = 4\n\
+         [weave.panel]\nshape = \"rectangle\"\nhalf = [2.0, 0.35]\n\
+         [scene]\nspeed = 1.0\nmass = 1.0\nradius = 1.0\ncontact-stiffness = 1e5\nend = 1.0\n\
+         yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
+    );
+    let scene = Scene::parse("patch.toml", &text).expect("a scene");
+    let panel = scene.woven.model();
+    let mut solver = model::solver(&scene, &scene.cases[0], &panel).expect("a panel");
+    solver.projectile = None;
+    assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
+    (panel.yarns, solver)
+}
+
+/// The directions of a yarn's middle line from section to section, as angles over the panel.
+fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
+    let per = yarn.nodes_per_section();
+    let middle = |section: usize| -> Vector3<f64> {
+        let nodes = section * per..(section + 1) * per;
+        nodes.map(|node| Vector3::from(body.position(node))).sum::<Vector3<f64>>() / per as f64
+    };
+    let slope = |layer: usize| {
+        let along = middle(layer + 1) - middle(layer);
+        along.z.atan2(along.x)
+    };
+    (0..yarn.layers).map(slope).collect()
+}
+
+/// What acts on a body's nodes.
+fn force(body: &Body<f64>, nodes: std::ops::Range<usize>) -> Vector3<f64> {
+    body.forces[nodes].iter().map(|&force| Vector3::from(force)).sum()
+}
+
+/// What is measured while the yarn slides through the patch.
+struct Pull {
+    /// The forces at the held and at the pulled end.
+    ends: [f64; 2],
+    /// The angle by which the yarn turns, over all crossings.
+    turn: f64,
+    /// The force on the middle weft yarn across the panel, and the steepest slope of the warp.
+    pressing: f64,
+    steepest: f64,
+    friction: f64,
+}
+
+/// Holds one end of the warp yarn, pulls the other one, and waits until it slides in every crossing.
+fn pull(friction: f64) -> Pull {
+    let (yarns, mut solver) = patch(friction);
+    let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
+    let (warp, per) = (&yarns[0], yarns[0].nodes_per_section());
+    let last = solver.bodies[0].mesh.nodes.len() - per;
+    for node in 0..per {
+        solver.bodies[0].support(node, held([0.0; 3]));
+        solver.bodies[0].support(last + node, held([0.1, 0.0, 0.0]));
+    }
+    for body in &mut solver.bodies[1..] {
+        (0..body.mesh.nodes.len()).for_each(|node| body.support(node, held([0.0; 3])));
+    }
+    solver.ramp = Some(Ramp { start: 0.0, duration: 0.04 });
+    solver.brake = 1e3;
+    while solver.time < 0.03 {
+        solver.accelerate(false, 1.0).expect("stable");
+        solver.displace();
+    }
+    solver.accelerate(true, 1.0).expect("stable");
+    let slopes = slopes(warp, &solver.bodies[0]);
+    let middle = &solver.bodies[3];
+    Pull {
+        ends: [0, last].map(|first| force(&solver.bodies[0], first..first + per).norm()),
+        turn: slopes.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
+        pressing: force(middle, 0..middle.mesh.nodes.len()).z.abs(),
+        steepest: slopes[slopes.len() / 4..3 * slopes.len() / 4].iter().fold(0.0, |most, slope| slope.abs().max(most)),
+        friction: solver.energies.friction,
+    }
+}
+
+/// The yarn that is drawn presses each crossing by its force and its slope on both sides.
+#[test]
+fn a_crossing_is_pressed_by_the_slope_of_the_yarn_that_is_drawn() {
+    let Pull { ends, pressing, steepest, friction, .. } = pull(0.0);
+    let expected = 2.0 * ends[0] * steepest.sin();
+    assert!(ends[0] > 1.0 && (pressing / expected - 1.0).abs() < 0.05, "{pressing} {expected} {steepest}");
+    assert!(friction >= 0.0, "{friction}");
+}
+
+/// With friction the ratio of the forces at the ends is no less than that of a rope over as many capstans, exp(μθ), θ being the
+/// angle by which the yarn turns over all crossings: a yarn has a stiffness against bending, which presses the crossings as well.
+#[test]
+fn a_yarn_is_pulled_out_of_a_patch_against_more_than_a_rope_s_friction() {
+    const FRICTION: f64 = 0.18;
+    let [smooth, rough] = [0.0, FRICTION].map(pull);
+    let found = (rough.ends[1] / rough.ends[0]) / (smooth.ends[1] / smooth.ends[0]);
+    let rope = (FRICTION * rough.turn).exp();
+    assert!(rough.turn > 1.0 && found > rope && found < 1.5 * rope, "{found} {rope} {}", rough.turn);
+    assert!(rough.friction > 100.0 * smooth.friction, "{} {}", rough.friction, smooth.friction);
+}
