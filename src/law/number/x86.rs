@@ -88,6 +88,17 @@ macro_rules! register {
             }
         }
 
+        impl $name {
+            /// self, which is not negative, with the sign of x.
+            #[inline(always)]
+            #[allow(dead_code)] // only the reciprocal of AVX-512 needs it
+            fn with_sign_of(self, x: Self) -> Self {
+                const SIGN: $bits = 1 << ($bits::BITS - 1);
+                // SAFETY: the dispatch has checked that the processor has the instructions.
+                $name(unsafe { $from($ior($to(self.0), $iand($to(x.0), $iset1(SIGN as _)))) })
+            }
+        }
+
         impl Real for $name {
             type Mask = $mask;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
@@ -327,10 +338,11 @@ fn corrected_quotient<R: Real>(x: R, divisor: R, reciprocal: R) -> R {
 
 // 1/x in AVX-512, correctly rounded as by a division, from an approximation y of 14 bits. With r = 1 − x y the reciprocal is y
 // (1 + r + r² + r³ …). Three terms of the series (one in f32) leave an error of r⁴ ≤ 2^−56 (f32: r² ≤ 2^−28), less than an
-// eighth of a unit in the last place, before the last sum, which is rounded upwards. Then follows a Newton step, which is exact
-// but for δ², δ being the relative error of the value that it starts from (after Markstein, IBM J. Res. Dev. 34(1), 1990). If
-// 1/x is very close to halfway between two numbers, the sum is the upper one, and δ² is too small to carry the step across the
-// middle; from the lower one it would do so for a mantissa of all ones. Elsewhere no middle is near enough to be crossed.
+// eighth of a unit in the last place, before the last sum, whose magnitude is rounded upwards. Then follows a Newton step, which
+// is exact but for δ², δ being the relative error of the value that it starts from (after Markstein, IBM J. Res. Dev. 34(1),
+// 1990). If 1/x is very close to halfway between two numbers, the sum is the larger one, and δ² is too small to carry the step
+// across the middle; from the smaller one it would do so for a mantissa of all ones. Elsewhere no middle is near enough to be
+// crossed. The sum takes the magnitudes of its terms, because upwards is towards zero for a negative number.
 
 /// The first `TERMS` terms of r + r² + …, with r = 1 − x y.
 #[inline(always)]
@@ -514,7 +526,8 @@ register! {
         let series = reciprocal_series::<_, 3>(x, y);
         const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
         // SAFETY: as in `register!`: the processor has the instructions.
-        newton_reciprocal(x, F64x8(unsafe { _mm512_fmadd_round_pd::<UPWARDS>(series.0, y.0, y.0) }))
+        let size = F64x8(unsafe { _mm512_fmadd_round_pd::<UPWARDS>(series.0, y.abs().0, y.abs().0) });
+        newton_reciprocal(x, size.with_sign_of(x))
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
@@ -547,7 +560,8 @@ register! {
         let series = reciprocal_series::<_, 1>(x, y);
         const UPWARDS: i32 = _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC;
         // SAFETY: as in `register!`: the processor has the instructions.
-        newton_reciprocal(x, F32x16(unsafe { _mm512_fmadd_round_ps::<UPWARDS>(series.0, y.0, y.0) }))
+        let size = F32x16(unsafe { _mm512_fmadd_round_ps::<UPWARDS>(series.0, y.abs().0, y.abs().0) });
+        newton_reciprocal(x, size.with_sign_of(x))
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
