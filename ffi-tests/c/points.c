@@ -518,10 +518,35 @@ static void bad_points(int way)
     release();
 }
 
+#define BLOCK_WITH ENTRY(toron_hyperelastic_block_with_properties)
+
+/* Failure alone, in rows of its three components as by components. */
+static void failure_alone(void)
+{
+    enum { N = 3, FAILURES = STATE - FAILURE };
+    real *properties = copied(cases[0].properties, PROPERTIES), *f = reals(9 * N), *rows = reals(FAILURES * N);
+    real *components = reals(FAILURES * N), *old = reals(FAILURES * N);
+    for (size_t i = 0; i < N; i++) {
+        for (size_t c = 0; c < 9; c++)
+            f[c * N + i] = c % 4 == 0 ? 1 + (real)0.2 * (real)(i == 1) : 0; /* the second point is torn */
+        for (size_t c = 0; c < FAILURES; c++)
+            old[FAILURES * i + c] = 0;
+    }
+    properties[8] = 1, properties[9] = properties[10] = 0;
+    toron_block block = {.size = sizeof block, .n = N, .leading_dimension = N, .deformation_gradient = {f}, .failure = components};
+    CHECK(TOLD(BLOCK_WITH, properties, PROPERTIES, &block) == TORON_OK, "%s", text);
+    block.failure = rows, block.failure_old = old, block.state_layout.stride = FAILURES;
+    CHECK(TOLD(BLOCK_WITH, properties, PROPERTIES, &block) == TORON_OK, "%s", text);
+    for (size_t c = 0; c < FAILURES; c++)
+        for (size_t i = 0; i < N; i++)
+            CHECK(rows[FAILURES * i + c] == components[c * N + i], "component %zu of point %zu", c, i);
+    CHECK(rows[FAILURES + FAILED - FAILURE] == 1 && rows[FAILED - FAILURE] == 0, "the second point is torn, the first is not");
+    release();
+}
+
 /* A wrong call: the code, the message, and nothing is written. */
 static void refused(const real *properties, size_t count, toron_block block, arrays_of_block a, int32_t wanted, const char *words)
 {
-#define BLOCK_WITH ENTRY(toron_hyperelastic_block_with_properties)
     if (wanted == TORON_OK)
         CHECK(TOLD(BLOCK_WITH, properties, count, &block) == TORON_OK, "%s", text);
     else
@@ -585,6 +610,8 @@ static void wrong_calls(void)
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of stress: 1 given, 6 needed");
     block = good, block.state_layout = (toron_layout){2, 3};
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 2 given, 4 needed");
+    block.energies = block.invariants = NULL, block.energies_old = block.invariants_old = NULL, block.state_layout = (toron_layout){0, 2};
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 1 given, 3 needed");
     block = good, block.n = (size_t)-1;
     refused_block(properties, block, a, TORON_BAD_COUNT,
                   "argument n is 9223372036854775807; allowed: 0 to 72057594037927935");
@@ -634,6 +661,7 @@ int main(int argc, char **argv)
     }
     for (unsigned inputs = 0; inputs < 16; inputs += 5)
         block_outputs(inputs);
+    failure_alone();
     wrong_points();
     wrong_calls();
     prepared_laws();

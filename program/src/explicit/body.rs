@@ -219,15 +219,18 @@ impl<T: Number> Body<T> {
     /// Displacements at the end of a step.
     pub fn displace(&mut self, step: f64) {
         let dt = T::from_f64(step);
-        let mut fastest = 0.0;
+        let mut farthest = 0.0;
         for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
+            let mut square = 0.0;
             for i in 0..3 {
+                let before: f64 = u[i].into();
                 u[i] += dt * v[i];
+                let after: f64 = u[i].into(); // as rounded in f32
+                square += (after - before) * (after - before);
             }
-            fastest = largest(fastest, (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).into());
+            farthest = largest(farthest, square);
         }
-        // Rounding of f32 included.
-        self.farthest = step * fastest.sqrt() * (1.0 + 1e-6);
+        self.farthest = farthest.sqrt();
     }
 
     /// What the laws report.

@@ -24,8 +24,7 @@ use super::rows::Rows;
 const STRESS: usize = 0;
 const STRETCH_SQUARE: usize = STRESS + 4;
 const METRIC: usize = STRETCH_SQUARE + 1;
-/// What the archive keeps; then in the reference placement: the length along the fibre, and the side of a square as large as
-/// the section.
+/// In the reference placement: the length along the fibre, and the side of a square as large as the section.
 const LENGTH: usize = METRIC + 3;
 const BREADTH: usize = LENGTH + 1;
 const ROWS: usize = BREADTH + 1;

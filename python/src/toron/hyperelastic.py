@@ -187,8 +187,7 @@ def _states(placed: arrays.Arrays, given: dict[str, Any], wanted: tuple[str, ...
     elif not any(name in given for name in parts):
         # One array for them all, since they have one layout.
         members = [_OUTPUTS[name] for name in parts]
-        count = sum(member.components[0] for member in members)
-        whole = placed.empty(Member("parts", (max(count, _OUTPUTS["energies"].components[0]),)))
+        whole = placed.empty(Member("parts", (sum(member.components[0] for member in members),)))
         results = placed.put_parts(members, whole)
     if old is not None:
         placed.put_parts(_OLD, old)

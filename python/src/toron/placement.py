@@ -12,10 +12,6 @@ import numpy as np
 from toron._library import ffi
 
 
-#: What the library takes the components of any part of the state to be at least, when it looks whether entries overlap.
-_LEAST_OF_STATE = 4
-
-
 class Member(NamedTuple):
     """A member of the library's structure for a block.
 
@@ -86,8 +82,7 @@ def _strides(placed: Placed, dtype: np.dtype) -> tuple[int, int] | None:
         return None
     if rank and not member.separate:
         # The library takes points beside each other in every component, or whole points one after the other.
-        components = max(prod(view.shape[:rank]), _LEAST_OF_STATE if member.layout == "state" else 1)
-        in_rows = stride > leading_dimension * (components - 1)
+        in_rows = stride > leading_dimension * (prod(view.shape[:rank]) - 1)
         if leading_dimension == 0 or points > 1 and not (in_rows or leading_dimension > (points - 1) * stride):
             return None
     return leading_dimension, stride

@@ -202,12 +202,13 @@ impl<T: Scalar> Pointers<T> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
             return Err(Error::Null { name: "deformation_gradient" });
         }
-        let state = [self.energies_old, self.invariants_old, self.failure_old];
-        let has_state = state.iter().any(|array| !array.is_null())
-            || [self.energies, self.invariants, self.failure].iter().any(|array| !array.is_null());
         let Strides { state, modes, tangent, .. } = self.strides;
-        if has_state {
-            check_layout(self.n, 4, self.leading_dimension, state, "leading dimension of the state")?;
+        let old = [self.energies_old, self.invariants_old];
+        let of_modes =
+            old.iter().any(|array| !array.is_null()) || !self.energies.is_null() || !self.invariants.is_null();
+        if of_modes || !self.failure_old.is_null() || !self.failure.is_null() {
+            let components = if of_modes { 4 } else { 3 };
+            check_layout(self.n, components, self.leading_dimension, state, "leading dimension of the state")?;
         }
         if !self.modes.is_null() {
             check_layout(self.n, 24, self.modes_leading_dimension, modes, "leading dimension of modes")?;
