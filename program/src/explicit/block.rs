@@ -75,7 +75,7 @@ pub struct Sums {
     /// which viscosity damps one.
     pub stiffness: f64,
     pub damping: f64,
-    /// Elements deleted in this step, and how many of them because they have collapsed.
+    /// Elements deleted in this step, and how many of them because they have collapsed or turned inside out.
     pub deleted: Vec<usize>,
     pub collapsed: usize,
     /// The code of a law that has refused its call.
@@ -205,7 +205,9 @@ impl<T: Number> ElementBlock<T> {
         sums.law += start.elapsed();
         // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
         // exert their last stress.
+        let others = sums.deleted.len();
         self.delete(medium, scratch, sums, |block, scratch, i| scratch.status[i] != status::OK && block.is_intact(i));
+        sums.collapsed += sums.deleted.len() - others;
         run_widest(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {

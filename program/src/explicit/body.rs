@@ -34,7 +34,7 @@ pub struct Body<T> {
     /// Number of intact elements at each node.
     intact_elements: Vec<u16>,
     pub deleted: Vec<usize>,
-    /// How many of them because they had collapsed.
+    /// How many of them because they had collapsed or turned inside out.
     pub collapsed: usize,
     /// Hourglass energy of deleted elements.
     pub released: f64,

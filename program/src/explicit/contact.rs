@@ -1,10 +1,11 @@
 //! A rigid cylinder or sphere against the nodes of a body's surface: penalty and Coulomb friction.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
+use super::friction::rub;
 use super::lanes::Number;
+use super::vector::{Vector, add, dot, times};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -42,7 +43,7 @@ struct Node {
     /// Force by depth: the stiffness times the surface that belongs to it.
     stiffness: f64,
     /// The friction force on it, at the end of the last step.
-    friction: Vector3<f64>,
+    friction: Vector,
     /// Energy in its penetration and its sticking.
     stored: f64,
 }
@@ -84,7 +85,7 @@ impl Contact {
         let node = |i: usize| Node {
             number: i as u32,
             stiffness: striker.stiffness * surface[i],
-            friction: Vector3::zeros(),
+            friction: [0.0; 3],
             stored: 0.0,
         };
         let nodes: Vec<Node> = met.map(node).collect();
@@ -117,22 +118,22 @@ impl Contact {
         }
         let (mut total, mut nearest, mut held) = (0.0, f64::INFINITY, false);
         for node in &mut self.nodes {
-            let ([x, y, z], [u, v, w]) =
-                (body.reference[node.number as usize], body.displacement[node.number as usize]);
-            let place = Vector3::new(x + u.into(), y + v.into(), z + w.into());
-            let [x, y, z] = body.velocity[node.number as usize];
-            let step = body.step * Vector3::new(x.into(), y.into(), z.into());
+            let number = node.number as usize;
+            let ([x, y, z], [u, v, w]) = (body.reference[number], body.displacement[number]);
+            let place = [x + u.into(), y + v.into(), z + w.into()];
+            let [x, y, z] = body.velocity[number];
+            let step = times(body.step, [x.into(), y.into(), z.into()]);
             let from = self.striker.from(centre, place);
-            let square = from.dot(&from);
+            let square = dot(from, from);
             nearest = if square < nearest { square } else { nearest };
             let (pressing, dissipated) = node.update(&self.striker, moved, from, step);
             self.dissipated += dissipated;
-            held |= node.friction != Vector3::zeros();
+            held |= node.friction != [0.0; 3];
             let Some(pressing) = pressing else { continue };
             self.stored += node.stored;
             self.touching += node.stiffness;
-            let force = pressing + node.friction;
-            let nodal = &mut forces[node.number as usize];
+            let force = add(pressing, 1.0, node.friction);
+            let nodal = &mut forces[number];
             for i in 0..3 {
                 nodal[i] += T::from_f64(force[i]);
             }
@@ -147,11 +148,11 @@ impl Contact {
 impl Rigid {
     /// From its axis or its centre, which is here, to a place.
     #[inline(always)]
-    fn from(&self, centre: f64, place: Vector3<f64>) -> Vector3<f64> {
+    fn from(&self, centre: f64, place: Vector) -> Vector {
         let mut from = place;
         from[self.shape.direction()] -= centre;
         if self.shape == Shape::Cylinder {
-            from.z = 0.0;
+            from[2] = 0.0;
         }
         from
     }
@@ -159,46 +160,30 @@ impl Rigid {
 
 impl Node {
     /// The node is here from the striker's axis or centre, after a step like this; returns the force that presses it outwards, if
-    /// it is inside the striker, and what slipping has dissipated.
-    ///
-    /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
-    /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
+    /// it is inside the striker, and what slipping, or letting go, has dissipated.
     #[inline(always)]
-    fn update(
-        &mut self,
-        striker: &Rigid,
-        moved: f64,
-        from: Vector3<f64>,
-        mut step: Vector3<f64>,
-    ) -> (Option<Vector3<f64>>, f64) {
+    fn update(&mut self, striker: &Rigid, moved: f64, from: Vector, mut step: Vector) -> (Option<Vector>, f64) {
         let direction = striker.shape.direction();
         step[direction] -= moved;
-        let square = from.dot(&from);
-        let old = self.friction;
-        let had_friction = old.x != 0.0 || old.y != 0.0 || old.z != 0.0;
-        if square >= striker.radius * striker.radius && !had_friction {
+        let square = dot(from, from);
+        if square >= striker.radius * striker.radius && self.friction == [0.0; 3] {
             self.stored = 0.0;
             return (None, 0.0);
         }
         let distance = square.sqrt();
         // A node at the centre itself is pressed along the axis, downwards.
-        let normal = if distance > 0.0 { from / distance } else { -Vector3::ith(direction, 1.0) };
+        let mut normal = [0.0; 3];
+        normal[direction] = -1.0;
+        if distance > 0.0 {
+            normal = times(1.0 / distance, from);
+        }
         let depth = (striker.radius - distance).max(0.0);
         let force = self.stiffness * depth;
-        let trial = tangential(old - self.stiffness * step, normal);
-        let size = trial.dot(&trial).sqrt();
-        let limit = striker.friction * force;
-        self.friction = if size > limit { trial * (limit / size) } else { trial };
-        let elastic_energy = |friction: Vector3<f64>| 0.5 * friction.dot(&friction) / self.stiffness;
-        let (before, after) = (elastic_energy(old), elastic_energy(self.friction));
-        let work = -0.5 * (old.dot(&step) + self.friction.dot(&step));
-        self.stored = 0.5 * force * depth + after;
-        ((depth > 0.0).then_some(normal * force), work - (after - before))
+        let friction = rub(self.friction, self.stiffness, step, normal, striker.friction * force);
+        self.friction = friction.force;
+        self.stored = 0.5 * force * depth + friction.stored;
+        ((depth > 0.0).then_some(times(force, normal)), friction.dissipated)
     }
-}
-
-fn tangential(v: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
-    v - v.dot(&normal) * normal
 }
 
 #[cfg(test)]
@@ -225,7 +210,7 @@ mod tests {
         fn step(&mut self, axis: f64, moved: f64, displacement: [f64; 3]) -> ([f64; 3], f64) {
             let mut forces = [[0.0; 3]];
             let velocity = [0, 1, 2].map(|i| displacement[i] - self.displacement[i]);
-            let farthest = Vector3::from(velocity).norm();
+            let farthest = dot(velocity, velocity).sqrt();
             let nodes = Nodes {
                 reference: &[self.reference],
                 displacement: &[displacement],

@@ -12,6 +12,7 @@ pub mod contact;
 pub mod control_keys;
 pub mod element;
 pub mod energies;
+pub mod friction;
 pub mod instructions;
 pub mod lanes;
 pub mod medium;

@@ -10,10 +10,12 @@
 //! - longitudinal shear: (k_ld/λ²)(2 J_t eᵃ + 4 |P b e|).
 //!
 //! Roots of x are replaced by (1 + x)/2, no less. Of the linear elastic law, which has no Poisson's ratios, A is E1, and B the other moduli
-//! and twice the largest stress, which the spin of its frame takes along.
+//! and twice the largest stress, which the spin of its frame takes along. This needs the first axis to be the fibre's, which axes that
+//! turn otherwise leave.
 
 use super::lanes::{LANES, Lanes, Number, dot, load, times};
 use crate::material::model::{Law, Material};
+use toron::Rotation;
 
 /// What the bounds are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +43,8 @@ pub struct Section<'a, T> {
 }
 
 impl WaveBounds {
-    /// By direction where that is known for a material: a compaction with p below 2 is infinitely stiff at first.
+    /// By direction where that is known for a material: a compaction with p below 2 is infinitely stiff at first, and the
+    /// first axis of the linear law may leave the fibre.
     pub fn of(material: &Material) -> WaveBounds {
         let property = |name: &str| material.property(name).unwrap_or_default();
         match &material.law {
@@ -52,7 +55,7 @@ impl WaveBounds {
                 k_td: property("k_td"),
                 k_ld: property("k_ld"),
             },
-            Law::LinearElastic { .. } => {
+            Law::LinearElastic { frame: Rotation::Fibre, .. } => {
                 WaveBounds::LinearElastic { along: property("e_1"), across: property("e_2") + 2.0 * property("g") }
             }
             _ => WaveBounds::Isotropic,
@@ -125,10 +128,14 @@ mod tests {
 
     use super::*;
     use crate::explicit::element::{Measures, Shapes};
+    use toron::Criterion;
     use toron::law::parameters;
-    use toron::{Criterion, Rotation};
 
     fn material(preset: &str, k_ld: f64) -> Material {
+        turning(preset, k_ld, Rotation::Fibre)
+    }
+
+    fn turning(preset: &str, k_ld: f64, rotation: Rotation) -> Material {
         let preset = parameters::preset(preset).expect("it exists");
         let mut values = preset.values.to_vec();
         for (value, property) in values.iter_mut().zip(preset.table) {
@@ -138,7 +145,7 @@ mod tests {
                 _ => {}
             }
         }
-        let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        let law = Law::new(preset.table, &values, rotation, Criterion::LargestPrincipal).expect("valid");
         Material { law, values, density: Some(preset.density), label: String::new() }
     }
 
@@ -204,5 +211,14 @@ mod tests {
         for spread in [0.02, 0.2] {
             assert!(check(&material("kevlar-km2-600-linear", 0.0), spread) > 0.5);
         }
+    }
+
+    #[test]
+    fn axes_that_leave_the_fibre_have_one_bound() {
+        let preset = "kevlar-km2-600-linear";
+        for rotation in [Rotation::Polar, Rotation::Spin] {
+            assert_eq!(WaveBounds::of(&turning(preset, 0.0, rotation)), WaveBounds::Isotropic);
+        }
+        assert_ne!(WaveBounds::of(&turning(preset, 0.0, Rotation::Fibre)), WaveBounds::Isotropic);
     }
 }

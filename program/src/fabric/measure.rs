@@ -1,10 +1,12 @@
 //! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections tilt.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::explicit::energies::Energies;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::solver::Solver;
+use crate::weave::figures::{corners, scaled_jacobian};
 use crate::weave::model::{Model, Yarn};
 
 /// The state at an instant. Energies are those of the whole panel.
@@ -26,6 +28,9 @@ pub struct Sample {
     pub index: f64,
     pub deleted: usize,
     pub collapsed: usize,
+    /// The smallest intact element: its volume over that at rest. And the most distorted corner of one, by its scaled Jacobian.
+    pub least_volume_ratio: f64,
+    pub least_scaled_jacobian: f64,
     /// Yarns that are torn through.
     pub torn: usize,
     /// The largest angle, in degrees, between a section and the plane across its yarn's middle line; and how far its middle
@@ -40,7 +45,8 @@ pub struct Sample {
 /// stretched straight before it comes.
 pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64, threshold: f64) -> Sample {
     let whole = 1.0 / share;
-    let mut sample = Sample { time: solver.time, ..Sample::default() };
+    let mut sample =
+        Sample { time: solver.time, least_volume_ratio: 1.0, least_scaled_jacobian: 1.0, ..Sample::default() };
     if let Some(sphere) = &solver.projectile {
         sample.speed = -sphere.velocity;
         sample.travel = start - sphere.position;
@@ -63,9 +69,14 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
                 *most = largest(*most, density);
             }
             sample.index = largest(sample.index, body.failure_index(&solver.media, i));
-            for node in body.mesh.elements[i] {
-                sample.deflection = largest(sample.deflection, -body.displacement[node as usize][2].into());
+            let nodes = body.mesh.elements[i].map(|node| node as usize);
+            for node in nodes {
+                sample.deflection = largest(sample.deflection, -body.displacement[node][2].into());
             }
+            let (ratio, scaled) =
+                quality(|corner| body.mesh.nodes[nodes[corner]], |corner| body.position(nodes[corner]));
+            sample.least_volume_ratio = smallest(sample.least_volume_ratio, ratio);
+            sample.least_scaled_jacobian = smallest(sample.least_scaled_jacobian, scaled);
         }
         let position = |node: usize| body.position(node);
         for section in 0..=yarn.layers {
@@ -75,6 +86,27 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
     }
     sample.front = front(panel, solver, threshold);
     sample
+}
+
+/// The smaller one; NaN where one is.
+pub fn smallest(a: f64, b: f64) -> f64 {
+    -largest(-a, -b)
+}
+
+/// An element's volume over that at rest, both taken from the means of its edges along each axis, and its least scaled Jacobian.
+fn quality(at_rest: impl Fn(usize) -> [f64; 3], position: impl Fn(usize) -> [f64; 3]) -> (f64, f64) {
+    let volume = |node: &dyn Fn(usize) -> Vector3<f64>| {
+        let mut axes = [Vector3::zeros(); 3];
+        for edges in corners(node) {
+            for (axis, edge) in axes.iter_mut().zip(edges) {
+                *axis += edge;
+            }
+        }
+        axes[0].cross(&axes[1]).dot(&axes[2])
+    };
+    let now = |corner: usize| Vector3::from(position(corner));
+    let scaled = corners(now).map(|edges| scaled_jacobian(&edges));
+    (volume(&now) / volume(&|corner| Vector3::from(at_rest(corner))), scaled.fold(1.0, smallest))
 }
 
 fn times(factor: f64, energies: &Energies) -> Energies {
@@ -119,12 +151,12 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
 fn section_of(yarn: &Yarn, section: usize, position: impl Fn(usize) -> [f64; 3]) -> (f64, f64) {
     let (per, rows, columns) = (yarn.nodes_per_section(), yarn.rows, yarn.columns);
     let mean = |section: usize| {
-        let sum = (section * per..(section + 1) * per).map(|node| nalgebra::Vector3::from(position(node)));
-        sum.sum::<nalgebra::Vector3<f64>>() / per as f64
+        let sum = (section * per..(section + 1) * per).map(|node| Vector3::from(position(node)));
+        sum.sum::<Vector3<f64>>() / per as f64
     };
     let (before, after) = (section.saturating_sub(1), (section + 1).min(yarn.layers));
     let along = (mean(after) - mean(before)).normalize();
-    let node = |column: usize, row: usize| nalgebra::Vector3::from(position(section * per + column * (rows + 1) + row));
+    let node = |column: usize, row: usize| Vector3::from(position(section * per + column * (rows + 1) + row));
     let middle = columns / 2;
     let upright = node(middle, rows) - node(middle, 0);
     let tilt = (along.dot(&upright) / upright.norm()).abs().min(1.0).asin().to_degrees();

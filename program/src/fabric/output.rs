@@ -16,7 +16,7 @@ pub fn history(outcome: &Outcome) -> String {
     for name in ENERGY_NAMES {
         let _ = write!(text, ",largest_{name}");
     }
-    text.push_str(",failure_index,deleted,collapsed,torn_yarns,tilt,slip\n");
+    text.push_str(",failure_index,deleted,collapsed,torn_yarns,tilt,slip,least_volume_ratio,least_scaled_jacobian\n");
     for sample in &outcome.samples {
         let e = &sample.energies;
         let numbers = [
@@ -41,8 +41,14 @@ pub fn history(outcome: &Outcome) -> String {
         }
         let _ = writeln!(
             text,
-            "{},{},{},{:.3},{:.6e}",
-            sample.deleted, sample.collapsed, sample.torn, sample.tilt, sample.slip
+            "{},{},{},{:.3},{:.6e},{:.4},{:.4}",
+            sample.deleted,
+            sample.collapsed,
+            sample.torn,
+            sample.tilt,
+            sample.slip,
+            sample.least_volume_ratio,
+            sample.least_scaled_jacobian
         );
     }
     text

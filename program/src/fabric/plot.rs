@@ -27,7 +27,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, outcome: &Outco
     history::write(svg, png, [&scene.title, &case.name], panels(scene, outcome), &abscissa)
 }
 
-fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 8] {
+fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_string(),
         colour: COLOURS[colour % COLOURS.len()],
@@ -53,6 +53,10 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 8] {
         line(3, "contact", &|s| s.energies.contact),
     ];
     let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.deflection)];
+    let worst = vec![
+        line(0, "least volume over that at rest", &|s| s.least_volume_ratio),
+        line(1, "least scaled Jacobian", &|s| s.least_scaled_jacobian),
+    ];
     let by_mode = |of: fn(&Sample) -> [f64; 5]| -> Vec<Series> {
         (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| of(s)[mode])).collect()
     };
@@ -65,5 +69,11 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 8] {
         panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
         panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.front)]),
         panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
+        Panel {
+            unit: "°".to_string(),
+            ..panel("Largest tilt of a section", LENGTH, vec![line(0, "tilt", &|s| s.tilt)])
+        },
+        panel("Largest slip of a section's middle", LENGTH, vec![line(0, "slip", &|s| s.slip)]),
+        Panel { unit: "-".to_string(), ..panel("Worst elements", LENGTH, worst) },
     ]
 }

@@ -21,14 +21,16 @@ const LARGEST_IMBALANCE: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// Of the checkpoints: raised when what they contain changes.
-const CHECKPOINT_FORMAT: u32 = 2;
+const CHECKPOINT_FORMAT: u32 = 3;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     Time,
-    /// The sphere has turned back.
+    /// The sphere has stopped, and the run ends with it.
     Stopped,
+    /// It has turned back, and the run has gone on to its end.
+    Rebounded,
     /// It has gone through, and nothing has touched it for some time.
     Left,
     /// The run could not go on.
@@ -169,7 +171,10 @@ impl<'a, T: Number> Run<'a, T> {
         self.record.archive(&mut archive)?;
         self.solver.archive(&mut archive)?;
         match archive {
-            Archive::Writes(bytes) => Ok(bytes),
+            Archive::Writes(mut bytes) => {
+                bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+                Ok(bytes)
+            }
             Archive::Reads(_) => Ok(Vec::new()), // not reached
         }
     }
@@ -180,11 +185,15 @@ impl<'a, T: Number> Run<'a, T> {
             let allowed = "allowed: that of the same scene and version, or none";
             Error::Input(format!("the checkpoint of case {name} is {reason}; {allowed}"))
         };
-        let mut archive = Archive::Reads(checkpoint);
+        let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(|| refused("damaged"))?;
+        let mut archive = Archive::Reads(contents);
         let mut identity = String::new();
         archive.keep(&mut identity).map_err(|_| refused("damaged"))?;
         if identity != self.identity() {
             return Err(refused("of another scene or version"));
+        }
+        if crc32fast::hash(contents) != u32::from_le_bytes(*sum) {
+            return Err(refused("damaged"));
         }
         let read = self.record.archive(&mut archive).and_then(|()| self.solver.archive(&mut archive));
         if read.is_err() || !matches!(archive, Archive::Reads([])) {
@@ -276,7 +285,8 @@ impl<'a, T: Number> Run<'a, T> {
     fn end(&self, at_end: bool, free: f64) -> Option<End> {
         let sphere = self.solver.projectile.as_ref()?;
         if sphere.velocity >= 0.0 {
-            return (at_end || !self.case.rebounds).then_some(End::Stopped);
+            let end = if self.case.rebounds { End::Rebounded } else { End::Stopped };
+            return (at_end || !self.case.rebounds).then_some(end);
         }
         // In which it goes on by its own radius.
         let gone = free * -sphere.velocity > self.case.sphere.radius;

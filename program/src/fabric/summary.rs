@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use super::measure::Sample;
+use super::measure::{Sample, smallest};
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
 use crate::common::error::Error;
@@ -24,6 +24,8 @@ pub struct Figures {
     pub front_at_rim: Option<f64>,
     /// The largest hourglass energy over the largest internal energy.
     pub hourglass: f64,
+    /// The least volume of an element over that at rest, and the least scaled Jacobian, of all times.
+    pub worst: [f64; 2],
     /// The largest energy densities of all times.
     pub densities: [f64; 5],
     pub ns_per_zone_cycle: f64,
@@ -33,6 +35,7 @@ impl Figures {
     pub fn of(panel: &Model, outcome: &Outcome) -> Figures {
         let samples = &outcome.samples;
         let most = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, largest);
+        let least = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(1.0, smallest);
         let deflection = most(|sample| sample.deflection);
         let deepest = samples.iter().find(|sample| sample.deflection == deflection);
         let rim = AT_RIM * rim(panel);
@@ -43,6 +46,7 @@ impl Figures {
             deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
             front_at_rim: samples.iter().find(|sample| sample.front >= rim).map(|sample| sample.time),
             hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
+            worst: [least(|sample| sample.least_volume_ratio), least(|sample| sample.least_scaled_jacobian)],
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
             ns_per_zone_cycle: outcome.cost.total().as_nanos() as f64 / cycles.max(1.0),
         }
@@ -62,6 +66,7 @@ pub fn ending(outcome: &Outcome) -> &'static str {
     match outcome.end {
         End::Time => "time is over",
         End::Stopped => "sphere stopped",
+        End::Rebounded => "sphere flies back",
         End::Left => "sphere went through",
         End::Failed => "an error",
     }
@@ -72,7 +77,7 @@ pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
         End::Left => Some(figures.last.speed),
-        End::Time | End::Failed => None,
+        End::Time | End::Failed | End::Rebounded => None,
     }
 }
 
@@ -110,6 +115,8 @@ fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str
         ("hourglass_share", format!("{:.4}", figures.hourglass)),
         ("tilt_at_end", format!("{:.1}", last.tilt)),
         ("slip_at_end", number(last.slip)),
+        ("least_volume_ratio", number(figures.worst[0])),
+        ("least_scaled_jacobian", number(figures.worst[1])),
     ];
     let names = ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"];
     cells.extend(names.into_iter().zip(figures.densities.map(number)));

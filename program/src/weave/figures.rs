@@ -40,24 +40,28 @@ impl Figures {
             shortest_edge: f64::INFINITY,
         };
         for element in &model.elements {
-            for corner in 0..8 {
-                let edges = edges(model, element, corner);
-                let determinant = edges[0].cross(&edges[1]).dot(&edges[2]);
-                let lengths = edges.map(|edge| edge.norm());
-                figures.least_jacobian = figures.least_jacobian.min(determinant);
-                let scaled = determinant / lengths.iter().product::<f64>();
-                figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(scaled);
-                figures.shortest_edge = lengths.into_iter().fold(figures.shortest_edge, f64::min);
+            for edges in corners(|corner| Vector3::from(model.nodes[element[corner] as usize])) {
+                figures.least_jacobian = figures.least_jacobian.min(determinant(&edges));
+                figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(scaled_jacobian(&edges));
+                figures.shortest_edge = edges.iter().map(|edge| edge.norm()).fold(figures.shortest_edge, f64::min);
             }
         }
         figures
     }
 }
 
-/// The three edges at a corner, each in the direction of its axis.
-fn edges(model: &Model, element: &[u32; 8], corner: usize) -> [Vector3<f64>; 3] {
-    let node = |corner: usize| Vector3::from(model.nodes[element[corner] as usize]);
-    [0, 1, 2].map(|axis| node(corner | 1 << axis) - node(corner & !(1 << axis)))
+/// The three edges at each corner of a hexahedron, each in the direction of its axis.
+pub fn corners(node: impl Fn(usize) -> Vector3<f64>) -> impl Iterator<Item = [Vector3<f64>; 3]> {
+    (0..8).map(move |corner| [0, 1, 2].map(|axis| node(corner | 1 << axis) - node(corner & !(1 << axis))))
+}
+
+fn determinant([a, b, c]: &[Vector3<f64>; 3]) -> f64 {
+    a.cross(b).dot(c)
+}
+
+/// The Jacobian at a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside out.
+pub fn scaled_jacobian(edges: &[Vector3<f64>; 3]) -> f64 {
+    determinant(edges) / edges.iter().map(Vector3::norm).product::<f64>()
 }
 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.

@@ -129,10 +129,16 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     let error = String::from_utf8_lossy(&answer.stderr).to_string();
     let wanted = "the checkpoint of case scene is of another scene or version; allowed: that of the same scene and version, or none";
     assert!(!answer.status.success() && error.contains(wanted), "{error}");
-    std::fs::write(&checkpoint, b"not one").expect("it is written");
-    let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
-    let error = String::from_utf8_lossy(&answer.stderr).to_string();
-    assert!(!answer.status.success() && error.contains("the checkpoint of case scene is"), "{error}");
+    // So is one in which a single bit has changed, and what is none at all.
+    let mut bytes = std::fs::read(&checkpoint).expect("a file");
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    for damaged in [&bytes[..], b"not one", b""] {
+        std::fs::write(&checkpoint, damaged).expect("it is written");
+        let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
+        let error = String::from_utf8_lossy(&answer.stderr).to_string();
+        assert!(!answer.status.success() && error.contains("the checkpoint of case scene is damaged"), "{error}");
+    }
 }
 
 #[test]

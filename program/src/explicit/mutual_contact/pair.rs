@@ -6,7 +6,8 @@ use super::Parameters;
 use super::face::{self, Place};
 use super::motion::Motion;
 use super::surface::Surface;
-use crate::explicit::vector::{Vector, add, dot, times};
+use crate::explicit::friction::rub;
+use crate::explicit::vector::{Vector, add, dot};
 
 /// A node near a face of another body.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -47,9 +48,6 @@ pub struct OnFace {
 impl Pair {
     /// Looks where the node of body `number` is on the face; returns the force on it, if it is inside, and what slipping has
     /// dissipated.
-    ///
-    /// Sticking is a spring as stiff as the penalty, in the tangent plane; slipping or leaving lets it go. What is dissipated
-    /// is the friction's work over the step, by the trapezoidal rule of central differences, less what the spring has gained.
     pub fn update(
         &mut self,
         number: usize,
@@ -88,18 +86,13 @@ impl Pair {
         }
         let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
         let force = self.stiffness * self.depth;
-        let trial = add(old, -self.stiffness, slip);
-        let trial = add(trial, -dot(trial, met.normal), met.normal);
         let rough = if master.wall { 0.0 } else { friction };
-        let (size, limit) = (dot(trial, trial).sqrt(), rough * force);
-        self.friction = if size > limit { times(limit / size, trial) } else { trial };
-        let per_stiffness = 0.5 / self.stiffness;
-        let (held, after) = (per_stiffness * dot(old, old), per_stiffness * dot(self.friction, self.friction));
-        let work = -0.5 * (dot(old, slip) + dot(self.friction, slip));
-        self.stored = 0.5 * force * self.depth + after;
+        let friction = rub(old, self.stiffness, slip, met.normal, rough * force);
+        self.friction = friction.force;
+        self.stored = 0.5 * force * self.depth + friction.stored;
         let total = add(self.friction, force, met.normal);
         self.on_face = OnFace { force: total, weights: met.weights, stiffness: self.stiffness };
-        (Some(total), lost + work - (after - held))
+        (Some(total), lost + friction.dissipated)
     }
 
     /// Whether nothing can have changed since it was last looked at.
