@@ -18,7 +18,17 @@ type Results<'a> = [(&'a Case, Outcome, Figures)];
 /// Title, table and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
-    format!("{}\n\n{table}\n{}", scene.title, list_files(results, output))
+    format!("{}\n\n{table}{}\n{}", scene.title, sliding(results), list_files(results, output))
+}
+
+/// The cases in whose sections nothing carries shear along the fibres.
+fn sliding(results: &Results) -> String {
+    let slides = |case: &&Case| case.zones.materials().iter().any(|material| material.property("k_ld") == Some(0.0));
+    let cases: Vec<&str> = results.iter().map(|(case, ..)| *case).filter(slides).map(|case| &*case.name).collect();
+    if cases.is_empty() {
+        return String::new();
+    }
+    format!("k_ld = 0 in {}: the middle of a section slides along its yarn; 5 to 20 MPa hold it.\n", cases.join(", "))
 }
 
 /// The most important columns first.

@@ -142,6 +142,19 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
 }
 
 #[test]
+fn what_nothing_holds_against_sliding_is_said() {
+    let report = |name: &str, keys: &str| {
+        let (answer, _) = strike(name, &scene(1.0, keys), 2);
+        assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+        String::from_utf8_lossy(&answer.stdout).to_string()
+    };
+    let said = "k_ld = 0 in scene: the middle of a section slides along its yarn; 5 to 20 MPa hold it.";
+    assert!(report("sliding", "").contains(said));
+    assert!(!report("held", "hyperelastic.properties = { k_ld = 10.0 }").contains("k_ld"));
+    assert!(!report("linear", "law = \"linear-elastic\"").contains("k_ld"));
+}
+
+#[test]
 fn a_sphere_that_turns_back_is_followed_to_the_end() {
     let text = scene(60.0, "until = \"end\"\nhyperelastic.properties = { k_ld = 126.0 }")
         .replace("speed = 142.0", "speed = 20.0")
