@@ -31,7 +31,7 @@ def shared_library() -> Path:
     given = os.environ.get("TORON_LIBRARY")
     if given:
         if not Path(given).is_file():
-            sys.exit(f"TORON_LIBRARY is {given}, which is no file; allowed: a libtoron.so that has been built")
+            sys.exit(f"TORON_LIBRARY is {given}, which is no file; allowed: the absolute path of a libtoron.so that has been built")
         return Path(given)
     if not shutil.which("cargo"):
         sys.exit(
@@ -55,6 +55,9 @@ class BuildWithLibrary(build_py):
     """Adds the library and the module made from its header."""
 
     def run(self) -> None:
+        if not self.editable_mode:
+            # Of an earlier build, with modules that may be no more.
+            shutil.rmtree(Path(self.build_lib) / "toron", ignore_errors=True)
         super().run()
         package = HERE / "src/toron" if self.editable_mode else Path(self.build_lib) / "toron"
         interface.write(ROOT / "include/toron.h", package / "_interface.py")

@@ -54,6 +54,9 @@ WRONG = {
     "parts of a state": (dict(state=np.zeros(11), out={"energies": np.zeros(4)}), "parts of the state"),
     "fibre": (dict(fibre=np.ones(2)), r"fibre has shape \(2,\)"),
     "density": (dict(outputs="wave_speed", density=-1.0), "density.*-1"),
+    "density that is no number": (dict(outputs="wave_speed", density="one"), "density is 'one'; allowed: a finite number > 0"),
+    "out that is an array": (dict(out=np.empty(6)), "out is of type ndarray; allowed: arrays by the names"),
+    "ragged F": (dict(F=[[1.0, 0, 0], [0, 1]]), "F is no array of numbers"),
 }
 
 
@@ -76,6 +79,49 @@ def test_outputs_over_inputs_are_refused(yarn):
         yarn.evaluate(np.eye(3), state_old=h[:11], out={"state": h[5:16]})
     state = np.zeros(11)
     yarn.evaluate(np.eye(3), state_old=state, out={"state": state})
+
+
+def test_two_outputs_at_one_place_are_refused(yarn, linear):
+    F, one, four = np.tile(np.diag([1.02, 0.9, 0.9]), (4, 1, 1)), np.empty(4), np.empty((4, 4))
+    with pytest.raises(toron.ArgumentError, match="shares memory with"):
+        yarn.evaluate(F, out={"wave_speed": one, "active": one})
+    with pytest.raises(toron.ArgumentError, match="energies shares memory with invariants"):
+        yarn.evaluate(F, out={"energies": four, "invariants": four})
+    single = np.empty(4, np.float32)
+    with pytest.raises(toron.ArgumentError, match="shares memory with"):
+        yarn.evaluate(F.astype(np.float32), out={"active": single, "status": single.view(np.int32)})
+    spin, new = linear.replace(rotation="spin"), np.eye(3)
+    for old, axes in ((np.eye(3), new), (new, np.eye(3)), (new, new)):
+        if axes is new:
+            with pytest.raises(toron.ArgumentError, match="axes shares memory with f_new"):
+                spin.evaluate(old, new, axes=axes, state=spin.new_state())
+        else:
+            spin.evaluate(old, new, axes=axes, state=spin.new_state())
+
+
+def test_what_is_no_number_is_refused_as_an_error_of_the_package(yarn, linear):
+    for value in (None, "a"):
+        with pytest.raises(toron.PropertyError, match="k_el is .*; allowed: a number"):
+            yarn.replace(k_el=value)
+    for value in (-1.0, float("nan"), "1 kg"):
+        with pytest.raises(toron.ArgumentError, match="density is"):
+            yarn.replace(density=value)
+    with pytest.raises(toron.ArgumentError, match="units is None"):
+        toron.Hyperelastic.from_preset("kevlar-km2-600", None)
+    with pytest.raises(toron.PropertyError, match="preset kevlar-km2-600-linear is of another law"):
+        toron.Hyperelastic.from_preset("kevlar-km2-600-linear", "si")
+    for code in (2**40, "none"):
+        with pytest.raises(toron.ArgumentError, match="unknown"):
+            toron.status_message(code)
+    with pytest.raises(toron.ArgumentError, match="complex128"):
+        yarn.least_acoustic_eigenvalue(np.eye(3, dtype=complex))
+    state = linear.new_state()
+    state.flags.writeable = False
+    with pytest.raises(toron.ArgumentError, match="read-only"):
+        linear.increment(np.zeros(6), state)
+    with pytest.raises(toron.ArgumentError, match="layout is 'Last'"):
+        yarn.new_state(5, layout="Last")
+    assert yarn.new_state(np.int64(5)).shape == (5, 11)
 
 
 def test_a_bound_call_wants_arrays(yarn):
@@ -112,6 +158,13 @@ def test_one_point_that_cannot_be_evaluated_raises(yarn):
     with pytest.raises(toron.PointError) as caught:
         yarn.evaluate(np.full((3, 3), np.inf), out=out)
     assert caught.value.status == caught.value.code == -302 and not out["stress"].any()
+
+
+@pytest.mark.parametrize("shape", [(1,), (1, 1), ()])
+def test_the_status_has_the_shape_of_the_points(yarn, shape):
+    with pytest.raises(toron.PointError) as caught:
+        yarn.stress(np.full((*shape, 3, 3), np.nan))
+    assert caught.value.status.shape == shape and (caught.value.status == -302).all()
 
 
 def test_the_status_of_points_where_it_is_wanted(yarn, gradients):

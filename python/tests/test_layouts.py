@@ -1,5 +1,6 @@
 """Arrays of every layout give the same numbers, and are copied only where the documentation says so."""
 
+import pickle
 import sys
 import tracemalloc
 
@@ -223,11 +224,47 @@ def test_no_more_than_some_calls_are_remembered(gradients):
     del F
     first, last_ = sys.getrefcount(arrays[0]), sys.getrefcount(arrays[-1])
     assert first == held and last_ > held
-    many, out = gradients(10_000), np.empty((10_000, 6))
-    before = sys.getrefcount(many)
+    many, out = gradients(40_000), np.empty((40_000, 6))
+    part, of_out = many[:10], out[:10]
+    before = sys.getrefcount(many), sys.getrefcount(part)
     yarn.stress(many, out=out)
-    after = sys.getrefcount(many)
-    assert before == after, "large arrays are not held"
+    yarn.stress(part, out=of_out)
+    after = sys.getrefcount(many), sys.getrefcount(part)
+    assert before == after, "large arrays are not held, nor what is a part of one"
+
+
+def test_a_call_of_before_is_not_taken_for_one_of_another_layout_or_option(yarn, gradients):
+    F, out = np.ascontiguousarray(gradients(4)), np.empty((4, 6))
+    yarn.stress(F, out=out)
+    F.dtype = np.int64
+    np.testing.assert_array_equal(yarn.stress(F, out=out, level="best"), yarn.stress(F.astype(float)))
+    density, speed = np.array(1e-9), {"wave_speed": np.empty(4)}
+    F = gradients(4)
+    slow = yarn.evaluate(F, out=speed, density=density)["wave_speed"].copy()
+    density[...] = 0.25e-9
+    np.testing.assert_allclose(yarn.evaluate(F, out=speed, density=density)["wave_speed"], 2 * slow)
+
+
+def test_a_bound_call_keeps_what_it_writes_to(yarn, gradients):
+    F = gradients(50)
+    step = yarn.bind(F, outputs=("energies", "failure"))
+    expected = {name: array.copy() for name, array in step().items()}
+    with pytest.raises(TypeError):
+        step().pop("energies")
+    step_of_energies = yarn.bind(F, outputs="energies")
+    taken = step_of_energies.outputs["energies"]
+    assert step_of_energies()["energies"] is taken
+    arrays = [np.zeros((50, 4)) for _ in range(100)]
+    step()
+    assert not any(array.any() for array in arrays)
+    for name, array in step().items():
+        np.testing.assert_array_equal(array, expected[name])
+
+
+def test_outputs_of_a_call_are_the_caller_s(yarn, gradients):
+    found = yarn.evaluate(gradients(3), outputs=("stress", "energies"))
+    assert set(pickle.loads(pickle.dumps(found))) == {"stress", "energies"}
+    assert list(yarn.evaluate(gradients(3), out={})) == ["stress"]
 
 
 def test_a_bound_call_reads_the_arrays_as_they_are(yarn, gradients):

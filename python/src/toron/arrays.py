@@ -19,9 +19,11 @@ class Arrays:
 
     def __init__(self, name: str, member: Member, gradient: Any, points_last: bool, frozen: bool) -> None:
         self._points_last, self._frozen = points_last, frozen
-        #: The arrays of the caller and those made in their place, and by name those that are written.
-        self.all: list[np.ndarray] = []
+        #: By name, the arrays of the caller and those made in their place; which of them are written; and of what the outputs that
+        #: have no array of their own are parts: all that must live as long as the call.
+        self.all: dict[str, np.ndarray] = {}
         self.written: dict[str, np.ndarray] = {}
+        self.wholes: list[np.ndarray] = []
         self._placed: list[Placed] = []
         array = self._array(name, gradient)
         self.dtype = array.dtype if array.dtype in _FLOATS else np.dtype(np.float64)
@@ -30,7 +32,7 @@ class Arrays:
             allowed = "(3, 3) or (3, 3, n)" if points_last else "(3, 3) or (n, 3, 3)"
             raise ArgumentError(f"{name} has shape {array.shape}; allowed: {allowed}", lib.TORON_BAD_COUNT)
         self.points = array.shape[2:] if points_last else array.shape[:-2]
-        self.all.append(array)
+        self.all[name] = array
         self.put(member, array)
 
     def shape(self, components: tuple[int, ...]) -> tuple[int, ...]:
@@ -55,7 +57,7 @@ class Arrays:
         """An array that is read, checked."""
         array = self._array(name, values)
         self._check_shape(name, array, member)
-        self.all.append(array)
+        self.all[name] = array
         return array
 
     def output(self, name: str, member: Member, given: Any) -> np.ndarray:
@@ -68,9 +70,14 @@ class Arrays:
         self._check_shape(name, array, member)
         if not array.flags.writeable:
             raise ArgumentError(f"{name} is read-only; allowed: an array that may be written", lib.TORON_BAD_ARGUMENT)
-        self.written[name] = array
-        self.all.append(array)
+        self.all[name] = self.written[name] = array
         return array
+
+    def parts(self, members: list[Member]) -> dict[str, np.ndarray]:
+        """New arrays for outputs that share a layout in the library, by the members' names: the parts of one array."""
+        whole = self.empty(Member("parts", (sum(member.components[0] for member in members),)))
+        self.wholes.append(whole)
+        return self.put_parts(members, whole)
 
     def empty(self, member: Member) -> np.ndarray:
         """A new array for an output, in such an order that the library can write to it."""
@@ -90,22 +97,51 @@ class Arrays:
     def _array(self, name: str, values: Any) -> np.ndarray:
         if not self._frozen and not isinstance(values, np.ndarray):
             raise ArgumentError(f"{name} is a {type(values).__name__}; allowed: a NumPy array", lib.TORON_BAD_ARGUMENT)
-        array = np.asarray(values)
-        if not np.can_cast(array.dtype, np.float64, "same_kind"):
-            raise ArgumentError(f"{name} has type {array.dtype}; allowed: real numbers", lib.TORON_BAD_ARGUMENT)
-        return array
+        return _real(name, values)
 
     def _check_shape(self, name: str, array: np.ndarray, member: Member) -> None:
         if array.shape != self.shape(member.components):
             raise ArgumentError(f"{name} has shape {array.shape}; allowed: {self.shape(member.components)}", lib.TORON_BAD_COUNT)
 
     def _check_overlap(self) -> None:
-        """The library reads and writes by parts, so that an output over an input would change what is still to be read."""
+        """The library reads and writes by parts, so that an output over another array would change what is still to be read, or has
+        been written. Only the new state may be where the old one is.
+        """
         for name, output in self.written.items():
-            for array in self.all:
-                if array is not output and np.may_share_memory(array, output) and not _same_place(array, output):
-                    if np.shares_memory(array, output):
-                        raise ArgumentError(f"{name} shares memory with another array of the call", lib.TORON_BAD_ARGUMENT)
+            for other, array in self.all.items():
+                if other == name or not np.may_share_memory(array, output):
+                    continue
+                if (name, other) == ("state", "state_old") and _same_place(array, output):
+                    continue
+                if np.shares_memory(array, output):
+                    raise ArgumentError(f"{name} shares memory with {other}; allowed: arrays of their own", lib.TORON_BAD_ARGUMENT)
+
+
+def _real(name: str, values: Any) -> np.ndarray:
+    """The values as an array of real numbers of any type."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ArgumentError(f"{name} is no array of numbers: {error}", lib.TORON_BAD_ARGUMENT) from None
+    if not np.can_cast(array.dtype, np.float64, "same_kind"):
+        raise ArgumentError(f"{name} has type {array.dtype}; allowed: real numbers", lib.TORON_BAD_ARGUMENT)
+    return array
+
+
+def numbers(name: str, values: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """The values as a contiguous array of this shape, float64."""
+    array = np.ascontiguousarray(_real(name, values), np.float64)
+    if array.shape != shape:
+        raise ArgumentError(f"{name} has shape {array.shape}; allowed: {shape}", lib.TORON_BAD_COUNT)
+    return array
+
+
+def number(name: str, value: Any, allowed: str) -> float:
+    """The value as a number."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} is {value!r}; allowed: {allowed}", lib.TORON_BAD_ARGUMENT) from None
 
 
 def _same_place(a: np.ndarray, b: np.ndarray) -> bool:
@@ -114,6 +150,9 @@ def _same_place(a: np.ndarray, b: np.ndarray) -> bool:
 
 def names(outputs: str | Iterable[str] | None, out: Mapping[str, Any] | None, allowed: Iterable[str]) -> tuple[str, ...]:
     """The outputs that are wanted: those of `outputs` and of `out`, or else the stress."""
+    if out is not None and not isinstance(out, Mapping):
+        found = type(out).__name__
+        raise ArgumentError(f"out is of type {found}; allowed: arrays by the names of outputs, {{\"stress\": …}}", lib.TORON_BAD_ARGUMENT)
     if outputs is None:
         outputs = () if out else "stress"
     named = (outputs,) if isinstance(outputs, str) else tuple(outputs)

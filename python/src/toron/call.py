@@ -1,16 +1,18 @@
 """A call of the library with its arguments in place."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from operator import attrgetter
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from toron._library import CAPACITY, buffers, text
+from toron.arrays import Arrays
 from toron.errors import PointError, is_of_points, raise_for
 from toron.placement import Copy
 
-_shape = attrgetter("shape")
+_layout = attrgetter("shape", "strides", "dtype")
 _writeable = attrgetter("flags.writeable")
 
 
@@ -20,7 +22,7 @@ class Call:
     Made by `Hyperelastic.bind` and `LinearElastic.bind`. It holds the arrays, and must not be used by two threads at a time.
     """
 
-    __slots__ = ("_function", "_law", "_block", "_copies", "_status", "_reported", "_arrays", "_shapes", "_written", "outputs", "points")
+    __slots__ = ("_function", "_law", "_block", "_copies", "_status", "_reported", "_written", "_arrays", "_layouts", "_wholes", "_shape", "outputs", "points")
 
     def __init__(
         self,
@@ -28,19 +30,18 @@ class Call:
         law: Any,
         block: Any,
         copies: list[Copy],
-        arrays: list[np.ndarray],
-        written: Iterable[np.ndarray],
+        placed: Arrays,
         outputs: Mapping[str, np.ndarray],
         status: np.ndarray | None,
-        reported: bool,
     ) -> None:
         self._function, self._law, self._block = function, law, block
-        self._copies, self._arrays = copies, arrays
-        self._status, self._reported = status, reported
-        self._shapes = tuple(map(_shape, arrays))
-        self._written = tuple(written)
+        # The block has pointers into all of these.
+        self._copies, self._arrays, self._wholes = copies, tuple(placed.all.values()), tuple(placed.wholes)
+        self._status, self._reported, self._shape = status, "status" in outputs, placed.points
+        self._layouts = tuple(map(_layout, self._arrays))
+        self._written = tuple(placed.written.values())
         #: The outputs by name.
-        self.outputs = outputs
+        self.outputs: Mapping[str, np.ndarray] = MappingProxyType(outputs)
         #: The number of points.
         self.points: int = block.n
 
@@ -73,12 +74,12 @@ class Call:
             raise_for(code)
         if self._reported:
             return
-        status = np.array(code, np.int32) if self._status is None else self._status
-        raise PointError(text(buffers.message), code, status.copy())
+        status = np.full(self._shape, code, np.int32) if self._status is None else self._status.copy()
+        raise PointError(text(buffers.message), code, status)
 
     def unchanged(self) -> bool:
-        """Whether the arrays have the shapes that they had when they were bound, and those that are written may be."""
-        return tuple(map(_shape, self._arrays)) == self._shapes and all(map(_writeable, self._written))
+        """Whether the arrays have shapes, strides and types as when they were bound, and those that are written may be."""
+        return tuple(map(_layout, self._arrays)) == self._layouts and all(map(_writeable, self._written))
 
     def pointers(self) -> tuple[Any, Any, Any]:
         """The library's function, the prepared law and the structure of the block, for callers from other languages."""

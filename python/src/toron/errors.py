@@ -28,7 +28,7 @@ class ArgumentError(Error, ValueError):
 
 
 class PropertyError(Error, ValueError):
-    """A property of a law is missing or outside its bounds, or its name is unknown."""
+    """A property of a law is missing or outside its bounds."""
 
 
 class PointError(Error, ArithmeticError):
@@ -71,7 +71,11 @@ def status_message(code: int) -> str:
 
     Raises `ArgumentError` if there is no such code.
     """
-    raise_for(lib.toron_status_message(code, buffers.message, CAPACITY))
+    try:
+        known = lib.toron_status_message(code, buffers.message, CAPACITY)
+    except (OverflowError, TypeError):
+        raise ArgumentError(f"status code {code!r} is unknown", lib.TORON_UNKNOWN_NAME) from None
+    raise_for(known)
     return text(buffers.message)
 
 

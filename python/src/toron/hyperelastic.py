@@ -77,8 +77,8 @@ class Hyperelastic(Law):
         - active: (), 1, or 0 if the point has failed or cannot be evaluated;
         - status: (), int32, 0 or the code of a point that cannot be evaluated. Without it such points raise `PointError`.
 
-        `out`: arrays for outputs, by name; they are outputs too. Then `out` is returned. They are written without a copy where their
-        strides allow: docs/python.md says when.
+        `out`: arrays for outputs, by name; they are outputs too. Without `outputs` it is `out` that is returned. They are written
+        without a copy where their strides allow: docs/python.md says when. No output may share memory with another array of the call.
 
         `state`: the old state, updated in place. Or `state_old`, which is only read, and the output "state". Without either all old
         states are 0. Without a new state, nor "failure", no point fails; those that have failed before stay so.
@@ -106,7 +106,7 @@ class Hyperelastic(Law):
     ) -> Call:
         """As `evaluate`, but returns a call to be made as often as you like: `step = law.bind(F, state=h)`, then `step()`.
 
-        Every call reads and writes these arrays as they are then, and checks nothing but their contents.
+        Every call reads and writes these arrays as they are then, checks nothing but their contents, and returns the same arrays.
         """
         return self._bind((F, state, state_old, fibre), out, outputs, (tangent, density, points, level), frozen=False)
 
@@ -132,15 +132,11 @@ class Hyperelastic(Law):
 
         Raises `ArgumentError`, or `PointError` if the point cannot be evaluated.
         """
-        if np.shape(F) != (3, 3):
-            raise ArgumentError(f"F has shape {np.shape(F)}; allowed: (3, 3)", lib.TORON_BAD_COUNT)
         point = structure("toron_point_f64")
-        columns = np.array(np.transpose(F), np.float64, order="C")
+        columns = np.ascontiguousarray(arrays.numbers("F", F, (3, 3)).T)
         point.deformation_gradient = ffi.from_buffer("double[]", columns)
         if fibre is not None:
-            direction = np.array(fibre, np.float64, order="C")
-            if direction.shape != (3,):
-                raise ArgumentError(f"fibre has shape {direction.shape}; allowed: (3,)", lib.TORON_BAD_COUNT)
+            direction = arrays.numbers("fibre", fibre, (3,))
             point.fibre = ffi.from_buffer("double[]", direction)
         least, normal = ffi.new("double *"), np.empty(3)
         law, written = self._law_in(np.dtype(np.float64)), ffi.from_buffer("double[]", normal)
@@ -179,16 +175,15 @@ def _states(placed: arrays.Arrays, given: dict[str, Any], wanted: tuple[str, ...
     parts = [name for name in _PARTS if name in wanted]
     results: dict[str, np.ndarray] = {}
     if state is not None or "state" in wanted:
-        if any(name in given for name in parts):
-            raise ArgumentError(f"out has {', '.join(parts)}, which are parts of the state", lib.TORON_BAD_ARGUMENT)
+        twice = [name for name in parts if name in given]
+        if twice:
+            raise ArgumentError(f"out has {', '.join(twice)}: parts of the state, which is given", lib.TORON_BAD_ARGUMENT)
         new = placed.output("state", _OUTPUTS["state"], given.get("state") if state is None else state)
         old = old if state is None else new
         results = {"state": new, **placed.put_parts([_OUTPUTS[name] for name in _PARTS], new)}
     elif not any(name in given for name in parts):
         # One array for them all, since they have one layout.
-        members = [_OUTPUTS[name] for name in parts]
-        whole = placed.empty(Member("parts", (sum(member.components[0] for member in members),)))
-        results = placed.put_parts(members, whole)
+        results = placed.parts([_OUTPUTS[name] for name in parts])
     if old is not None:
         placed.put_parts(_OLD, old)
     return results

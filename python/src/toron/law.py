@@ -1,7 +1,8 @@
 """What both laws have in common: properties by name, the prepared law, and calls on arrays."""
 
 from collections.abc import Iterable, Mapping
-from math import prod
+from math import inf, prod
+from operator import index as integer
 from operator import is_
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal, Self
@@ -11,7 +12,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from toron import tables
 from toron._library import CAPACITY, buffers, constants, ffi, lib
-from toron.arrays import Arrays
+from toron.arrays import Arrays, number
 from toron.call import Call
 from toron.errors import ArgumentError, PropertyError, raise_for
 from toron.placement import Member
@@ -28,10 +29,11 @@ SUFFIX = {np.dtype(np.float64): "f64", np.dtype(np.float32): "f32"}
 
 STATUS = Member("status", (), written=True)
 
-#: How many calls with `out` a law remembers, and up to how many points: with more of them looking at the arrays takes no time to
-#: speak of, and holding them would be a burden.
+#: How many calls with `out` a law remembers, and how many bytes the arrays of one may have, together with those that they are views
+#: of: it holds them.
 _CALLS = 8
-_POINTS = 2048
+_BYTES = 4 << 20
+_FIXED = (str, int, float, type(None))
 
 
 def choice(name: str, value: Any, choices: dict[str, int]) -> int:
@@ -50,7 +52,7 @@ class Law:
 
     def __init__(self, density: float | None = None, **properties: float) -> None:
         indices = {name: tables.property_index(self._number, name) for name in properties}
-        given = {index: float(properties[name]) for name, index in indices.items()}
+        given = {index: _property(name, properties[name]) for name, index in indices.items()}
         values = []
         for index, row in enumerate(self.properties_table()):
             value = given.get(index, row.default)
@@ -58,7 +60,7 @@ class Law:
                 raise PropertyError(f"property {row.name} is missing; allowed: {row.allowed}", lib.TORON_PROPERTY_COUNT)
             values.append(value)
         self._values = np.array(values, np.float64)
-        self._density = None if density is None else float(density)
+        self._density = None if density is None else _checked_density(density)
         self._prepared: dict[np.dtype, Any] = {}
         self._calls: tuple[tuple[Call, tuple[Any, ...]], ...] = ()
         self._law_in(np.dtype(np.float64))
@@ -127,9 +129,12 @@ class Law:
 
     def new_state(self, points: int | tuple[int, ...] = (), dtype: DTypeLike = np.float64, layout: Points = "first") -> NDArray[Any]:
         """The state of so many points at the start, zeros: (n, number of state variables), or (…, n) with `layout="last"`."""
-        shape = (points,) if isinstance(points, int) else tuple(points)
+        try:
+            shape: tuple[int, ...] = (integer(points),)
+        except TypeError:
+            shape = tuple(points)
         count = (len(self.state_table()),)
-        return np.zeros(count + shape if layout == "last" else shape + count, dtype)
+        return np.zeros(count + shape if choice("layout", layout, POINTS) else shape + count, dtype)
 
     def _law_in(self, dtype: np.dtype) -> Any:
         """The prepared law in this precision."""
@@ -147,7 +152,7 @@ class Law:
             density = self._density if density is None else density
             if density is None:
                 raise ArgumentError("density is missing; allowed: a finite number > 0, for the wave speed", lib.TORON_BAD_ARGUMENT)
-            block.density = density
+            block.density = _checked_density(density)
 
     def _evaluate(
         self, inputs: tuple[Any, ...], out: Mapping[str, np.ndarray] | None, outputs: str | Iterable[str] | None, options: tuple[Any, ...]
@@ -155,16 +160,15 @@ class Law:
         """Calls what `_bind` makes, or has made before for the very same objects: to look at arrays anew takes longer than to
         evaluate some points.
         """
-        if out is None or outputs is not None:
-            return self._bind(inputs, out, outputs, options)()
+        if outputs is not None or not isinstance(out, Mapping) or not out:
+            return dict(self._bind(inputs, out, outputs, options)())
         given = (*inputs, *options, *out, *out.values())
         for call, before in self._calls:
             if len(before) == len(given) and all(map(is_, before, given)) and call.unchanged():
                 call()
                 return out
         call = self._bind(inputs, out, outputs, options)
-        # What is no array is read once, when it is converted.
-        if call.points <= _POINTS and all(array is None or isinstance(array, np.ndarray) for array in inputs):
+        if _can_be_remembered((*inputs, *out.values()), options):
             self._calls = ((call, given), *self._calls)[:_CALLS]
         call()
         return out
@@ -180,10 +184,39 @@ class Law:
             # With it the message names the point.
             status = placed.empty(STATUS)
             placed.put(STATUS, status)
-        copies = placed.place(block)
-        reported = "status" in outputs
-        law = self._law_in(placed.dtype)
-        return Call(getattr(lib, function), law, block, copies, placed.all, placed.written.values(), outputs, status, reported)
+        return Call(getattr(lib, function), self._law_in(placed.dtype), block, placed.place(block), placed, outputs, status)
+
+
+def _property(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise PropertyError(f"property {name} is {value!r}; allowed: a number", lib.TORON_PROPERTY_NOT_FINITE) from None
+
+
+def _checked_density(density: Any) -> float:
+    allowed = "a finite number > 0"
+    value = number("density", density, allowed)
+    if not 0 < value < inf:
+        raise ArgumentError(f"density is {density!r}; allowed: {allowed}", lib.TORON_BAD_ARGUMENT)
+    return value
+
+
+def _can_be_remembered(arrays: tuple[Any, ...], options: tuple[Any, ...]) -> bool:
+    """Whether a call may be taken for an earlier one by its very objects: what is no plain array is read once, when it is converted,
+    and what can change without being looked at is no plain option. What the law holds then must not be large.
+    """
+    total = 0
+    for array in arrays:
+        if array is None:
+            continue
+        whole = array
+        while type(whole) is np.ndarray and whole.base is not None:
+            whole = whole.base
+        if type(array) is not np.ndarray or type(whole) is not np.ndarray:
+            return False
+        total += whole.nbytes
+    return total <= _BYTES and all(isinstance(option, _FIXED) for option in options)
 
 
 def _remade(law: type[Law], arguments: dict[str, Any]) -> Law:

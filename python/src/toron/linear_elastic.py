@@ -91,7 +91,8 @@ class LinearElastic(Law):
         Arguments are those of `Hyperelastic.evaluate`, but for
 
         - `f_old`, `f_new`: F at both ends of the step, (3, 3), (…, 3, 3) or (3, 3, …); copy the new one to the old one after it;
-        - `state`, `state_old` and the output "state": (10,) at every point; the law needs it, since the stress is in it;
+        - `state`, `state_old` and the output "state": (10,) at every point; the law needs it, since the stress is in it:
+          without it every step starts without stress;
         - `fibre`, `second_axis`: (3,) at every point, reference directions in place of the law's own;
         - `axes`: (3, 3) at every point, the current material axes one after the other, updated in place, for the frame "spin";
           `reference_axes` gives those at the start.
@@ -132,15 +133,15 @@ class LinearElastic(Law):
 
         Raises `ArgumentError`, or `PointError` if the point cannot be evaluated.
         """
-        strains, stress = np.array(strain, np.float64), np.empty(6)
-        if strains.shape != (6,):
-            raise ArgumentError(f"strain has shape {strains.shape}; allowed: (6,)", lib.TORON_BAD_COUNT)
+        strains, stress = arrays.numbers("strain", strain, (6,)), np.empty(6)
         if not isinstance(state, np.ndarray) or state.dtype != np.float64 or state.shape != _STATE_OLD.components:
             raise ArgumentError(f"state is no float64 array of shape {_STATE_OLD.components}", lib.TORON_BAD_ARGUMENT)
+        if not state.flags.writeable:
+            raise ArgumentError("state is read-only; allowed: an array that may be written", lib.TORON_BAD_ARGUMENT)
         new = np.array(state)
         step = structure("toron_linear_increment_f64")
         step.criterion = self._criterion_code
-        step.jacobian = 0.0 if jacobian is None else jacobian
+        step.jacobian = 0.0 if jacobian is None else arrays.number("jacobian", jacobian, "a number > 0")
         step.strain, step.stress = ffi.from_buffer("double[]", strains), ffi.from_buffer("double[]", stress)
         step.state_old = step.state_new = ffi.from_buffer("double[]", new)
         law = self._law_in(np.dtype(np.float64))
@@ -153,9 +154,8 @@ class LinearElastic(Law):
 
         `fibre`, `second_axis`: (3,), in place of the law's own. Raises `PointError` if there are no such axes.
         """
-        given = [None if axis is None else np.array(axis, np.float64) for axis in (fibre, second_axis)]
-        if any(axis is not None and axis.shape != (3,) for axis in given):
-            raise ArgumentError("fibre or second_axis has a wrong shape; allowed: (3,)", lib.TORON_BAD_COUNT)
+        named = (("fibre", fibre), ("second_axis", second_axis))
+        given = [None if axis is None else arrays.numbers(name, axis, (3,)) for name, axis in named]
         pointers = [ffi.NULL if axis is None else ffi.from_buffer("double[]", axis) for axis in given]
         found = np.empty((3, 3))
         law = self._law_in(np.dtype(np.float64))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from toron._library import CAPACITY, buffers, ffi, lib, structure, text
-from toron.errors import raise_for
+from toron.errors import ArgumentError, PropertyError, raise_for
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,12 @@ def preset(name: str, units: str, count: int) -> tuple[list[float], float]:
 
     Raises `ArgumentError` for a name or a unit that does not exist, `PropertyError` if the preset is of another law.
     """
+    for argument, given in (("preset", name), ("units", units)):
+        if not isinstance(given, str):
+            raise ArgumentError(f"{argument} is {given!r}; allowed: a text", lib.TORON_BAD_ARGUMENT)
     values, density = ffi.new("double[]", count), ffi.new("double *")
-    raise_for(lib.toron_preset_f64(name.encode(), units.encode(), values, count, density, buffers.message, CAPACITY))
+    code = lib.toron_preset_f64(name.encode(), units.encode(), values, count, density, buffers.message, CAPACITY)
+    if code == lib.TORON_PROPERTY_COUNT:
+        raise PropertyError(f"preset {name} is of another law: {text(buffers.message)}", code)
+    raise_for(code)
     return list(values), density[0]

@@ -42,17 +42,23 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The place on these faces of a surface, or on those around them, that is nearest to a point; `None` if it cannot come into
-    /// contact there before the next search.
-    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place, f64)> {
+    /// The place on these faces of a surface, or on those around them, that is nearest to a point, and how deep it is there; `None`
+    /// if it cannot come into contact there before the next search.
+    ///
+    /// A point beyond the surface's border has no depth. It may come back, and takes any of the faces where no other one is near.
+    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place, Option<f64>)> {
         let mut nearest = None;
         let mut least = f64::INFINITY;
         for near in faces {
             let (mut face, mut place) = (near.face, Place::default());
-            // A point beyond the surface's border may come back.
-            let depth = face::meet(surface, &mut face, &mut place, point).map_or(self.margin, |met| met.depth);
-            if depth >= -self.margin && depth < self.deepest && depth.abs() < least {
-                (nearest, least) = (Some((face, place, depth)), depth.abs());
+            let depth = face::meet(surface, &mut face, &mut place, point).map(|met| met.depth);
+            let distance = match depth {
+                Some(depth) if depth < -self.margin || depth >= self.deepest => continue,
+                Some(depth) => depth.abs(),
+                None => self.margin.max(self.deepest),
+            };
+            if distance < least {
+                (nearest, least) = (Some((face, place, depth)), distance);
             }
         }
         nearest
@@ -161,8 +167,8 @@ impl MutualContact {
                     let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
                     let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
                     if let Some((face, place, depth)) = nearest {
-                        let known = first || depth <= 0.0;
-                        let depth = if first { depth.max(0.0) } else { 0.0 };
+                        let known = first || depth.is_some_and(|depth| depth <= 0.0);
+                        let depth = if first { depth.unwrap_or(0.0).max(0.0) } else { 0.0 };
                         pairs.push(Pair { node, master, face, place, stiffness, known, depth, ..Pair::default() });
                     }
                 }
@@ -277,7 +283,8 @@ impl MutualContact {
         }
     }
 
-    /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them.
+    /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them. What was near a
+    /// face that is gone may be near another one: the next step searches.
     pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
         let side = &mut self.sides[number];
         side.surface.remove(body);
@@ -290,6 +297,7 @@ impl MutualContact {
             released += on_it.map(Pair::leave).sum::<f64>();
         }
         self.released += released;
+        self.motion.lose_track();
     }
 }
 

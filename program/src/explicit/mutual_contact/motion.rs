@@ -127,6 +127,11 @@ impl Motion {
         parts.reduce(|| false, |a, b| a | b) | (self.far >= NEAR * margin)
     }
 
+    /// Has the next step search.
+    pub fn lose_track(&mut self) {
+        self.far = f64::INFINITY;
+    }
+
     /// Begins anew from where the bodies are.
     pub fn restart(&mut self, surfaces: &[&Surface], margin: f64) {
         let mut places: Vec<(Bounds, u32)> = Vec::with_capacity(self.starts.len());

@@ -43,13 +43,38 @@ fn bar(angle: f64, centre: [f64; 3]) -> Mesh {
 }
 
 fn bodies(meshes: Vec<Mesh>, media: &[Medium<f64>]) -> (Vec<Body<f64>>, MutualContact) {
-    let surface = |mesh: &Mesh| {
-        let (faces, elements) = outer_faces(&mesh.elements).into_iter().unzip();
-        Surface::new(mesh, faces, elements)
+    let contact = MutualContact::new(PARAMETERS, meshes.iter().map(surface).collect());
+    (meshes.into_iter().map(|mesh| Body::new(mesh, media, |_| 0)).collect(), contact)
+}
+
+fn surface(mesh: &Mesh) -> Surface {
+    let (faces, elements) = outer_faces(&mesh.elements).into_iter().unzip();
+    Surface::new(mesh, faces, elements)
+}
+
+/// As of a yarn, whose ends are open.
+fn open(mesh: &Mesh) -> Surface {
+    let lies_at_an_end = |face: &[u32; 4]| {
+        let [a, b, c, d] = face.map(|node| Vector3::from(mesh.nodes[node as usize]));
+        (c - a).cross(&(d - b)).normalize().dot(&Vector3::from(mesh.fibre[0])).abs() > 0.9
     };
-    let surfaces = meshes.iter().map(surface).collect();
-    let bodies = meshes.into_iter().map(|mesh| Body::new(mesh, media, |_| 0)).collect();
-    (bodies, MutualContact::new(PARAMETERS, surfaces))
+    let faces = outer_faces(&mesh.elements).into_iter().filter(|(face, _)| !lies_at_an_end(face));
+    let (faces, elements) = faces.unzip();
+    Surface::new(mesh, faces, elements)
+}
+
+/// Moves a body in steps; returns the energy in the contact.
+fn shift(body: usize, by: [f64; 3], bodies: &mut [Body<f64>], contact: &mut MutualContact) -> f64 {
+    const STEPS: usize = 20;
+    for _ in 0..STEPS {
+        for u in &mut bodies[body].displacement {
+            for i in 0..3 {
+                u[i] += by[i] / STEPS as f64;
+            }
+        }
+        contact.apply(bodies);
+    }
+    contact.stored
 }
 
 /// Two bars of which one lies across the other, this deep in it.
@@ -206,8 +231,6 @@ fn a_collision_keeps_momentum_and_energy_and_has_the_same_bits_on_any_number_of_
 fn what_is_deleted_leaves_the_contact() {
     let media = media();
     let (mut bodies, mut contact) = crossed(1e-6, &media);
-    let free = Support { free: [true; 3], velocity: [0.0; 3] };
-    bodies[0].support(0, free);
     contact.apply(&mut bodies);
     let stored = contact.stored;
     let all: Vec<usize> = (0..bodies[1].mesh.elements.len()).collect();
@@ -219,6 +242,48 @@ fn what_is_deleted_leaves_the_contact() {
     contact.apply(&mut bodies);
     assert_eq!([force(&bodies[0]), force(&bodies[1])], [Vector3::zeros(); 2]);
     assert!((contact.stored / stored - 1.0).abs() < 1e-12, "the balance keeps what was stored");
+}
+
+/// A yarn across the open end of another one, above it and beyond it, comes back over the end and down.
+#[test]
+fn what_was_beyond_an_open_end_may_come_back() {
+    let media = media();
+    let parameters = Parameters { friction: 0.0, margin: 1.6e-4, deepest: 1e-4, ..PARAMETERS };
+    let meshes = [bar(0.0, [0.0; 3]), bar(1.5, [7.6e-4, 2.2e-4, 1.1e-5])];
+    let fresh = || MutualContact::new(parameters, meshes.iter().map(open).collect());
+    let mut contact = fresh();
+    let mut bodies: Vec<Body<f64>> = meshes.iter().map(|mesh| Body::new(mesh.clone(), &media, |_| 0)).collect();
+    contact.apply(&mut bodies);
+    assert_eq!(shift(1, [-1e-4, 0.0, 0.0], &mut bodies, &mut contact), 0.0);
+    let mut other = fresh();
+    other.apply(&mut bodies);
+    let before = bodies[1].displacement.clone();
+    let stored = shift(1, [0.0, -2.1e-5, 0.0], &mut bodies, &mut contact);
+    assert_eq!((contact.searches, other.searches), (1, 1));
+    bodies[1].displacement = before;
+    let expected = shift(1, [0.0, -2.1e-5, 0.0], &mut bodies, &mut other);
+    assert!(stored > 0.0 && (stored / expected - 1.0).abs() < 1e-9, "{stored} {expected}");
+}
+
+/// A node whose face has been deleted touches what is left of the other yarn.
+#[test]
+fn what_was_near_a_deleted_face_meets_the_ones_beside_it() {
+    let media = media();
+    let depth = |fresh: bool| {
+        let (mut bodies, mut contact) = crossed(-2e-6, &media);
+        contact.apply(&mut bodies);
+        // Every second layer of the lower bar's elements.
+        let gone: Vec<usize> = (0..bodies[0].mesh.elements.len()).filter(|i| i / 8 % 2 == 0).collect();
+        bodies[0].delete(&gone);
+        if fresh {
+            contact = crossed(-2e-6, &media).1;
+        }
+        contact.remove(0, &bodies[0]);
+        shift(1, [1e-5, 0.0, 0.0], &mut bodies, &mut contact);
+        shift(1, [1e-5, -4e-6, 0.0], &mut bodies, &mut contact)
+    };
+    let [stored, expected] = [false, true].map(depth);
+    assert!(stored > 0.0 && (stored / expected - 1.0).abs() < 1e-9, "{stored} {expected}");
 }
 
 /// A ribbon that lies on a quarter of a cylinder, with a straight tail at either end; it is thin beside the cylinder.
