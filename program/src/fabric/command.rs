@@ -31,15 +31,18 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     }
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let panel = scene.woven.model();
+    let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
+    for case in scene.cases.iter().filter(|_| restart) {
+        // Before hours are spent on the first one.
+        if let Some(bytes) = read(&place(case))? {
+            run::check(&scene, case, &bytes)?;
+        }
+    }
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
-        let checkpoint = output.join(format!("{}.checkpoint", case.name));
+        let checkpoint = place(case);
         let bytes = if restart { read(&checkpoint)? } else { None };
-        if !restart && checkpoint.exists() {
-            // That of another run.
-            std::fs::remove_file(&checkpoint).map_err(|error| file_error(&checkpoint, &error))?;
-        }
         let frames = Frames::new(output, &case.name);
         let mut observer = CaseObserver { name: &case.name, bar: &bar, frames, checkpoint };
         let result = run::run(&scene, case, &panel, bytes.as_deref(), &mut observer);

@@ -17,7 +17,7 @@ pub struct Sample {
     pub speed: f64,
     pub travel: f64,
     pub force: f64,
-    /// The farthest that a point of an intact element has gone in the direction of the blow.
+    /// The farthest that a node has gone in the direction of the blow, in yarns that are not torn.
     pub deflection: f64,
     /// Along a yarn through the centre.
     pub front: f64,
@@ -33,8 +33,8 @@ pub struct Sample {
     pub least_scaled_jacobian: f64,
     /// Yarns that are torn through.
     pub torn: usize,
-    /// The largest angle, in degrees, between a section and the plane across its yarn's middle line; and how far its middle
-    /// has slipped along that line against its rim.
+    /// By how much, at most, a section whose elements are all there has tilted along its yarn since it was at rest, in degrees; and
+    /// how far its middle has slipped along it against its upper and lower side.
     pub tilt: f64,
     pub slip: f64,
 }
@@ -56,7 +56,8 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
     for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
         sample.deleted += body.deleted.len();
         sample.collapsed += body.collapsed;
-        sample.torn += usize::from(is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i)));
+        let torn = is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i));
+        sample.torn += usize::from(torn);
         for i in 0..body.mesh.elements.len() {
             let densities = body.energy_densities(&solver.media, i);
             for (part, density) in sample.parts.iter_mut().zip(densities) {
@@ -70,7 +71,7 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
             }
             sample.index = largest(sample.index, body.failure_index(&solver.media, i));
             let nodes = body.mesh.elements[i].map(|node| node as usize);
-            for node in nodes {
+            for node in nodes.into_iter().filter(|_| !torn) {
                 sample.deflection = largest(sample.deflection, -body.displacement[node][2].into());
             }
             let (ratio, scaled) =
@@ -78,10 +79,16 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
             sample.least_volume_ratio = smallest(sample.least_volume_ratio, ratio);
             sample.least_scaled_jacobian = smallest(sample.least_scaled_jacobian, scaled);
         }
-        let position = |node: usize| body.position(node);
+        let lines = yarn.elements_per_layer();
+        let whole_at = |layer: usize| (layer * lines..(layer + 1) * lines).all(|element| body.is_intact(element));
         for section in 0..=yarn.layers {
-            let (tilt, slip) = section_of(yarn, section, position);
-            (sample.tilt, sample.slip) = (largest(sample.tilt, tilt), largest(sample.slip, slip));
+            if !(section.saturating_sub(1)..(section + 1).min(yarn.layers)).all(whole_at) {
+                continue;
+            }
+            let at_rest = section_of(yarn, section, |node| Vector3::from(body.mesh.nodes[node]));
+            let now = section_of(yarn, section, |node| Vector3::from(body.position(node)));
+            sample.tilt = largest(sample.tilt, (now.0 - at_rest.0).abs());
+            sample.slip = largest(sample.slip, (now.1 - at_rest.1).abs());
         }
     }
     sample.front = front(panel, solver, threshold);
@@ -147,21 +154,22 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
 }
 
 /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
-/// side along the yarn: what the law's k_ld and hourglass control hold.
-fn section_of(yarn: &Yarn, section: usize, position: impl Fn(usize) -> [f64; 3]) -> (f64, f64) {
+/// side along the yarn.
+fn section_of(yarn: &Yarn, section: usize, position: impl Fn(usize) -> Vector3<f64>) -> (f64, f64) {
     let (per, rows, columns) = (yarn.nodes_per_section(), yarn.rows, yarn.columns);
-    let mean = |section: usize| {
-        let sum = (section * per..(section + 1) * per).map(|node| Vector3::from(position(node)));
-        sum.sum::<Vector3<f64>>() / per as f64
+    let mean = |section: usize| -> Vector3<f64> {
+        (section * per..(section + 1) * per).map(&position).sum::<Vector3<f64>>() / per as f64
     };
     let (before, after) = (section.saturating_sub(1), (section + 1).min(yarn.layers));
     let along = (mean(after) - mean(before)).normalize();
-    let node = |column: usize, row: usize| Vector3::from(position(section * per + column * (rows + 1) + row));
-    let middle = columns / 2;
-    let upright = node(middle, rows) - node(middle, 0);
-    let tilt = (along.dot(&upright) / upright.norm()).abs().min(1.0).asin().to_degrees();
-    let core = node(middle, rows / 2);
-    let sides = 0.5 * (node(middle, rows) + node(middle, 0));
-    let slip = if rows < 2 { 0.0 } else { along.dot(&(core - sides)).abs() };
-    (tilt, slip)
+    let node = |column: usize, row: usize| position(section * per + column * (rows + 1) + row);
+    let height = |column: usize| node(column, rows) - node(column, 0);
+    // The axis of a yarn that a plane of symmetry halves is at the side where it is highest.
+    let axis = if yarn.halved { [0, columns] } else { [columns / 2, columns.div_ceil(2)] };
+    let column = if height(axis[0]).norm() > height(axis[1]).norm() { axis[0] } else { axis[1] };
+    let upright = height(column);
+    let tilt = (along.dot(&upright) / upright.norm()).clamp(-1.0, 1.0).asin().to_degrees();
+    let core = 0.5 * (node(column, rows / 2) + node(column, rows.div_ceil(2)));
+    let sides = 0.5 * (node(column, rows) + node(column, 0));
+    (tilt, along.dot(&(core - sides)))
 }

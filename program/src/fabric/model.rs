@@ -2,6 +2,7 @@
 
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
+use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::Contact;
 use crate::explicit::lanes::Number;
@@ -39,6 +40,11 @@ pub fn solver<T: Number>(scene: &Scene, case: &Case, panel: &Model) -> Result<So
     let mut solver = Solver::new(bodies, media);
     let mass = case.mass * share(scene);
     let start = first_touch(panel, case.sphere.radius);
+    if !start.is_finite() {
+        let radius = number(case.sphere.radius);
+        let allowed = "allowed: one under which some node of the panel lies";
+        return Err(Error::Input(format!("the sphere's radius is {radius} in case {}; {allowed}", case.name)));
+    }
     solver.projectile = Some(Projectile::new(mass, start, -case.speed, false, contacts));
     solver.mutual = Some(MutualContact::new(case.mutual, surfaces));
     Ok(solver)

@@ -21,7 +21,7 @@ const LARGEST_IMBALANCE: f64 = 0.05;
 const ROUNDING: f64 = 1e-9;
 
 /// Of the checkpoints: raised when what they contain changes.
-const CHECKPOINT_FORMAT: u32 = 3;
+const CHECKPOINT_FORMAT: u32 = 4;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,6 +112,36 @@ pub fn run(
     }
 }
 
+/// What a checkpoint begins with: one of another scene or version is not to be taken.
+fn identity(scene: &Scene, case: &Case) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    format!("toron {version} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", scene.woven, case)
+}
+
+fn refused(case: &Case, reason: &str) -> Error {
+    let allowed = "allowed: that of the same scene and version, or none";
+    Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", case.name))
+}
+
+/// Checks a checkpoint; returns what follows its head.
+///
+/// # Errors
+/// It is not this case's, or damaged.
+pub fn check<'a>(scene: &Scene, case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
+    let damaged = || refused(case, "damaged");
+    let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(damaged)?;
+    let mut archive = Archive::Reads(contents);
+    let mut found = String::new();
+    archive.keep(&mut found).map_err(|_| damaged())?;
+    if found != identity(scene, case) {
+        return Err(refused(case, "of another scene or version"));
+    }
+    match archive {
+        Archive::Reads(rest) if crc32fast::hash(contents) == u32::from_le_bytes(*sum) => Ok(rest),
+        _ => Err(damaged()),
+    }
+}
+
 struct Run<'a, T> {
     scene: &'a Scene,
     case: &'a Case,
@@ -159,15 +189,9 @@ impl<'a, T: Number> Run<'a, T> {
         Run { scene, case, panel, solver, record: Record { start, ..Record::default() } }
     }
 
-    /// What a checkpoint begins with: one of another scene or version is not to be taken.
-    fn identity(&self) -> String {
-        let version = env!("CARGO_PKG_VERSION");
-        format!("toron {version} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", self.scene.woven, self.case)
-    }
-
     fn checkpoint(&mut self) -> Result<Vec<u8>, postcard::Error> {
         let mut archive = Archive::Writes(Vec::new());
-        archive.keep(&mut self.identity())?;
+        archive.keep(&mut identity(self.scene, self.case))?;
         self.record.archive(&mut archive)?;
         self.solver.archive(&mut archive)?;
         match archive {
@@ -180,24 +204,10 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
-        let name = &self.case.name;
-        let refused = |reason: &str| {
-            let allowed = "allowed: that of the same scene and version, or none";
-            Error::Input(format!("the checkpoint of case {name} is {reason}; {allowed}"))
-        };
-        let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(|| refused("damaged"))?;
-        let mut archive = Archive::Reads(contents);
-        let mut identity = String::new();
-        archive.keep(&mut identity).map_err(|_| refused("damaged"))?;
-        if identity != self.identity() {
-            return Err(refused("of another scene or version"));
-        }
-        if crc32fast::hash(contents) != u32::from_le_bytes(*sum) {
-            return Err(refused("damaged"));
-        }
+        let mut archive = Archive::Reads(check(self.scene, self.case, checkpoint)?);
         let read = self.record.archive(&mut archive).and_then(|()| self.solver.archive(&mut archive));
         if read.is_err() || !matches!(archive, Archive::Reads([])) {
-            return Err(refused("damaged"));
+            return Err(refused(self.case, "damaged"));
         }
         Ok(())
     }

@@ -55,6 +55,11 @@ fn a_patch_keeps_its_energy_and_is_the_same_on_any_number_of_threads() {
     assert!(one == two, "the histories differ");
     let total = column(&one, "total");
     assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 1e-3), "{total:?}");
+    for (name, at_rest) in [("tilt", 0.0), ("slip", 0.0), ("least_volume_ratio", 1.0)] {
+        let values = column(&one, name);
+        let later = values[1..].iter().fold(0.0_f64, |most, value| most.max((value - at_rest).abs()));
+        assert!(values[0] == at_rest && later > 1e-4, "{name}: {values:?}");
+    }
     let (speed, deflection) = (column(&one, "speed"), column(&one, "deflection"));
     let last = speed.len() - 1;
     assert!(speed[last] < 0.99 * speed[0] && speed.windows(2).all(|pair| pair[1] <= pair[0]), "{speed:?}");
