@@ -129,10 +129,7 @@ class Law:
 
     def new_state(self, points: int | tuple[int, ...] = (), dtype: DTypeLike = np.float64, layout: Points = "first") -> NDArray[Any]:
         """The state of so many points at the start, zeros: (n, number of state variables), or (…, n) with `layout="last"`."""
-        try:
-            shape: tuple[int, ...] = (integer(points),)
-        except TypeError:
-            shape = tuple(points)
+        shape = tuple(points) if isinstance(points, Iterable) else (integer(points),)
         count = (len(self.state_table()),)
         return np.zeros(count + shape if choice("layout", layout, POINTS) else shape + count, dtype)
 
