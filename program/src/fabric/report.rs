@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
+use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
+use crate::explicit::lanes::largest;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
+/// The largest part of the internal energy that hourglass modes may hold without a warning.
+const LARGEST_HOURGLASS: f64 = 0.1;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 24;
 
@@ -18,7 +22,30 @@ type Results<'a> = [(&'a Case, Outcome, Figures)];
 /// Title, table and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
-    format!("{}\n\n{table}{}\n{}", scene.title, sliding(results), list_files(results, output))
+    let warnings: String =
+        results.iter().filter_map(|(case, outcome, figures)| hourglass_warning(case, outcome, figures)).collect();
+    format!("{}\n\n{table}{}{warnings}\n{}", scene.title, sliding(results), list_files(results, output))
+}
+
+/// A warning where hourglass modes hold too much energy up to the first failure.
+///
+/// The blow excites them before there is much internal energy that they could be held against: a wave must have come to the rim.
+fn hourglass_warning(case: &Case, outcome: &Outcome, figures: &Figures) -> Option<String> {
+    let end = outcome.failed.unwrap_or(f64::INFINITY);
+    figures.front_at_rim.filter(|&time| time <= end)?;
+    let samples = || outcome.samples.iter().take_while(|sample| sample.time <= end);
+    let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
+    let share = most(|sample| sample.energies.hourglass) / most(|sample| sample.energies.internal);
+    (share > LARGEST_HOURGLASS).then(|| {
+        format!(
+            "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
+             take a finer mesh, a larger k_ld, or another hourglass than {}\n",
+            case.name,
+            100.0 * share,
+            100.0 * LARGEST_HOURGLASS,
+            case.control.hourglass
+        )
+    })
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.

@@ -95,7 +95,7 @@ impl Pair {
         (Some(total), lost + friction.dissipated)
     }
 
-    /// Whether nothing can have changed since it was last looked at.
+    /// Whether the node cannot have come to the part of the face's surface that it was last nearest to.
     #[inline(always)]
     pub fn is_clear(&self, motion: &Motion) -> bool {
         self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until
