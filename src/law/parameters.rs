@@ -149,7 +149,7 @@ pub static PRESETS: [Preset; 2] = [
         table: &HYPERELASTIC,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0],
         density: 1351.4,
-        source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.3 and 4.5 (multiaxial failure); in woven panels k_ld = 5 to 20 MPa",
+        source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); woven: k_ld 5 to 20 MPa",
     },
     Preset {
         name: "kevlar-km2-600-linear",
