@@ -12,3 +12,4 @@ pub mod toml_file;
 pub mod unit_expression;
 pub mod units;
 pub mod vtk;
+pub mod warning;

@@ -8,12 +8,11 @@ use super::scene::{Case, Scene};
 use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
+use crate::common::warning;
 use crate::explicit::lanes::largest;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
-/// The largest part of the internal energy that hourglass modes may hold without a warning.
-const LARGEST_HOURGLASS: f64 = 0.1;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 24;
 
@@ -36,16 +35,8 @@ fn hourglass_warning(case: &Case, outcome: &Outcome, figures: &Figures) -> Optio
     let samples = || outcome.samples.iter().take_while(|sample| sample.time <= end);
     let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
     let share = most(|sample| sample.energies.hourglass) / most(|sample| sample.energies.internal);
-    (share > LARGEST_HOURGLASS).then(|| {
-        format!(
-            "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
-             take a finer mesh, a larger k_ld, or another hourglass than {}\n",
-            case.name,
-            100.0 * share,
-            100.0 * LARGEST_HOURGLASS,
-            case.control.hourglass
-        )
-    })
+    let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
+    warning::hourglass(&case.name, share, &remedy)
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.

@@ -7,14 +7,13 @@ use super::scene::{Case, Scene, Striker, Zones};
 use super::summary::outcome;
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
 use crate::common::units::{SPEED, TIME, number, unit};
+use crate::common::warning;
 use crate::material::fibre_wave::FibreWave;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 30;
-/// Hourglass modes that hold more than this part of the internal energy are no longer negligible.
-const LARGEST_HOURGLASS: f64 = 0.1;
 /// A contact that stores more than this part of the energy is a spring between projectile and yarn.
 const LARGEST_CONTACT: f64 = 0.05;
 
@@ -101,16 +100,8 @@ pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
     let share = result.hourglass_share();
     let measured_to = result.broken.map_or(result.last().time, |(time, _)| time);
     let at_clamp = case.yarn.length / result.smith.fastest;
-    (share > LARGEST_HOURGLASS && measured_to >= 2.0 * at_clamp).then(|| {
-        format!(
-            "warning: case {}: hourglass energy is {:.1} % of the largest internal energy, more than {:.0} %:\n  \
-             take a finer mesh, or another hourglass than {}\n",
-            case.name,
-            100.0 * share,
-            100.0 * LARGEST_HOURGLASS,
-            case.control.hourglass
-        )
-    })
+    let remedy = format!("a finer mesh, or another hourglass than {}", case.control.hourglass);
+    warning::hourglass(&case.name, share, &remedy).filter(|_| measured_to >= 2.0 * at_clamp)
 }
 
 /// Builds a column of the cases that belong to a table.
