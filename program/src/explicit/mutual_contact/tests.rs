@@ -378,3 +378,81 @@ fn friction_does_not_reach_the_inside_of_a_yarn_without_shear_stiffness() {
     let (least, most) = ratio_of_forces(0.0);
     assert!(least > 1.0 && least <= most && most < 1.03, "{least} {most}");
 }
+
+/// What the parts of two bodies have moved against each other at most is never less than what any two of their nodes have, however
+/// the nodes move; and it is nothing where both go the same way.
+#[test]
+fn slabs_have_moved_no_less_than_their_nodes() {
+    let media = media();
+    let margin = PARAMETERS.margin;
+    let mut random = fastrand::Rng::with_seed(5);
+    for shared in [0.0, 1e-5] {
+        let (mut bodies, contact) = crossed(0.0, &media);
+        let mut surfaces: Vec<Surface> = contact.sides.into_iter().map(|side| side.surface).collect();
+        let mut motion = Motion::new(&surfaces.iter().collect::<Vec<_>>());
+        motion.restart(&surfaces.iter().collect::<Vec<_>>(), margin);
+        let mut far = false;
+        for step in 0..30 {
+            // Far from each other in space, and alone at the end: what the nodes of a body have in common, and what they have not.
+            for body in &mut bodies {
+                let common: [f64; 3] = std::array::from_fn(|_| 1e-6 * (random.f64() - 0.5));
+                for u in &mut body.displacement {
+                    for i in 0..3 {
+                        u[i] += shared + if step < 15 { 0.0 } else { common[i] + 1e-6 * (random.f64() - 0.5) };
+                    }
+                }
+            }
+            surfaces.iter_mut().zip(&bodies).for_each(|(surface, body)| surface.follow(body));
+            far |= motion.advance(&surfaces.iter().collect::<Vec<_>>(), margin);
+            let (mut followed, mut largest) = (0, 0.0_f64);
+            for &a in &surfaces[0].nodes {
+                for &b in &surfaces[1].nodes {
+                    let slabs = [surfaces[0].slab_of_node(a), surfaces[1].slab_of_node(b)];
+                    let Some(between) = motion.between([0, 1], slabs) else { continue };
+                    let [own, other] = [bodies[0].displacement[a as usize], bodies[1].displacement[b as usize]];
+                    let moved = (Vector3::from(own) - Vector3::from(other)).norm();
+                    assert!(moved <= motion.moved(between) * (1.0 + 1e-12) + 1e-18, "{step} {moved}");
+                    largest = largest.max(motion.moved(between));
+                    followed += 1;
+                }
+            }
+            assert!(followed > 1000 && far == (largest >= margin), "{followed} {largest}");
+            assert!(if step < 15 { largest < 1e-15 } else { largest > 0.0 }, "{step} {largest}");
+        }
+        assert!(far);
+    }
+}
+
+/// A node that is not looked at while it cannot touch is in the same contact as one that is looked at in every step.
+#[test]
+fn what_is_clear_is_not_in_contact() {
+    let media = media();
+    let course = |every_step: bool| {
+        let (mut bodies, mut contact) = crossed(-3e-6, &media);
+        let mut stored = Vec::new();
+        for i in 0..400 {
+            let phase = 0.05 * f64::from(i);
+            for (node, u) in bodies[1].displacement.iter_mut().enumerate() {
+                let wave = (phase + 0.4 * node as f64).sin();
+                *u = [1e-6 * phase, -5e-6 * (1.0 - phase.cos()) + 2e-7 * wave, 3e-6 * phase.sin()];
+            }
+            if every_step {
+                contact.sides.iter_mut().flat_map(|side| &mut side.pairs).for_each(|pair| pair.free_until = 0.0);
+            }
+            contact.apply(&mut bodies);
+            stored.push(contact.stored);
+        }
+        let left = contact.sides.iter().flat_map(|side| &side.pairs).filter(|pair| pair.free_until > 0.0).count();
+        (stored, contact.dissipated, left)
+    };
+    let (stored, dissipated, left) = course(false);
+    let (stored_always, dissipated_always, _) = course(true);
+    assert!(left > 20, "{left}");
+    let largest = stored.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let touching = stored.iter().filter(|&&energy| energy > 0.0).count();
+    assert!(largest > 0.0 && touching > 50 && touching < 350, "{touching}");
+    for (i, (one, other)) in stored.iter().zip(&stored_always).enumerate() {
+        assert!((one - other).abs() <= 1e-9 * largest, "{i}: {one} {other}");
+    }
+    assert!((dissipated - dissipated_always).abs() <= 1e-9 * dissipated && dissipated > 0.0);
+}
