@@ -6,7 +6,7 @@ use toml::Spanned;
 use crate::common::toml_file::Numbers;
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, LawName};
+use crate::material::of_law::{FailureName, LawName, Unused, unused_material};
 use crate::weave::file::WeaveFile;
 
 #[derive(Deserialize)]
@@ -73,6 +73,17 @@ impl CaseFile {
 
     pub fn failure(&self) -> FailureName {
         self.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref())
+    }
+
+    /// A key of this table that none of these cases reads: its place, and the message.
+    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
+        let laws: Vec<LawName> = cases.iter().map(|case| case.law()).collect();
+        let radius = self.hyperelastic_radius.as_ref().filter(|_| !laws.contains(&LawName::Hybrid));
+        let radius = radius.map(|radius| {
+            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
+            (radius.span(), message)
+        });
+        unused_material(&self.hyperelastic, &self.linear_elastic, &laws).or(radius)
     }
 
     /// This table, with the keys of `base` where it has none.

@@ -52,20 +52,24 @@ impl Scene {
         if let Some(name) = &base.name {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
+        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
         let mut cases = Vec::new();
         if file.case.is_empty() {
+            source.refuse_unused(base.unused(&[base]))?;
             let span = file.scene.span();
             let reader = Reader { source: &source, units: &units, woven: &woven, file: base, own: base, span };
             cases.push(reader.case("scene".to_string())?);
+        } else {
+            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
         }
-        for case in &file.case {
+        for (case, table) in file.case.iter().zip(&tables) {
             let (own, span) = (case.get_ref(), case.span());
             let taken = |text: &str| {
                 text == "summary" || cases.iter().any(|other: &Case| same_files(&other.name, text, "-panel-"))
             };
             let name = source.name_of_case(own.name.as_ref(), span.clone(), taken)?;
-            let table = own.over(base);
-            let reader = Reader { source: &source, units: &units, woven: &woven, file: &table, own, span };
+            source.refuse_unused(own.unused(&[table]))?;
+            let reader = Reader { source: &source, units: &units, woven: &woven, file: table, own, span };
             cases.push(reader.case(name)?);
         }
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, woven, cases })
@@ -148,20 +152,8 @@ impl Reader<'_> {
 
     fn zones(&self) -> Result<Zones, Error> {
         let file = self.file;
-        let unused = |name: &str, table: &Option<Spanned<MaterialFile>>| {
-            let table = table.as_ref().filter(|_| !file.law().has(name))?;
-            Some(self.source.error(table.span(), &format!("{name} is not used; allowed: the material of the law")))
-        };
-        let own = [(HYPERELASTIC, &self.own.hyperelastic), (LINEAR_ELASTIC, &self.own.linear_elastic)];
-        if let Some(error) = own.into_iter().find_map(|(name, table)| unused(name, table)) {
-            return Err(error);
-        }
         let hyperelastic = || self.material(HYPERELASTIC, &file.hyperelastic);
         let linear = || self.material(LINEAR_ELASTIC, &file.linear_elastic);
-        if let Some(radius) = self.own.hyperelastic_radius.as_ref().filter(|_| file.law() != LawName::Hybrid) {
-            let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
-            return Err(self.source.error(radius.span(), &message));
-        }
         Ok(match file.law() {
             LawName::Hyperelastic => Zones::One(Box::new(hyperelastic()?)),
             LawName::LinearElastic => Zones::One(Box::new(linear()?)),

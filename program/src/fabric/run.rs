@@ -1,5 +1,6 @@
 //! A case from its first step to its last.
 
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use super::measure::{Sample, measure};
@@ -112,14 +113,20 @@ pub fn run(
     }
 }
 
-/// What a checkpoint begins with: one of another scene or version is not to be taken.
+/// The checksum of the program's file as the run begins: another build may have other bits. 0 where it cannot be read.
+static BUILD: LazyLock<u32> = LazyLock::new(|| {
+    let file = std::env::current_exe().and_then(std::fs::read);
+    file.map_or(0, |bytes| crc32fast::hash(&bytes))
+});
+
+/// What a checkpoint begins with: one of another scene or another build is not to be taken.
 fn identity(scene: &Scene, case: &Case) -> String {
-    let version = env!("CARGO_PKG_VERSION");
-    format!("toron {version} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", scene.woven, case)
+    let (version, build) = (env!("CARGO_PKG_VERSION"), *BUILD);
+    format!("toron {version} build {build:08x} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", scene.woven, case)
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
-    let allowed = "allowed: that of the same scene and version, or none";
+    let allowed = "allowed: one of the same scene and build, or none";
     Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", case.name))
 }
 
@@ -134,7 +141,7 @@ pub fn check<'a>(scene: &Scene, case: &Case, checkpoint: &'a [u8]) -> Result<&'a
     let mut found = String::new();
     archive.keep(&mut found).map_err(|_| damaged())?;
     if found != identity(scene, case) {
-        return Err(refused(case, "of another scene or version"));
+        return Err(refused(case, "of another scene or another build of the program"));
     }
     match archive {
         Archive::Reads(rest) if crc32fast::hash(contents) == u32::from_le_bytes(*sum) => Ok(rest),
@@ -184,6 +191,7 @@ impl Record {
 impl<'a, T: Number> Run<'a, T> {
     fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, mut solver: Solver<T>) -> Self {
         let start = solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
+        LazyLock::force(&BUILD);
         // The balance keeps the energies with which elements are deleted.
         solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
         Run { scene, case, panel, solver, record: Record { start, ..Record::default() } }

@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::scene::{Abscissa, Outputs, Precision};
 use crate::common::toml_file::Numbers;
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::material::of_law::{FailureName, HYPERELASTIC, LawName, Unused, unused_material};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -89,19 +89,13 @@ impl CaseFile {
     }
 
     /// A key of this table that none of these cases reads: its place, and the message.
-    pub fn unused(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
-        self.unused_material(cases).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
+    pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
+        let laws: Vec<LawName> = cases.iter().map(|case| case.law()).collect();
+        let material = unused_material(&self.hyperelastic, &self.linear_elastic, &laws);
+        material.or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
     }
 
-    fn unused_material(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
-        let tables = [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)];
-        let unused = |name: &str| cases.iter().all(|case| !case.law().has(name));
-        let (name, table) = tables.into_iter().find(|(name, table)| table.is_some() && unused(name))?;
-        let message = format!("{name} is not used; allowed: the material of a case's law");
-        Some((table.as_ref()?.span(), message))
-    }
-
-    fn unused_length(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
+    fn unused_length(&self, cases: &[&CaseFile]) -> Unused {
         let length = self.hyperelastic_length.as_ref()?;
         let message = format!(
             "hyperelastic-length is {}, which only a yarn of two laws has; allowed: with law = \"hybrid\"",
@@ -111,7 +105,7 @@ impl CaseFile {
     }
 
     /// A driven section meets nothing.
-    fn unused_cylinder(&self, cases: &[&CaseFile]) -> Option<(Range<usize>, String)> {
+    fn unused_cylinder(&self, cases: &[&CaseFile]) -> Unused {
         let span = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
         let keys = [
             ("mass", span(&self.mass)),

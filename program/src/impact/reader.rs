@@ -53,19 +53,19 @@ impl Scene {
         let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
         let mut cases: Vec<Case> = Vec::new();
         if file.case.is_empty() {
-            source.check_used(base, &[base])?;
+            source.refuse_unused(base.unused(&[base]))?;
             let span = file.scene.span();
             let reader = Reader { source: &source, units: &units, file: base, own: base, span };
             cases.push(reader.case("scene".to_string())?);
         } else {
-            source.check_used(base, &tables.iter().collect::<Vec<_>>())?;
+            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
         }
         for (case, table) in file.case.iter().zip(&tables) {
             let taken = |text: &str| {
                 SUMMARIES.contains(&text) || cases.iter().any(|other| same_files(&other.name, text, "-yarn-"))
             };
             let name = source.name_of_case(case.get_ref().name.as_ref(), case.span(), taken)?;
-            source.check_used(case.get_ref(), &[table])?;
+            source.refuse_unused(case.get_ref().unused(&[table]))?;
             let reader = Reader { source: &source, units: &units, file: table, own: case.get_ref(), span: case.span() };
             cases.push(reader.case(name)?);
         }
@@ -75,11 +75,6 @@ impl Scene {
 }
 
 impl Source<'_> {
-    /// Refuses keys of a table that none of its cases reads.
-    fn check_used(&self, table: &CaseFile, cases: &[&CaseFile]) -> Result<(), Error> {
-        table.unused(cases).map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
-    }
-
     /// A contact has its stiffness only where there is one.
     fn abscissa_of(&self, abscissa: &Spanned<Abscissa>, cases: &[Case]) -> Result<Abscissa, Error> {
         let driven = cases.iter().find(|case| case.striker == Striker::Driven);

@@ -46,6 +46,21 @@ pub enum FailureName {
     Multiaxial,
 }
 
+/// A table's key that no case reads: its place, and the message.
+pub type Unused = Option<(Range<usize>, String)>;
+
+/// A material of this table that is of no case's law.
+pub fn unused_material(
+    hyperelastic: &Option<Spanned<MaterialFile>>,
+    linear_elastic: &Option<Spanned<MaterialFile>>,
+    laws: &[LawName],
+) -> Unused {
+    let tables = [(HYPERELASTIC, hyperelastic), (LINEAR_ELASTIC, linear_elastic)];
+    let (name, table) =
+        tables.into_iter().find(|(name, table)| table.is_some() && laws.iter().all(|law| !law.has(name)))?;
+    Some((table.as_ref()?.span(), format!("{name} is not used; allowed: the material of a case's law")))
+}
+
 /// Which material a case asks for.
 pub struct Choice<'a> {
     /// [`HYPERELASTIC`] or [`LINEAR_ELASTIC`].
@@ -58,6 +73,12 @@ pub struct Choice<'a> {
 }
 
 impl Source<'_> {
+    /// # Errors
+    /// There is a key that no case reads.
+    pub fn refuse_unused(&self, unused: Unused) -> Result<(), Error> {
+        unused.map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
+    }
+
     /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
     fn choose_failure(
         &self,

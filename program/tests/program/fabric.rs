@@ -25,9 +25,13 @@ fn strike(name: &str, text: &str, threads: usize) -> (Output, PathBuf) {
 
 /// The program, about to run a scene in this folder.
 fn program(output: &Path, text: &str, threads: usize) -> Command {
+    program_of(Path::new(env!("CARGO_BIN_EXE_toron")), output, text, threads)
+}
+
+fn program_of(executable: &Path, output: &Path, text: &str, threads: usize) -> Command {
     let file = output.join("scene.toml");
     std::fs::write(&file, text).expect("the scene is written");
-    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let mut program = Command::new(executable);
     program.env("RAYON_NUM_THREADS", threads.to_string()).current_dir(ROOT);
     program.arg("fabric").arg(&file).arg("-o").arg(output);
     program
@@ -88,7 +92,15 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
         ("law = \"hybrid\"", "hyperelastic-radius is missing; allowed: a finite number > 0"),
         (
             "linear-elastic.preset = \"kevlar-km2-600-linear\"",
-            "linear-elastic is not used; allowed: the material of the law",
+            "linear-elastic is not used; allowed: the material of a case's law",
+        ),
+        (
+            "hyperelastic-radius = 1.0\n[[case]]\nname = \"one\"",
+            "hyperelastic-radius is 1; allowed: with law = \"hybrid\"",
+        ),
+        (
+            "linear-elastic.preset = \"kevlar-km2-600-linear\"\n[[case]]\nname = \"one\"",
+            "linear-elastic is not used; allowed: the material of a case's law",
         ),
         ("frames = 10000", "frames is 10000; allowed: a whole number from 0 to 9999"),
     ];
@@ -128,12 +140,21 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
         let [one, other] = [&whole, &stopped].map(|from| std::fs::read(from.join(&name)).expect("a file"));
         assert!(one == other, "{name} differs");
     }
-    // A checkpoint of something else is refused.
-    let other = text.replace("0.02 }", "0.03 }");
-    let answer = program(&stopped, &other, 1).arg("--restart").output().expect("it starts");
-    let error = String::from_utf8_lossy(&answer.stderr).to_string();
-    let wanted = "the checkpoint of case scene is of another scene or version; allowed: that of the same scene and version, or none";
-    assert!(!answer.status.success() && error.contains(wanted), "{error}");
+    // A checkpoint of something else is refused: of another scene, and of another program, here the same with a byte at its end.
+    let wanted = "the checkpoint of case scene is of another scene or another build of the program; \
+                  allowed: one of the same scene and build, or none";
+    let refused = |mut program: Command| {
+        let answer = program.arg("--restart").output().expect("it starts");
+        let error = String::from_utf8_lossy(&answer.stderr).to_string();
+        assert!(!answer.status.success() && error.contains(wanted), "{error}");
+    };
+    refused(program(&stopped, &text.replace("0.02 }", "0.03 }"), 1));
+    let other = stopped.join("toron");
+    std::fs::copy(env!("CARGO_BIN_EXE_toron"), &other).expect("it is copied");
+    let mut end = std::fs::OpenOptions::new().append(true).open(&other).expect("it opens");
+    std::io::Write::write_all(&mut end, &[0]).expect("it is written");
+    drop(end);
+    refused(program_of(&other, &stopped, &text, 1));
     // So is one in which a single bit has changed, and what is none at all.
     let mut bytes = std::fs::read(&checkpoint).expect("a file");
     let middle = bytes.len() / 2;
