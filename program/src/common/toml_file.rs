@@ -17,6 +17,18 @@ pub struct Source<'a> {
     pub text: &'a str,
 }
 
+/// A table with the keys of `base` where it has none.
+pub fn over<T: Clone>(
+    own: &Option<Spanned<T>>,
+    base: &Option<Spanned<T>>,
+    keys: impl Fn(&T, &T) -> T,
+) -> Option<Spanned<T>> {
+    match (own, base) {
+        (Some(own), Some(base)) => Some(Spanned::new(own.span(), keys(own.get_ref(), base.get_ref()))),
+        (own, base) => own.clone().or(base.clone()),
+    }
+}
+
 impl Source<'_> {
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {

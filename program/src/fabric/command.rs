@@ -30,22 +30,22 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
-    let panel = scene.woven.model();
     let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
     for case in scene.cases.iter().filter(|_| restart) {
         // Before hours are spent on the first one.
         if let Some(bytes) = read(&place(case))? {
-            run::check(&scene, case, &bytes)?;
+            run::check(case, &bytes)?;
         }
     }
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
+        let panel = case.woven.model();
         let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
         let checkpoint = place(case);
         let bytes = if restart { read(&checkpoint)? } else { None };
         let frames = Frames::new(output, &case.name);
         let mut observer = CaseObserver { name: &case.name, bar: &bar, frames, checkpoint };
-        let result = run::run(&scene, case, &panel, bytes.as_deref(), &mut observer);
+        let result = run::run(case, &panel, bytes.as_deref(), &mut observer);
         bar.finish_and_clear();
         let mut outcome = result?;
         write_case(&scene, case, &panel, &outcome, output)?;

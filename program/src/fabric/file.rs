@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::Numbers;
+use crate::common::toml_file::{Numbers, over};
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
 use crate::material::of_law::{FailureName, LawName, Unused, unused_material};
@@ -25,6 +25,7 @@ pub struct SceneFile {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct CaseFile {
     pub name: Option<Spanned<String>>,
+    pub weave: Option<Spanned<WeaveFile>>,
     pub law: Option<LawName>,
     pub failure: Option<Spanned<FailureName>>,
     pub hyperelastic: Option<Spanned<MaterialFile>>,
@@ -88,13 +89,11 @@ impl CaseFile {
 
     /// This table, with the keys of `base` where it has none.
     pub fn over(&self, base: &CaseFile) -> CaseFile {
-        let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
-            (Some(own), Some(base)) => Some(Spanned::new(own.span(), own.get_ref().over(base.get_ref()))),
-            (own, base) => own.clone().or(base.clone()),
-        };
+        let material = |own: &_, base: &_| over(own, base, MaterialFile::over);
         let (own, base) = (self.clone(), base.clone());
         CaseFile {
             name: own.name,
+            weave: own.weave,
             law: own.law.or(base.law),
             failure: own.failure.or(base.failure),
             hyperelastic: material(&own.hyperelastic, &base.hyperelastic),

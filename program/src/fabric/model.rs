@@ -1,6 +1,6 @@
 //! From a woven panel to the bodies of the explicit host.
 
-use super::scene::{Case, Scene, Zones};
+use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
@@ -19,7 +19,7 @@ use crate::weave::panel::Part;
 ///
 /// # Errors
 /// A material that the host cannot use.
-pub fn solver<T: Number>(scene: &Scene, case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
+pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
     let medium = |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
     let media = case.zones.materials().iter().map(medium).collect::<Result<Vec<_>, _>>()?;
     let (mut bodies, mut surfaces, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
@@ -38,7 +38,7 @@ pub fn solver<T: Number>(scene: &Scene, case: &Case, panel: &Model) -> Result<So
     }
     hold(panel, case.held, &mut bodies);
     let mut solver = Solver::new(bodies, media);
-    let mass = case.mass * share(scene);
+    let mass = case.mass * share(case);
     let start = first_touch(panel, case.sphere.radius);
     if !start.is_finite() {
         let radius = number(case.sphere.radius);
@@ -51,8 +51,8 @@ pub fn solver<T: Number>(scene: &Scene, case: &Case, panel: &Model) -> Result<So
 }
 
 /// The part of the panel that is modelled.
-pub fn share(scene: &Scene) -> f64 {
-    match scene.woven.panel.part {
+pub fn share(case: &Case) -> f64 {
+    match case.woven.panel.part {
         Part::Whole => 1.0,
         Part::Quarter => 0.25,
     }

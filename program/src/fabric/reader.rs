@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use toml::Spanned;
 
@@ -47,8 +48,11 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let woven = source.woven(&file.weave, &units)?;
+        let woven = Arc::new(source.woven(&file.weave, &units)?);
         let base = file.scene.get_ref();
+        if let Some(weave) = &base.weave {
+            return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
+        }
         if let Some(name) = &base.name {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
@@ -57,7 +61,7 @@ impl Scene {
         if file.case.is_empty() {
             source.refuse_unused(base.unused(&[base]))?;
             let span = file.scene.span();
-            let reader = Reader { source: &source, units: &units, woven: &woven, file: base, own: base, span };
+            let reader = Reader { source: &source, units: &units, woven: woven.clone(), file: base, own: base, span };
             cases.push(reader.case("scene".to_string())?);
         } else {
             source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
@@ -69,10 +73,17 @@ impl Scene {
             };
             let name = source.name_of_case(own.name.as_ref(), span.clone(), taken)?;
             source.refuse_unused(own.unused(&[table]))?;
-            let reader = Reader { source: &source, units: &units, woven: &woven, file: table, own, span };
+            let woven = match &own.weave {
+                Some(weave) => {
+                    let table = Spanned::new(weave.span(), weave.get_ref().over(file.weave.get_ref()));
+                    Arc::new(source.woven(&table, &units)?)
+                }
+                None => woven.clone(),
+            };
+            let reader = Reader { source: &source, units: &units, woven, file: table, own, span };
             cases.push(reader.case(name)?);
         }
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, woven, cases })
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
 }
 
@@ -80,7 +91,7 @@ impl Scene {
 struct Reader<'a> {
     source: &'a Source<'a>,
     units: &'a UnitSystem,
-    woven: &'a Woven,
+    woven: Arc<Woven>,
     file: &'a CaseFile,
     /// The case's own table, without the scene's.
     own: &'a CaseFile,
@@ -111,6 +122,7 @@ impl Reader<'_> {
         let height = self.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
         let [friction, of_yarns] = FRICTION;
         Ok(Case {
+            woven: self.woven.clone(),
             zones: self.zones()?,
             sphere: Rigid {
                 shape: Shape::Sphere,

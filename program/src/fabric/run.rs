@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use super::measure::{Sample, measure};
 use super::model::{share, solver};
-use super::scene::{Case, Scene};
+use super::scene::Case;
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::archive::Archive;
@@ -100,16 +100,15 @@ impl Observer for () {}
 /// # Errors
 /// A material that the host cannot use; a checkpoint that is not this case's.
 pub fn run(
-    scene: &Scene,
     case: &Case,
     panel: &Model,
     checkpoint: Option<&[u8]>,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Outcome, Error> {
     if case.single_precision {
-        Run::new(scene, case, panel, solver::<f32>(scene, case, panel)?).resume(checkpoint, observer)
+        Run::new(case, panel, solver::<f32>(case, panel)?).resume(checkpoint, observer)
     } else {
-        Run::new(scene, case, panel, solver::<f64>(scene, case, panel)?).resume(checkpoint, observer)
+        Run::new(case, panel, solver::<f64>(case, panel)?).resume(checkpoint, observer)
     }
 }
 
@@ -120,9 +119,9 @@ static BUILD: LazyLock<u32> = LazyLock::new(|| {
 });
 
 /// What a checkpoint begins with: one of another scene or another build is not to be taken.
-fn identity(scene: &Scene, case: &Case) -> String {
+fn identity(case: &Case) -> String {
     let (version, build) = (env!("CARGO_PKG_VERSION"), *BUILD);
-    format!("toron {version} build {build:08x} checkpoint {CHECKPOINT_FORMAT} {:?} {:?}", scene.woven, case)
+    format!("toron {version} build {build:08x} checkpoint {CHECKPOINT_FORMAT} {case:?}")
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
@@ -134,13 +133,13 @@ fn refused(case: &Case, reason: &str) -> Error {
 ///
 /// # Errors
 /// It is not this case's, or damaged.
-pub fn check<'a>(scene: &Scene, case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
+pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
     let damaged = || refused(case, "damaged");
     let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(damaged)?;
     let mut archive = Archive::Reads(contents);
     let mut found = String::new();
     archive.keep(&mut found).map_err(|_| damaged())?;
-    if found != identity(scene, case) {
+    if found != identity(case) {
         return Err(refused(case, "of another scene or another build of the program"));
     }
     match archive {
@@ -150,7 +149,6 @@ pub fn check<'a>(scene: &Scene, case: &Case, checkpoint: &'a [u8]) -> Result<&'a
 }
 
 struct Run<'a, T> {
-    scene: &'a Scene,
     case: &'a Case,
     panel: &'a Model,
     solver: Solver<T>,
@@ -189,17 +187,17 @@ impl Record {
 }
 
 impl<'a, T: Number> Run<'a, T> {
-    fn new(scene: &'a Scene, case: &'a Case, panel: &'a Model, mut solver: Solver<T>) -> Self {
+    fn new(case: &'a Case, panel: &'a Model, mut solver: Solver<T>) -> Self {
         let start = solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
         LazyLock::force(&BUILD);
         // The balance keeps the energies with which elements are deleted.
         solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
-        Run { scene, case, panel, solver, record: Record { start, ..Record::default() } }
+        Run { case, panel, solver, record: Record { start, ..Record::default() } }
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, postcard::Error> {
         let mut archive = Archive::Writes(Vec::new());
-        archive.keep(&mut identity(self.scene, self.case))?;
+        archive.keep(&mut identity(self.case))?;
         self.record.archive(&mut archive)?;
         self.solver.archive(&mut archive)?;
         match archive {
@@ -212,7 +210,7 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
-        let mut archive = Archive::Reads(check(self.scene, self.case, checkpoint)?);
+        let mut archive = Archive::Reads(check(self.case, checkpoint)?);
         let read = self.record.archive(&mut archive).and_then(|()| self.solver.archive(&mut archive));
         if read.is_err() || !matches!(archive, Archive::Reads([])) {
             return Err(refused(self.case, "damaged"));
@@ -242,8 +240,8 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn steps(&mut self, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
-        let share = share(self.scene);
-        let threshold = self.scene.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+        let share = share(self.case);
+        let threshold = self.case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
         let every = |count: usize| self.case.end / count.max(1) as f64;
         let (frame, between_checkpoints) = (every(self.case.frames), every(self.case.checkpoints));
         let mut pictures = self.case.pictures.clone();

@@ -1,5 +1,7 @@
 //! A scene: a panel, what strikes it, and the cases that differ from one another.
 
+use std::sync::Arc;
+
 use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
@@ -7,12 +9,11 @@ use crate::material::model::Material;
 use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
-/// The cases of a file, and the panel that they have in common.
+/// The cases of a file.
 #[derive(Clone, Debug)]
 pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
-    pub woven: Woven,
     pub cases: Vec<Case>,
 }
 
@@ -20,6 +21,8 @@ pub struct Scene {
 #[derive(Clone, Debug)]
 pub struct Case {
     pub name: String,
+    /// The panel; cases without keys of their own for it have the same one.
+    pub woven: Arc<Woven>,
     pub zones: Zones,
     /// The sphere, and the whole of its mass.
     pub sphere: Rigid,

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::model;
-use super::scene::Scene;
+use super::scene::{Case, Scene};
 use crate::explicit::body::{Body, Support};
 use crate::explicit::solver::{Ramp, Solver};
 use crate::weave::model::Yarn;
@@ -17,8 +17,8 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
          yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
-    let panel = scene.woven.model();
-    let mut solver = model::solver(&scene, &scene.cases[0], &panel).expect("a panel");
+    let panel = scene.cases[0].woven.model();
+    let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
     solver.projectile = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
     (panel.yarns, solver)
@@ -105,4 +105,25 @@ fn a_yarn_is_pulled_out_of_a_patch_against_more_than_a_rope_s_friction() {
     let rope = (FRICTION * rough.turn).exp();
     assert!(rough.turn > 1.0 && found > rope && found < 1.5 * rope, "{found} {rope} {}", rough.turn);
     assert!(rough.friction > 100.0 * smooth.friction, "{} {}", rough.friction, smooth.friction);
+}
+
+#[test]
+fn every_example_is_valid() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/fabric_impact");
+    let mut cases = 0;
+    for file in std::fs::read_dir(folder).expect("there are scenes") {
+        let path = file.expect("the folder can be read").path();
+        if path.ends_with("weave.toml") {
+            continue;
+        }
+        let scene = Scene::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        // No case is another one by mistake.
+        let mut texts: Vec<String> =
+            scene.cases.iter().map(|case| format!("{:?}", Case { name: String::new(), ..case.clone() })).collect();
+        texts.sort();
+        texts.dedup();
+        assert_eq!(texts.len(), scene.cases.len(), "{}", path.display());
+        cases += scene.cases.len();
+    }
+    assert!(cases > 25, "{cases}");
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs, Precision};
-use crate::common::toml_file::Numbers;
+use crate::common::toml_file::{Numbers, over};
 use crate::material::file::MaterialFile;
 use crate::material::of_law::{FailureName, HYPERELASTIC, LawName, Unused, unused_material};
 
@@ -121,10 +121,7 @@ impl CaseFile {
 
     /// This table, with the keys of `base` where it has none.
     pub fn over(&self, base: &CaseFile) -> CaseFile {
-        let material = |own: &Option<Spanned<MaterialFile>>, base: &Option<Spanned<MaterialFile>>| match (own, base) {
-            (Some(own), Some(base)) => Some(Spanned::new(own.span(), own.get_ref().over(base.get_ref()))),
-            (own, base) => own.clone().or(base.clone()),
-        };
+        let material = |own: &_, base: &_| over(own, base, MaterialFile::over);
         let own = self.clone();
         let base = base.clone();
         CaseFile {

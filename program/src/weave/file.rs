@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::panel::{Centre, Part};
 use super::section::Section;
-use crate::common::toml_file::Numbers;
+use crate::common::toml_file::{Numbers, over};
 use crate::material::file::MaterialFile;
 
 #[derive(Deserialize)]
@@ -20,8 +20,8 @@ pub struct SceneFile {
     pub material: Option<Spanned<MaterialFile>>,
 }
 
-/// The table `[weave]`.
-#[derive(Deserialize)]
+/// The table `[weave]`, and what a case has otherwise.
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WeaveFile {
     pub preset: Option<Spanned<String>>,
@@ -32,7 +32,26 @@ pub struct WeaveFile {
     pub along: Option<Spanned<i64>>,
     pub columns: Option<Spanned<i64>>,
     pub rows: Option<Spanned<i64>>,
-    pub panel: Spanned<PanelFile>,
+    pub panel: Option<Spanned<PanelFile>>,
+}
+
+impl WeaveFile {
+    /// This table, with the keys of `base` where it has none.
+    pub fn over(&self, base: &WeaveFile) -> WeaveFile {
+        let own = self.clone();
+        let copy = base.clone();
+        WeaveFile {
+            preset: own.preset.or(copy.preset),
+            pattern: own.pattern.or(copy.pattern),
+            warp: over(&self.warp, &base.warp, ThreadFile::over),
+            weft: over(&self.weft, &base.weft, ThreadFile::over),
+            clearance: own.clearance.or(copy.clearance),
+            along: own.along.or(copy.along),
+            columns: own.columns.or(copy.columns),
+            rows: own.rows.or(copy.rows),
+            panel: over(&self.panel, &base.panel, PanelFile::over),
+        }
+    }
 }
 
 #[derive(Clone, Default, Deserialize)]
@@ -44,6 +63,18 @@ pub struct ThreadFile {
     pub height: Option<Spanned<f64>>,
 }
 
+impl ThreadFile {
+    fn over(&self, base: &ThreadFile) -> ThreadFile {
+        let (own, base) = (self.clone(), base.clone());
+        ThreadFile {
+            pitch: own.pitch.or(base.pitch),
+            section: own.section.or(base.section),
+            width: own.width.or(base.width),
+            height: own.height.or(base.height),
+        }
+    }
+}
+
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum ShapeName {
@@ -51,18 +82,33 @@ pub enum ShapeName {
     Circle,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PanelFile {
-    pub shape: ShapeName,
+    pub shape: Option<ShapeName>,
     pub radius: Option<Spanned<f64>>,
     pub half: Option<Spanned<Numbers<2>>>,
     pub part: Option<Spanned<Part>>,
-    #[serde(default)]
-    pub centre: Centre,
+    pub centre: Option<Centre>,
+}
+
+impl PanelFile {
+    /// A case's own shape has its own size.
+    fn over(&self, base: &PanelFile) -> PanelFile {
+        let (own, base) = (self.clone(), base.clone());
+        let other_shape = own.shape.is_some() && own.shape != base.shape;
+        PanelFile {
+            shape: own.shape.or(base.shape),
+            radius: if other_shape { own.radius } else { own.radius.or(base.radius) },
+            half: if other_shape { own.half } else { own.half.or(base.half) },
+            part: own.part.or(base.part),
+            centre: own.centre.or(base.centre),
+        }
+    }
 }
 
 /// A pattern's name, or its rows.
+#[derive(Clone)]
 pub enum PatternFile {
     Name(String),
     Rows(Vec<String>),

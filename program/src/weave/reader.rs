@@ -105,8 +105,10 @@ impl Source<'_> {
             let place = given.map_or(table.span(), Spanned::span);
             weave.check_thread(family).map_err(|message| self.error(place, &message))?;
         }
-        let panel = self.panel(&file.panel, &weave)?;
-        let places = panel.places(&weave).map_err(|message| self.error(file.panel.span(), &message))?;
+        let wanted = "panel is missing; allowed: a table with shape and radius or half";
+        let of_panel = file.panel.as_ref().ok_or_else(|| self.error(table.span(), wanted))?;
+        let panel = self.panel(of_panel, &weave)?;
+        let places = panel.places(&weave).map_err(|message| self.error(of_panel.span(), &message))?;
         let geometry = weave.solve().map_err(|message| self.error(table.span(), &message))?;
         Ok(Woven { geometry, panel, places })
     }
@@ -166,7 +168,8 @@ impl Source<'_> {
         let file = table.get_ref();
         let missing =
             |key: &str, allowed: &str| self.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"));
-        let foreign = match file.shape {
+        let shape = file.shape.ok_or_else(|| missing("shape", "circle, rectangle"))?;
+        let foreign = match shape {
             ShapeName::Circle => file.half.as_ref().map(|half| (half.span(), "half, of a rectangle; allowed: radius")),
             ShapeName::Rectangle => {
                 file.radius.as_ref().map(|radius| (radius.span(), "radius, of a circle; allowed: half"))
@@ -175,7 +178,7 @@ impl Source<'_> {
         if let Some((span, message)) = foreign {
             return Err(self.error(span, &format!("panel has {message}")));
         }
-        let outline = match file.shape {
+        let outline = match shape {
             ShapeName::Circle => {
                 let radius = file.radius.as_ref().ok_or_else(|| missing("radius", POSITIVE))?;
                 Outline::Circle(self.positive("radius", *radius.get_ref(), radius.span())?)
@@ -187,7 +190,7 @@ impl Source<'_> {
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
-        let panel = Panel { outline, part, centre: file.centre };
+        let panel = Panel { outline, part, centre: file.centre.unwrap_or_default() };
         let place = file.part.as_ref().map_or(table.span(), Spanned::span);
         panel.check_mirror_planes(weave).map_err(|message| self.error(place, &message))?;
         Ok(panel)

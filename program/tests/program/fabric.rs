@@ -102,6 +102,8 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
             "linear-elastic.preset = \"kevlar-km2-600-linear\"\n[[case]]\nname = \"one\"",
             "linear-elastic is not used; allowed: the material of a case's law",
         ),
+        ("weave.clearance = 0.01", "weave in [scene]; allowed: [weave], or in a [[case]]"),
+        ("[[case]]\nname = \"one\"\nweave.panel.half = [3.0, 3.0]", "panel has half, of a rectangle; allowed: radius"),
         ("frames = 10000", "frames is 10000; allowed: a whole number from 0 to 9999"),
     ];
     for (keys, message) in cases {
@@ -110,6 +112,25 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
         assert!(!answer.status.success() && found.contains(message), "{found}");
         assert!(found.contains("scene.toml:"), "{found}");
     }
+}
+
+/// A case has the keys of the weave that it does not give itself from the scene's.
+#[test]
+fn cases_have_panels_of_their_own() {
+    let keys = "[[case]]\nname = \"base\"\n[[case]]\nname = \"loose\"\nweave.clearance = 0.01\n\
+                [[case]]\nname = \"small\"\nweave.panel.radius = 2.0\n\
+                [[case]]\nname = \"square\"\nweave.panel = { shape = \"rectangle\", half = [2.0, 2.0] }";
+    let (answer, output) = strike("panels", &scene(0.5, keys), 2);
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("a file");
+    let elements = column(&summary, "elements");
+    // Each of the four yarns on either side has lost layers in the smaller disc; a square has more in its corners.
+    assert!(elements[0] == elements[1] && elements[2] < elements[3] && elements[3] < elements[0], "{elements:?}");
+    // Alone they are the same, to the bit.
+    let alone = scene(0.5, "").replace("along = 4", "clearance = 0.01\nalong = 4");
+    let [one, other] =
+        [history("panel-alone", &alone, 2), std::fs::read_to_string(output.join("loose.csv")).expect("a file")];
+    assert!(one == other && one != std::fs::read_to_string(output.join("base.csv")).expect("a file"));
 }
 
 #[test]
