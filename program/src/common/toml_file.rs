@@ -17,6 +17,9 @@ pub struct Source<'a> {
     pub text: &'a str,
 }
 
+/// A table's key that no case reads: its place, and the message.
+pub type Unused = Option<(Range<usize>, String)>;
+
 /// A table with the keys of `base` where it has none.
 pub fn over<T: Clone>(
     own: &Option<Spanned<T>>,
@@ -30,6 +33,12 @@ pub fn over<T: Clone>(
 }
 
 impl Source<'_> {
+    /// # Errors
+    /// There is a key that no case reads.
+    pub fn refuse_unused(&self, unused: Unused) -> Result<(), Error> {
+        unused.map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
+    }
+
     /// The file's tables.
     pub fn parse<F: DeserializeOwned>(&self) -> Result<F, Error> {
         let parse_error =

@@ -9,7 +9,7 @@ use super::measure::Sample;
 use super::run::{self, Observer, Outcome};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
-use super::{output, panel_picture, plot, report};
+use super::{model, output, panel_picture, plot, report};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::progress;
@@ -25,15 +25,20 @@ const TICKS: u64 = 1000;
 /// # Errors
 /// The input, a file that cannot be written, or a case that has no result.
 pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
+    let build = run::build();
     let scene = Scene::read(path)?;
+    if restart || scene.cases.iter().any(|case| case.checkpoints > 0) {
+        build?;
+    }
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
-    for case in scene.cases.iter().filter(|_| restart) {
-        // Before hours are spent on the first one.
-        if let Some(bytes) = read(&place(case))? {
+    // Before hours are spent on the first one.
+    for case in &scene.cases {
+        model::check(case)?;
+        if let Some(bytes) = if restart { read(&place(case))? } else { None } {
             run::check(case, &bytes)?;
         }
     }

@@ -3,10 +3,10 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::{Numbers, over};
+use crate::common::toml_file::{Numbers, Unused, over};
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, LawName, Unused, unused_material};
+use crate::material::of_law::{FailureName, LawName, unused_material};
 use crate::weave::file::WeaveFile;
 
 #[derive(Deserialize)]
@@ -76,7 +76,7 @@ impl CaseFile {
         self.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref())
     }
 
-    /// A key of this table that none of these cases reads: its place, and the message.
+    /// A material or a radius of this table that none of these cases has a law for.
     pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let laws: Vec<LawName> = cases.iter().map(|case| case.law()).collect();
         let radius = self.hyperelastic_radius.as_ref().filter(|_| !laws.contains(&LawName::Hybrid));
@@ -87,7 +87,7 @@ impl CaseFile {
         unused_material(&self.hyperelastic, &self.linear_elastic, &laws).or(radius)
     }
 
-    /// This table, with the keys of `base` where it has none.
+    /// This table, with the keys of `base` where it has none, but for its name and its weave, which goes over `[weave]`.
     pub fn over(&self, base: &CaseFile) -> CaseFile {
         let material = |own: &_, base: &_| over(own, base, MaterialFile::over);
         let (own, base) = (self.clone(), base.clone());

@@ -15,13 +15,48 @@ use crate::material::model::Material;
 use crate::weave::model::{Model, Yarn};
 use crate::weave::panel::Part;
 
+/// Checks that a run of this case can begin.
+///
+/// # Errors
+/// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one law alone.
+pub fn check(case: &Case) -> Result<(), Error> {
+    let panel = case.woven.model();
+    media::<f64>(case)?;
+    start(case, &panel)?;
+    let Zones::Two(_, radius) = case.zones else { return Ok(()) };
+    let outside = |element: &&[u32; 8]| zone(&case.zones, element.map(|node| panel.nodes[node as usize])) > 0;
+    let outside = panel.elements.iter().filter(outside).count();
+    if outside == 0 || outside == panel.elements.len() {
+        let (law, radius) = (if outside == 0 { "hyperelastic" } else { "linear elastic" }, number(radius));
+        let message = format!("hyperelastic-radius is {radius} in case {}, so that all elements are {law}", case.name);
+        return Err(Error::Input(format!("{message}; allowed: one inside the panel, or that law alone")));
+    }
+    Ok(())
+}
+
+/// The media of a case's zones.
+fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
+    let medium = |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
+    case.zones.materials().iter().map(medium).collect()
+}
+
+/// The height at which the sphere touches the panel.
+fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
+    let start = first_touch(panel, case.sphere.radius);
+    if !start.is_finite() {
+        let radius = number(case.sphere.radius);
+        let allowed = "allowed: one under which some node of the panel lies";
+        return Err(Error::Input(format!("the sphere's radius is {radius} in case {}; {allowed}", case.name)));
+    }
+    Ok(start)
+}
+
 /// A panel at rest with a sphere about to touch it; a body a yarn, in their order.
 ///
 /// # Errors
-/// A material that the host cannot use.
+/// As for [`check`].
 pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
-    let medium = |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
-    let media = case.zones.materials().iter().map(medium).collect::<Result<Vec<_>, _>>()?;
+    let media = media(case)?;
     let (mut bodies, mut surfaces, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
     for yarn in &panel.yarns {
         let mut mesh = mesh_of(panel, yarn);
@@ -30,7 +65,8 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let elements = faces.iter().map(|face| face.element - yarn.elements.start as u32).collect();
         let surface = Surface::new(&mesh, local, elements);
         mesh.surface.clone_from(&surface.area);
-        let zones: Vec<usize> = (0..mesh.elements.len()).map(|element| zone(&case.zones, &mesh, element)).collect();
+        let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
+        let zones: Vec<usize> = mesh.elements.iter().map(|element| zone(&case.zones, corners(element))).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);
         contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
         surfaces.push(surface);
@@ -39,12 +75,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
     hold(panel, case.held, &mut bodies);
     let mut solver = Solver::new(bodies, media);
     let mass = case.mass * share(case);
-    let start = first_touch(panel, case.sphere.radius);
-    if !start.is_finite() {
-        let radius = number(case.sphere.radius);
-        let allowed = "allowed: one under which some node of the panel lies";
-        return Err(Error::Input(format!("the sphere's radius is {radius} in case {}; {allowed}", case.name)));
-    }
+    let start = start(case, panel)?;
     solver.projectile = Some(Projectile::new(mass, start, -case.speed, false, contacts));
     solver.mutual = Some(MutualContact::new(case.mutual, surfaces));
     Ok(solver)
@@ -70,10 +101,9 @@ fn mesh_of(panel: &Model, yarn: &Yarn) -> Mesh {
     }
 }
 
-/// The number of the medium of an element.
-fn zone(zones: &Zones, mesh: &Mesh, element: usize) -> usize {
+/// The number of the medium of an element with these corners.
+fn zone(zones: &Zones, corners: [[f64; 3]; 8]) -> usize {
     let Zones::Two(_, radius) = zones else { return 0 };
-    let corners = mesh.elements[element].map(|node| mesh.nodes[node as usize]);
     let [x, y] = [0, 1].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>());
     usize::from(x.hypot(y) > *radius)
 }

@@ -74,10 +74,7 @@ impl Scene {
             let name = source.name_of_case(own.name.as_ref(), span.clone(), taken)?;
             source.refuse_unused(own.unused(&[table]))?;
             let woven = match &own.weave {
-                Some(weave) => {
-                    let table = Spanned::new(weave.span(), weave.get_ref().over(file.weave.get_ref()));
-                    Arc::new(source.woven(&table, &units)?)
-                }
+                Some(weave) => Arc::new(source.woven_of_case(weave, file.weave.get_ref(), &units)?),
                 None => woven.clone(),
             };
             let reader = Reader { source: &source, units: &units, woven, file: table, own, span };

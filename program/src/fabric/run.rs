@@ -1,5 +1,6 @@
 //! A case from its first step to its last.
 
+use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
@@ -20,9 +21,6 @@ use crate::weave::model::Model;
 const LARGEST_IMBALANCE: f64 = 0.05;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
-
-/// Of the checkpoints: raised when what they contain changes.
-const CHECKPOINT_FORMAT: u32 = 4;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,16 +110,27 @@ pub fn run(
     }
 }
 
-/// The checksum of the program's file as the run begins: another build may have other bits. 0 where it cannot be read.
-static BUILD: LazyLock<u32> = LazyLock::new(|| {
-    let file = std::env::current_exe().and_then(std::fs::read);
-    file.map_or(0, |bytes| crc32fast::hash(&bytes))
+/// The checksum of the program's file, since another build may have other bits; nothing where the file cannot be read.
+static BUILD: LazyLock<Option<u32>> = LazyLock::new(|| {
+    // The link leads to the file that runs, even when another one has taken its place.
+    let link = Path::new("/proc/self/exe");
+    let file = std::fs::read(link).or_else(|_| std::env::current_exe().and_then(std::fs::read));
+    file.ok().map(|bytes| crc32fast::hash(&bytes))
 });
 
+/// Tells the program's build from others, as early as it can.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn build() -> Result<u32, Error> {
+    let message = "the program's own file cannot be read, by which checkpoints tell its build from others; allowed: runs without them";
+    BUILD.ok_or_else(|| Error::Input(message.to_string()))
+}
+
 /// What a checkpoint begins with: one of another scene or another build is not to be taken.
-fn identity(case: &Case) -> String {
-    let (version, build) = (env!("CARGO_PKG_VERSION"), *BUILD);
-    format!("toron {version} build {build:08x} checkpoint {CHECKPOINT_FORMAT} {case:?}")
+fn identity(case: &Case) -> Result<String, Error> {
+    let (version, build) = (env!("CARGO_PKG_VERSION"), build()?);
+    Ok(format!("toron {version} build {build:08x} {case:?}"))
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
@@ -136,15 +145,18 @@ fn refused(case: &Case, reason: &str) -> Error {
 pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
     let damaged = || refused(case, "damaged");
     let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(damaged)?;
+    if crc32fast::hash(contents) != u32::from_le_bytes(*sum) {
+        return Err(damaged());
+    }
     let mut archive = Archive::Reads(contents);
     let mut found = String::new();
     archive.keep(&mut found).map_err(|_| damaged())?;
-    if found != identity(case) {
+    if found != identity(case)? {
         return Err(refused(case, "of another scene or another build of the program"));
     }
     match archive {
-        Archive::Reads(rest) if crc32fast::hash(contents) == u32::from_le_bytes(*sum) => Ok(rest),
-        _ => Err(damaged()),
+        Archive::Reads(rest) => Ok(rest),
+        Archive::Writes(_) => Err(damaged()), // not reached
     }
 }
 
@@ -189,17 +201,17 @@ impl Record {
 impl<'a, T: Number> Run<'a, T> {
     fn new(case: &'a Case, panel: &'a Model, mut solver: Solver<T>) -> Self {
         let start = solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
-        LazyLock::force(&BUILD);
         // The balance keeps the energies with which elements are deleted.
         solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
         Run { case, panel, solver, record: Record { start, ..Record::default() } }
     }
 
-    fn checkpoint(&mut self) -> Result<Vec<u8>, postcard::Error> {
+    fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
         let mut archive = Archive::Writes(Vec::new());
-        archive.keep(&mut identity(self.case))?;
-        self.record.archive(&mut archive)?;
-        self.solver.archive(&mut archive)?;
+        let mut identity = identity(self.case)?;
+        let written = archive.keep(&mut identity).and_then(|()| self.record.archive(&mut archive));
+        let written = written.and_then(|()| self.solver.archive(&mut archive));
+        written.map_err(|error| self.error(&error.to_string()))?;
         match archive {
             Archive::Writes(mut bytes) => {
                 bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
@@ -255,7 +267,7 @@ impl<'a, T: Number> Run<'a, T> {
             let end = self.end(reached(self.case.end), time - self.record.last_contact);
             if self.case.checkpoints > 0 && (reached(self.record.next_checkpoint) || end.is_some()) {
                 self.record.next_checkpoint += between_checkpoints;
-                let bytes = self.checkpoint().map_err(|error| self.error(&error.to_string()))?;
+                let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
             let sampled = reached(self.record.next_sample) || end.is_some();

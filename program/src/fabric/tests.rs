@@ -1,4 +1,4 @@
-//! A yarn that is drawn through a patch, beside the formulas for ropes.
+//! A yarn that is drawn through a patch, beside the formulas for ropes; the example scenes.
 
 use nalgebra::Vector3;
 

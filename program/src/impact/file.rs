@@ -6,9 +6,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::scene::{Abscissa, Outputs, Precision};
-use crate::common::toml_file::{Numbers, over};
+use crate::common::toml_file::{Numbers, Unused, over};
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, HYPERELASTIC, LawName, Unused, unused_material};
+use crate::material::of_law::{FailureName, HYPERELASTIC, LawName, unused_material};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]

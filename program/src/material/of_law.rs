@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::file::MaterialFile;
 use super::model::{Law, Material};
 use crate::common::error::Error;
-use crate::common::toml_file::Source;
+use crate::common::toml_file::{Source, Unused};
 use toron::host::units::UnitSystem;
 use toron::{Criterion, Rotation};
 
@@ -46,9 +46,6 @@ pub enum FailureName {
     Multiaxial,
 }
 
-/// A table's key that no case reads: its place, and the message.
-pub type Unused = Option<(Range<usize>, String)>;
-
 /// A material of this table that is of no case's law.
 pub fn unused_material(
     hyperelastic: &Option<Spanned<MaterialFile>>,
@@ -73,12 +70,6 @@ pub struct Choice<'a> {
 }
 
 impl Source<'_> {
-    /// # Errors
-    /// There is a key that no case reads.
-    pub fn refuse_unused(&self, unused: Unused) -> Result<(), Error> {
-        unused.map_or(Ok(()), |(span, message)| Err(self.error(span, &message)))
-    }
-
     /// Leaves out the limits and weights that the case's failure has no use for; those that it needs must be there.
     fn choose_failure(
         &self,

@@ -36,20 +36,22 @@ pub struct WeaveFile {
 }
 
 impl WeaveFile {
-    /// This table, with the keys of `base` where it has none.
+    /// This table, with the keys of `base` where it has none. One with a preset of its own has its yarns from there.
     pub fn over(&self, base: &WeaveFile) -> WeaveFile {
-        let own = self.clone();
-        let copy = base.clone();
+        let (own, mut base) = (self.clone(), base.clone());
+        if own.preset.is_some() {
+            (base.pattern, base.warp, base.weft) = (None, None, None);
+        }
         WeaveFile {
-            preset: own.preset.or(copy.preset),
-            pattern: own.pattern.or(copy.pattern),
-            warp: over(&self.warp, &base.warp, ThreadFile::over),
-            weft: over(&self.weft, &base.weft, ThreadFile::over),
-            clearance: own.clearance.or(copy.clearance),
-            along: own.along.or(copy.along),
-            columns: own.columns.or(copy.columns),
-            rows: own.rows.or(copy.rows),
-            panel: over(&self.panel, &base.panel, PanelFile::over),
+            preset: own.preset.or(base.preset),
+            pattern: own.pattern.or(base.pattern),
+            warp: over(&own.warp, &base.warp, ThreadFile::over),
+            weft: over(&own.weft, &base.weft, ThreadFile::over),
+            clearance: own.clearance.or(base.clearance),
+            along: own.along.or(base.along),
+            columns: own.columns.or(base.columns),
+            rows: own.rows.or(base.rows),
+            panel: over(&own.panel, &base.panel, PanelFile::over),
         }
     }
 }
@@ -96,7 +98,7 @@ impl PanelFile {
     /// A case's own shape has its own size.
     fn over(&self, base: &PanelFile) -> PanelFile {
         let (own, base) = (self.clone(), base.clone());
-        let other_shape = own.shape.is_some() && own.shape != base.shape;
+        let other_shape = own.shape.zip(base.shape).is_some_and(|(own, base)| own != base);
         PanelFile {
             shape: own.shape.or(base.shape),
             radius: if other_shape { own.radius } else { own.radius.or(base.radius) },

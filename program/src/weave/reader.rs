@@ -78,6 +78,28 @@ impl Scene {
 impl Source<'_> {
     /// The table `[weave]`.
     pub fn woven(&self, table: &Spanned<WeaveFile>, units: &UnitSystem) -> Result<Woven, Error> {
+        self.woven_blaming(table, units, |place| place)
+    }
+
+    /// The same with what a case has otherwise: what does not go together is the case's mistake.
+    pub fn woven_of_case(
+        &self,
+        own: &Spanned<WeaveFile>,
+        base: &WeaveFile,
+        units: &UnitSystem,
+    ) -> Result<Woven, Error> {
+        let table = Spanned::new(own.span(), own.get_ref().over(base));
+        let blamed = |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
+        self.woven_blaming(&table, units, blamed)
+    }
+
+    /// `blamed` is the place that errors name for a key at some place which does not go together with others.
+    fn woven_blaming(
+        &self,
+        table: &Spanned<WeaveFile>,
+        units: &UnitSystem,
+        blamed: impl Fn(Range<usize>) -> Range<usize>,
+    ) -> Result<Woven, Error> {
         let file = table.get_ref();
         let base = file.preset.as_ref().map(|name| self.weave_preset(name, units)).transpose()?;
         let warp =
@@ -102,13 +124,15 @@ impl Source<'_> {
         for (family, given) in Family::BOTH.into_iter().zip([&file.warp, &file.weft]) {
             let given =
                 given.as_ref().and_then(|given| given.get_ref().width.as_ref().or(given.get_ref().height.as_ref()));
-            let place = given.map_or(table.span(), Spanned::span);
+            let place = blamed(given.map_or(table.span(), Spanned::span));
             weave.check_thread(family).map_err(|message| self.error(place, &message))?;
         }
         let wanted = "panel is missing; allowed: a table with shape and radius or half";
         let of_panel = file.panel.as_ref().ok_or_else(|| self.error(table.span(), wanted))?;
-        let panel = self.panel(of_panel, &weave)?;
-        let places = panel.places(&weave).map_err(|message| self.error(of_panel.span(), &message))?;
+        let panel = self.panel(of_panel)?;
+        let part = of_panel.get_ref().part.as_ref().map_or(of_panel.span(), Spanned::span);
+        panel.check_mirror_planes(&weave).map_err(|message| self.error(blamed(part), &message))?;
+        let places = panel.places(&weave).map_err(|message| self.error(blamed(of_panel.span()), &message))?;
         let geometry = weave.solve().map_err(|message| self.error(table.span(), &message))?;
         Ok(Woven { geometry, panel, places })
     }
@@ -164,7 +188,7 @@ impl Source<'_> {
         })
     }
 
-    fn panel(&self, table: &Spanned<PanelFile>, weave: &Weave) -> Result<Panel, Error> {
+    fn panel(&self, table: &Spanned<PanelFile>) -> Result<Panel, Error> {
         let file = table.get_ref();
         let missing =
             |key: &str, allowed: &str| self.error(table.span(), &format!("panel.{key} is missing; allowed: {allowed}"));
@@ -190,10 +214,7 @@ impl Source<'_> {
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
-        let panel = Panel { outline, part, centre: file.centre.unwrap_or_default() };
-        let place = file.part.as_ref().map_or(table.span(), Spanned::span);
-        panel.check_mirror_planes(weave).map_err(|message| self.error(place, &message))?;
-        Ok(panel)
+        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default() })
     }
 
     /// A whole number in this range, or the default.

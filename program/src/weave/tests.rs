@@ -2,8 +2,12 @@
 
 use std::collections::HashSet;
 
+use serde::Deserialize;
+use toml::Spanned;
+
 use super::distance::{self, Quad};
 use super::figures::Figures;
+use super::file::WeaveFile;
 use super::geometry::{Family, Weave};
 use super::model::{Crossing, Model, Yarn};
 use super::panel::{Centre, Outline, Panel, Part};
@@ -11,6 +15,7 @@ use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
 use super::section::{Section, Thread};
+use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
 
 fn millimetres() -> UnitSystem {
@@ -213,7 +218,7 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     let twill = "pattern = [\"oouu\", \"uoou\", \"uuoo\", \"ouuo\"]\n";
     let wide = "the plane x = 0, through";
     for (text, line, message) in [
-        (String::new(), 2, "missing field `panel`"),
+        (String::new(), 2, "panel is missing; allowed: a table with shape and radius or half"),
         (format!("{disc}warps = 3"), 5, "unknown field `warps`"),
         (format!("{disc}pattern = \"twill\""), 5, "pattern is \"twill\"; allowed: plain, or rows of o"),
         (format!("{disc}pattern = 3"), 5, "pattern is 3; allowed: \"plain\", or a list of rows"),
@@ -266,4 +271,68 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     let scene = Scene::parse("weave.toml", &own).expect("the weft is as the warp");
     let threads = scene.woven.geometry.weave.threads;
     assert_eq!(threads[0], threads[1]);
+}
+
+/// The weave of a scene, and that of a case.
+#[derive(Deserialize)]
+struct Both {
+    base: Spanned<WeaveFile>,
+    own: Spanned<WeaveFile>,
+}
+
+/// A case's keys stand over the scene's one by one; a preset of its own brings its yarns, and a shape of its own has its own size.
+#[test]
+fn a_case_s_weave_goes_over_the_scene_s() {
+    const KEYS: [&str; 16] = [
+        "pattern = \"plain\"",
+        "warp.pitch = 1.0",
+        "warp.section = \"lens\"",
+        "warp.width = 0.8",
+        "warp.height = 0.2",
+        "weft.pitch = 1.1",
+        "weft.section = \"rectangle\"",
+        "weft.width = 0.7",
+        "weft.height = 0.1",
+        "clearance = 0.01",
+        "along = 6",
+        "columns = 3",
+        "rows = 4",
+        "panel.half = [3.0, 2.0]",
+        "panel.part = \"whole\"",
+        "panel.centre = \"gap\"",
+    ];
+    const SHAPE: &str = "panel.shape = \"rectangle\"";
+    let units = millimetres();
+    let woven = |own: &[&str], base: &[&str]| {
+        let text = format!("[base]\n{}\n[own]\n{}\n", base.join("\n"), own.join("\n"));
+        let source = Source { name: "both.toml", text: &text };
+        let both: Both = source.parse().unwrap_or_else(|error| panic!("{error}"));
+        let woven = source.woven_of_case(&both.own, both.base.get_ref(), &units);
+        woven
+            .map(|woven| format!("{:?} {:?}", woven.geometry.weave, woven.panel))
+            .unwrap_or_else(|error| error.to_string())
+    };
+    let all = [&KEYS[..], &[SHAPE]].concat();
+    let expected = woven(&all, &[]);
+    assert!(expected.contains("lens") || expected.contains("Lens"), "{expected}");
+    assert_eq!(woven(&[], &all), expected);
+    // Each key alone over another value of it.
+    let preset =
+        ["preset = \"kevlar-s706\"", "panel = { shape = \"rectangle\", half = [4.0, 4.0], part = \"quarter\" }"];
+    let of_preset = woven(&[], &preset);
+    for key in KEYS {
+        let others: Vec<&str> = all.iter().copied().filter(|other| *other != key).collect();
+        assert_eq!(woven(&[key], &others), expected, "{key}");
+        assert_eq!(woven(&others, &[key]), expected, "{key}");
+    }
+    // The yarns are the preset's, all else the scene's.
+    let own = woven(&["preset = \"kevlar-s706\""], &all);
+    assert!(own != expected && own != of_preset, "{own}");
+    let without_yarns = [&KEYS[9..], &[SHAPE]].concat();
+    assert_eq!(own, woven(&[], &[&["preset = \"kevlar-s706\""], &without_yarns[..]].concat()));
+    let circle = woven(&["panel = { shape = \"circle\", radius = 3.0 }"], &all);
+    assert!(circle.contains("Circle(3.0)"), "{circle}");
+    assert!(woven(&["panel.shape = \"circle\""], &all).contains("panel.radius is missing"));
+    assert!(woven(&KEYS, &[]).contains("panel.shape is missing; allowed: circle, rectangle"));
+    assert!(woven(&KEYS[..9], &[]).contains("panel is missing; allowed: a table with shape and radius or half"));
 }

@@ -379,8 +379,8 @@ fn friction_does_not_reach_the_inside_of_a_yarn_without_shear_stiffness() {
     assert!(least > 1.0 && least <= most && most < 1.03, "{least} {most}");
 }
 
-/// What the parts of two bodies have moved against each other at most is never less than what any two of their nodes have, however
-/// the nodes move; and it is nothing where both go the same way.
+/// What two slabs that are followed have moved against each other at most is never less than what any two of their nodes have; and
+/// it is nothing where both go the same way.
 #[test]
 fn slabs_have_moved_no_less_than_their_nodes() {
     let media = media();
@@ -393,7 +393,7 @@ fn slabs_have_moved_no_less_than_their_nodes() {
         motion.restart(&surfaces.iter().collect::<Vec<_>>(), margin);
         let mut far = false;
         for step in 0..30 {
-            // Far from each other in space, and alone at the end: what the nodes of a body have in common, and what they have not.
+            // At first all nodes move alike; from step 15 on each body has a motion of its own, and each node some more.
             for body in &mut bodies {
                 let common: [f64; 3] = std::array::from_fn(|_| 1e-6 * (random.f64() - 0.5));
                 for u in &mut body.displacement {
