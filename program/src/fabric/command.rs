@@ -36,11 +36,17 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
     // Before hours are spent on the first one.
+    let mut found = false;
     for case in &scene.cases {
         model::check(case)?;
         if let Some(bytes) = if restart { read(&place(case))? } else { None } {
             run::check(case, &bytes)?;
+            found = true;
         }
+    }
+    if restart && !found {
+        let message = "no case has a checkpoint in {}; allowed: the directory of the run that was stopped";
+        return Err(Error::Input(message.replace("{}", &output.display().to_string())));
     }
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
@@ -57,8 +63,9 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         failures.extend(outcome.failure.take().map(|error| error.to_string()));
         let figures = Figures::of(&panel, &outcome);
         results.push((case, outcome, figures));
+        // After each, for who stops the program in a later one.
+        summary::write(&output.join("summary.csv"), &results)?;
     }
-    summary::write(&output.join("summary.csv"), &results)?;
     print(&report::report(&scene, &results, output));
     if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(failures.join("\n"))) }
 }

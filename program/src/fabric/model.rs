@@ -1,5 +1,7 @@
 //! From a woven panel to the bodies of the explicit host.
 
+use nalgebra::Vector3;
+
 use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::units::number;
@@ -12,7 +14,7 @@ use crate::explicit::mutual_contact::{MutualContact, Surface};
 use crate::explicit::projectile::Projectile;
 use crate::explicit::solver::Solver;
 use crate::material::model::Material;
-use crate::weave::model::{Model, Yarn};
+use crate::weave::model::{LOWER, Model, UPPER, Yarn};
 use crate::weave::panel::Part;
 
 /// Checks that a run of this case can begin.
@@ -64,7 +66,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let local = faces.iter().map(|face| face.nodes.map(|node| node - yarn.nodes.start as u32)).collect();
         let elements = faces.iter().map(|face| face.element - yarn.elements.start as u32).collect();
         let surface = Surface::new(&mesh, local, elements);
-        mesh.surface.clone_from(&surface.area);
+        mesh.surface = struck_surface(&mesh, &surface.area);
         let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
         let zones: Vec<usize> = mesh.elements.iter().map(|element| zone(&case.zones, corners(element))).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);
@@ -99,6 +101,21 @@ fn mesh_of(panel: &Model, yarn: &Yarn) -> Mesh {
         nodes_per_section: yarn.nodes_per_section(),
         surface: Vec::new(),
     }
+}
+
+/// The surface that belongs to each node: its share of the faces, and of an inner node that of the faces between rows which it stands
+/// on, for when the elements above it are gone.
+fn struck_surface(mesh: &Mesh, outer: &[f64]) -> Vec<f64> {
+    let mut shares = vec![0.0; outer.len()];
+    for element in &mesh.elements {
+        for side in [LOWER, UPPER] {
+            let [a, b, c, d] = side.map(|corner| Vector3::from(mesh.nodes[element[corner] as usize]));
+            // A quarter for each corner, half of which comes from the element on the other side.
+            let share = 0.0625 * (c - a).cross(&(d - b)).norm();
+            side.iter().for_each(|&corner| shares[element[corner] as usize] += share);
+        }
+    }
+    outer.iter().zip(shares).map(|(&outer, inner)| if outer > 0.0 { outer } else { inner }).collect()
 }
 
 /// The number of the medium of an element with these corners.

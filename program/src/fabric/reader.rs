@@ -118,9 +118,13 @@ impl Reader<'_> {
         let stiffness = self.positive("contact-stiffness", &file.contact_stiffness)?;
         let height = self.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
         let [friction, of_yarns] = FRICTION;
+        let zones = self.zones()?;
+        let speed = self.positive("speed", &file.speed)?;
+        let place = file.speed.as_ref().map_or(self.span.clone(), Spanned::span);
+        let speed = self.source.strike_speed(speed, place, zones.inner(), self.units)?;
         Ok(Case {
             woven: self.woven.clone(),
-            zones: self.zones()?,
+            zones,
             sphere: Rigid {
                 shape: Shape::Sphere,
                 radius: self.positive("radius", &file.radius)?,
@@ -128,7 +132,7 @@ impl Reader<'_> {
                 friction: self.source.zero_or_more("friction", &file.friction, friction)?,
             },
             mass: self.positive("mass", &file.mass)?,
-            speed: self.positive("speed", &file.speed)?,
+            speed,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,

@@ -56,6 +56,11 @@ pub enum Zones {
 }
 
 impl Zones {
+    /// The material at the centre.
+    pub fn inner(&self) -> &Material {
+        &self.materials()[0]
+    }
+
     pub fn materials(&self) -> &[Material] {
         match self {
             Zones::One(material) => std::slice::from_ref(&**material),

@@ -127,3 +127,29 @@ fn every_example_is_valid() {
     }
     assert!(cases > 25, "{cases}");
 }
+
+/// A sphere that is smaller than the distance of nodes meets the one inside a yarn that it stands around.
+#[test]
+fn the_sphere_meets_what_stands_inside_a_yarn() {
+    let text = "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+         [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
+         [scene]\nspeed = 1.0\nmass = 1.0\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
+    let scene = Scene::parse("patch.toml", text).expect("a scene");
+    let panel = scene.cases[0].woven.model();
+    let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
+    let sphere = solver.projectile.as_mut().expect("it is there");
+    // The heights of the nodes on the axis, three of each of the two yarns that cross there.
+    let mut heights: Vec<f64> = panel.nodes.iter().filter(|[x, y, _]| x.hypot(*y) < 1e-9).map(|node| node[2]).collect();
+    heights.sort_by(f64::total_cmp);
+    assert_eq!(heights.len(), 6);
+    // Those in the middle of each.
+    for height in [heights[1], heights[4]] {
+        // A little above the node, which it presses down.
+        (sphere.position, sphere.moved) = (height + 0.01, 100.0);
+        sphere.meet(&mut solver.bodies, 0.0);
+        // A quarter of what belongs to the node: a pitch over 4 along the yarn, its width over 4 across it.
+        let area = 0.25 * (25.4 / 34.0 / 4.0) * (0.5337 / 4.0);
+        let expected = 1e5 * area * 0.03;
+        assert!((sphere.force / expected - 1.0).abs() < 0.2, "{height}: {} {expected}", sphere.force);
+    }
+}

@@ -8,6 +8,5 @@ pub mod reader;
 pub mod report;
 pub mod run;
 pub mod scene;
-pub mod smith;
 pub mod summary;
 pub mod yarn_picture;

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use super::smith::Smith;
 use crate::explicit::energies::{Cost, Energies};
 use crate::explicit::lanes::largest;
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
+use crate::material::smith::Smith;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];

@@ -7,13 +7,10 @@ use toml::Spanned;
 
 use super::file::{CaseFile, SceneFile, SectionName, StrikerName};
 use super::scene::{Abscissa, Case, Outputs, Precision, Scene, Striker, Zones};
-use super::smith::{LARGEST_STRAIN, Tension};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
-use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
-use crate::material::fibre_wave::FibreWave;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName};
@@ -145,9 +142,12 @@ impl Reader<'_> {
         }
         let yarn = self.yarn()?;
         let zones = self.zones(&yarn)?;
+        let speed = self.positive("speed", &file.speed)?;
+        let place = file.speed.as_ref().map_or(self.span.clone(), Spanned::span);
+        let speed = self.source.strike_speed(speed, place, zones.inner(), self.units)?;
         Ok(Case {
             striker: self.striker()?,
-            speed: self.speed(zones.inner())?,
+            speed,
             end,
             sample,
             pictures: self.source.pictures(&file.pictures, &name, end)?,
@@ -188,26 +188,6 @@ impl Reader<'_> {
             return Err(self.source.error(self.span.clone(), &message));
         }
         Ok(yarn)
-    }
-
-    /// The speed, which stretches a yarn of this material at mid-span by no more than any fibre bears.
-    fn speed(&self, material: &Material) -> Result<f64, Error> {
-        let (key, value) = ("speed", &self.file.speed);
-        let speed = self.positive(key, value)?;
-        let most = Tension::of(material).fastest_strike(material.density.unwrap_or_default());
-        if speed > most {
-            let span = value.as_ref().map_or(self.span.clone(), Spanned::span);
-            let most = number(most);
-            let mut message =
-                format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
-            if let Some(unit_warning) =
-                FibreWave::of(material, self.units).and_then(|wave| wave.unit_warning(self.units))
-            {
-                message.push_str(&format!(";\n{unit_warning}"));
-            }
-            return Err(self.source.error(span, &message));
-        }
-        Ok(speed)
     }
 
     fn striker(&self) -> Result<Striker, Error> {

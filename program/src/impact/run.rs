@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use super::outcome::{End, Outcome, STATIONS, Sample, imbalance};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
-use super::smith::{LARGEST_STRAIN, Smith, Tension};
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
@@ -17,6 +16,7 @@ use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use crate::material::model::Material;
+use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
 const FRONT: f64 = 0.5;

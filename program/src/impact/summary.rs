@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::outcome::{End, Outcome};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
-use super::smith::Smith;
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
 use crate::common::units::number;
+use crate::material::smith::Smith;
 
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {

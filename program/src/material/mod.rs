@@ -5,3 +5,4 @@ pub mod file;
 pub mod model;
 pub mod of_law;
 pub mod preset;
+pub mod smith;

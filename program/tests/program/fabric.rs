@@ -110,6 +110,7 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
             "CASE\nlinear-elastic.preset = \"x\"",
             "linear-elastic is not used; allowed: the material of a case's law",
         ),
+        (20, "CASE\nspeed = 142000.0", "speed is 142000; allowed: up to 4480, which stretches the yarn by 0.5"),
         (20, "CASE\nweave.panel.half = [3.0, 3.0]", "panel has half, of a rectangle; allowed: radius"),
         (20, "CASE\nweave.panel.shape = \"rectangle\"", "panel.half is missing; allowed: half sizes along x and y"),
         // What goes with the scene's other keys, but not with the case's, is the case's mistake.
@@ -201,6 +202,10 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
         let [one, other] = [&whole, &stopped].map(|from| std::fs::read(from.join(&name)).expect("a file"));
         assert!(one == other, "{name} differs");
     }
+    let nowhere = folder("fabric-nowhere");
+    let answer = program(&nowhere, &text, 1).arg("--restart").output().expect("it starts");
+    let error = String::from_utf8_lossy(&answer.stderr).to_string();
+    assert!(!answer.status.success() && error.contains("no case has a checkpoint in "), "{error}");
     // A checkpoint of something else is refused: of another scene, and of another program, here the same with a byte at its end.
     let wanted = "the checkpoint of case scene is of another scene or another build of the program; \
                   allowed: one of the same scene and build, or none";

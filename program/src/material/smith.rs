@@ -5,7 +5,14 @@
 //! yarn stands between mid-span and the kink; w of it has come from outside, so that the kink is at U = √(Pλ/ρ0) − w, and
 //! Pythagoras gives V² = Pλ/ρ0 − U². With P = E ε that is V = c √(ε(2√(ε(1+ε)) − ε)) and U = c(√(ε(1+ε)) − ε).
 
-use crate::material::model::{Law, Material};
+use std::ops::Range;
+
+use super::fibre_wave::FibreWave;
+use super::model::{Law, Material};
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use crate::common::units::number;
+use toron::host::units::UnitSystem;
 
 /// Steps of the integral, and of the bisection for the strain.
 const STEPS: usize = 1000;
@@ -91,6 +98,32 @@ impl Tension {
         let square = self.stress(stretch) * stretch / density;
         let kink = square.sqrt() - inwards;
         ((square - kink * kink).max(0.0).sqrt(), kink)
+    }
+}
+
+impl Source<'_> {
+    /// The speed of a strike, given there, if it stretches a yarn of this material by no more than any fibre bears.
+    ///
+    /// # Errors
+    /// It is faster; with a hint if the units cannot be right.
+    pub fn strike_speed(
+        &self,
+        speed: f64,
+        place: Range<usize>,
+        material: &Material,
+        units: &UnitSystem,
+    ) -> Result<f64, Error> {
+        let most = Tension::of(material).fastest_strike(material.density.unwrap_or_default());
+        if speed <= most {
+            return Ok(speed);
+        }
+        let most = number(most);
+        let mut message =
+            format!("speed is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+        if let Some(warning) = FibreWave::of(material, units).and_then(|wave| wave.unit_warning(units)) {
+            message.push_str(&format!(";\n{warning}"));
+        }
+        Err(self.error(place, &message))
     }
 }
 
