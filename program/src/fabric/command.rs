@@ -10,7 +10,7 @@ use super::run::{self, Observer, Outcome};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
 use super::{model, output, panel_picture, plot, report};
-use crate::common::console::print;
+use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress;
 use crate::common::units::number;
@@ -54,6 +54,10 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
         let checkpoint = place(case);
         let bytes = if restart { read(&checkpoint)? } else { None };
+        if restart {
+            let how = if bytes.is_some() { "goes on from its checkpoint" } else { "has none, from the beginning" };
+            print_error(&format!("case {}: {how}\n", case.name));
+        }
         let frames = Frames::new(output, &case.name);
         let mut observer = CaseObserver { name: &case.name, bar: &bar, frames, checkpoint };
         let result = run::run(case, &panel, bytes.as_deref(), &mut observer);

@@ -195,7 +195,8 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     child.wait().expect("it ends");
     assert!(!stopped.join("scene.csv").exists(), "it was killed too late");
     let answer = program(&stopped, &text, 1).arg("--restart").output().expect("it starts");
-    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let said = String::from_utf8_lossy(&answer.stderr).to_string();
+    assert!(answer.status.success() && said.contains("case scene: goes on from its checkpoint"), "{said}");
     let mut names = ["scene.csv", "scene.pvd", "scene-panel-1.svg", "scene-panel-2.svg"].map(str::to_string).to_vec();
     names.extend((0..=6).map(|frame| format!("scene-{frame:04}.vtu")));
     for name in names {
