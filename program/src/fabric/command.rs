@@ -33,7 +33,6 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     if output.exists() && !output.is_dir() {
         return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
     }
-    std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
     // Before hours are spent on the first one.
     let mut found = false;
@@ -45,9 +44,10 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         }
     }
     if restart && !found {
-        let message = "no case has a checkpoint in {}; allowed: the directory of the run that was stopped";
-        return Err(Error::Input(message.replace("{}", &output.display().to_string())));
+        let allowed = "allowed: the directory of the run that was stopped";
+        return Err(Error::Input(format!("no case has a checkpoint in {}; {allowed}", output.display())));
     }
+    std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let panel = case.woven.model();

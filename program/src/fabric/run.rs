@@ -316,7 +316,7 @@ impl<'a, T: Number> Run<'a, T> {
             let end = if self.case.rebounds { End::Rebounded } else { End::Stopped };
             return (at_end || !self.case.rebounds).then_some(end);
         }
-        // In which it goes on by its own radius; it begins where it touches.
+        // It has gone its own radius since something touched it last, or since the beginning, where it stands at the panel.
         let gone = free * -sphere.velocity > self.case.sphere.radius;
         if gone {
             return Some(End::Left);

@@ -204,9 +204,13 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
         assert!(one == other, "{name} differs");
     }
     let nowhere = folder("fabric-nowhere");
-    let answer = program(&nowhere, &text, 1).arg("--restart").output().expect("it starts");
+    let (file, new) = (nowhere.join("scene.toml"), nowhere.join("new"));
+    std::fs::write(&file, &text).expect("a file");
+    let mut restart = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let answer = restart.arg("fabric").arg(&file).arg("-o").arg(&new).arg("--restart").output().expect("it starts");
     let error = String::from_utf8_lossy(&answer.stderr).to_string();
     assert!(!answer.status.success() && error.contains("no case has a checkpoint in "), "{error}");
+    assert!(!new.exists(), "a directory without a run");
     // A checkpoint of something else is refused: of another scene, and of another program, here the same with a byte at its end.
     let wanted = "the checkpoint of case scene is of another scene or another build of the program; \
                   allowed: one of the same scene and build, or none";
