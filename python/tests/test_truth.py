@@ -33,7 +33,7 @@ def amid_others(case: dict, dtype, layout: str) -> dict:
 @pytest.fixture(scope="module")
 def cases() -> list[dict]:
     found = truth.cases()
-    assert len(found) == 256
+    assert len(found) == 320
     return found
 
 

@@ -32,7 +32,9 @@ use super::number::elementary::{Asinh, Logarithm};
 use super::number::real::Real;
 use super::number::vector::{accurate_cross, along, cross, dot, image, scale};
 
-/// F is near the reference if every entry of its diagonal is above this. F − 1 is exact from ½ on.
+/// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the others. F − 1
+/// is exact from ½ on. With d the least entry of the diagonal, |F v| > (d − √(d − 0.6)) |v| ≥ 0.35 |v|: no direction is shortened so
+/// far that its strain, computed from F − 1, would cancel with 1.
 const NEAR_REFERENCE: f64 = 0.6;
 
 /// Three axes to which a deformation gradient is referred: the fibre direction and two across it, n1 = m, n2 = t1, n3 = t2.
@@ -208,8 +210,12 @@ impl<R: Real> Stretch<R> {
         // of its digits if the section is sheared and compacted.
         let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
 
-        let near = R::splat(NEAR_REFERENCE).lt(f[0][0].min(f[1][1]).min(f[2][2]));
-        let sigma = R::select(near, one, zero);
+        // All that follows waits for this choice: sums side by side.
+        let [c1, c2, c3] = f;
+        let apart = c1[1].mul_add(c1[1], c1[2] * c1[2])
+            + c2[0].mul_add(c2[0], c2[2] * c2[2])
+            + c3[0].mul_add(c3[0], c3[1].mul_add(c3[1], R::splat(NEAR_REFERENCE)));
+        let sigma = R::select(apart.lt(c1[0].min(c2[1]).min(c3[2])), one, zero);
 
         let [m, t1, t2] = n.images(f, sigma);
         let u11 = dot(m.rest, n.shifted(m.whole, sigma, 0));
@@ -272,11 +278,16 @@ impl<R: Real> Section<R> {
         let x23 = n.product(&a, &b, d.sigma, 2);
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
-        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With σ = 0 `near` never holds.
-        let growth = sum + x22.mul_add(x33, -x23_square);
+        // Of J_t² = (a·a)(b·b) − (a·b)² = (J/λ)² the former does not depend on what rounding F along a short fibre does to both J
+        // and λ, and near the reference its difference from 1 has more correct digits. It is taken where its terms cancel by no
+        // more than four fifths.
+        let growth = d.sigma.mul_add(sum, x22.mul_add(x33, -x23_square));
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
-        let near = sum.lt(d.sigma) & (-half).lt(growth);
-        let area_square = R::select(near, one + growth, ratio);
+        let sides = d.sigma + growth;
+        let by_sides = x23_square.lt(R::splat(4.0) * sides);
+        let area_square = R::select(by_sides, sides, ratio);
+        // One step of Newton's method makes λ²/J² the reciprocal of either.
+        let inverse = d.square * d.inverse_jacobian * d.inverse_jacobian;
 
         let section = Section {
             delta,
@@ -286,8 +297,8 @@ impl<R: Real> Section<R> {
             half_trace: half.mul_add(sum, d.sigma),
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
-            inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
-            rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
+            inverse_area_square: inverse.mul_add((-area_square).mul_add(inverse, one), inverse),
+            rounding: R::select(by_sides, growth - (sides - d.sigma), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
     }
@@ -438,8 +449,7 @@ impl<R: Real> Decomposition<R> {
         let lambda = d.square.sqrt();
         let r11 = section.a_square.sqrt();
         let (inverse_lambda, inverse_r11) = (one / lambda, one / r11);
-        let area_ratio = d.jacobian * inverse_lambda;
-        let inverse_area = one / area_ratio;
+        let [area_ratio, inverse_area] = section.area_ratio();
         let r12 = section.x23 * inverse_r11;
         Decomposition {
             e: scale(inverse_lambda, c1),

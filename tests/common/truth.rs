@@ -1,4 +1,4 @@
-//! The truth table, 256 points computed in 140-digit arithmetic, and the measure of an answer against it.
+//! The truth table, 320 points computed in 140-digit arithmetic, and the measure of an answer against it.
 //!
 //! A result is as good as its input allows where its error is about one rounding of the value plus what one rounding
 //! of each entry of F does to it, the sensitivity K; `epsilon` is that one part. Per category the worst of

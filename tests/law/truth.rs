@@ -1,9 +1,12 @@
-//! The law against 256 points computed in 140-digit arithmetic, in double and in single precision.
+//! The law against 320 points computed in 140-digit arithmetic, in double and in single precision.
 //!
 //! The measures and their units stand in `common/truth.rs`; `--nocapture` prints the worst of each category.
 
+use nalgebra::Matrix3;
+
 use crate::common::truth::{Answer, Score, cases};
-use toron::law::state::HYPERELASTIC_STATE;
+use crate::common::{exact, rounded};
+use toron::law::state::{HYPERELASTIC_STATE, INVARIANTS};
 use toron::law::status;
 use toron::{Hyperelastic, Request};
 
@@ -17,7 +20,7 @@ fn double_precision() {
         score.add(&case, &Answer::from(&point));
     }
     println!("double precision\n{score}");
-    assert_eq!(score.worst.values().map(|worst| worst.cases).sum::<usize>(), 256);
+    assert_eq!(score.worst.values().map(|worst| worst.cases).sum::<usize>(), 320);
     for (category, worst) in &score.worst {
         assert!(worst.back <= 5.0, "{category}: stress {}", worst.back);
         assert!(worst.invariants <= 5.0, "{category}: invariants {}", worst.invariants);
@@ -52,5 +55,30 @@ fn single_precision() {
         assert!(worst.invariants <= 8.0, "{category}: invariants {}", worst.invariants);
         assert!(worst.energies <= 8.0, "{category}: energies {}", worst.energies);
         assert_eq!(worst.wrong, 0, "{category}: failure flags");
+    }
+}
+
+/// A fibre pressed to almost nothing in a section at rest, F = 1 − (1 − λ) m⊗m, along a diagonal of the axes: λ² is lost in
+/// 1 + (λ² − 1), and J/λ has the rounding of both. Exact values come from F's own entries, which are all known: with d on the diagonal
+/// and −o beside it F m = (d − 2o) m.
+#[test]
+fn a_fibre_pressed_flat_along_a_diagonal() {
+    for power in 1..=26 {
+        let lambda = 0.5_f64.powi(power);
+        let (diagonal, beside) = (1.0 - (1.0 - lambda) / 3.0, (1.0 - lambda) / 3.0);
+        let f = Matrix3::from_fn(|i, j| if i == j { diagonal } else { -beside });
+        let stretch = rounded(&(exact(diagonal) - exact(beside) - exact(beside)));
+        let properties = [82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 1.0, 1.0];
+        let law = Hyperelastic::<f64>::new(&properties).expect("valid properties");
+        let point = law.point(&f, &[0.0; HYPERELASTIC_STATE], Request::ALL);
+        assert_eq!(point.status, status::OK, "λ = {lambda:e}");
+        let [i_el, i_tc, i_td, ..] = point.state[INVARIANTS..] else { unreachable!() };
+        // What rounding each entry of F does to ln λ: (3 d + 6 o)/(3 λ).
+        let sensitivity = (diagonal + 2.0 * beside) / stretch;
+        let rounding = f64::EPSILON / 2.0;
+        let error = (i_el - stretch.ln()).abs() / (rounding * (stretch.ln().abs() + sensitivity));
+        assert!(error <= 5.0, "λ = {lambda:e}: I_el is wrong by {error} roundings");
+        // The section keeps its area and its shape to a rounding.
+        assert!(i_tc.abs().max(i_td.abs()) <= 5.0 * rounding, "λ = {lambda:e}: I_tc {i_tc:e}, I_td {i_td:e}");
     }
 }

@@ -77,6 +77,8 @@ struct Bounds {
     distorted: f64,
     invariants: f64,
     energies: f64,
+    /// In place of `back`, `invariants` and `energies` where the yarn is pressed to a thousandth in one direction.
+    flattened: [f64; 3],
     /// Near the reference.
     forward: f64,
 }
@@ -88,13 +90,16 @@ const DOUBLE: Bounds = Bounds {
     distorted: 5.0,
     invariants: 5.0,
     energies: 5.0,
+    flattened: [5.0; 3],
     forward: 2e-15,
 };
 /// CalculiX takes S, whose largest components cancel in F S Fᵀ where the section is distorted to an aspect ratio of 2·10⁵: the exact
 /// S, rounded and pushed forward exactly, has an error of 8400 there.
-const SECOND_PIOLA_KIRCHHOFF: Bounds = Bounds { distorted: 1e4, ..DOUBLE };
-/// The polar decomposition comes between: U instead of F, whose roundings are not small against small strains.
-const POLAR: Bounds = Bounds { forward: f64::INFINITY, ..DOUBLE };
+/// The same cancels where the yarn is pressed flat.
+const SECOND_PIOLA_KIRCHHOFF: Bounds = Bounds { distorted: 1e4, flattened: [1e3, 5.0, 5.0], ..DOUBLE };
+/// The polar decomposition comes between: U instead of F, whose roundings are not small against small strains, nor against small
+/// stretches.
+const POLAR: Bounds = Bounds { forward: f64::INFINITY, flattened: [5.0, 100.0, 100.0], ..DOUBLE };
 const SINGLE: Bounds = Bounds {
     epsilon: 6e-8,
     flag_margin: 1e-6,
@@ -102,10 +107,17 @@ const SINGLE: Bounds = Bounds {
     distorted: 8.0,
     invariants: 8.0,
     energies: 8.0,
+    flattened: [8.0; 3],
     forward: f64::INFINITY,
 };
-const SINGLE_POLAR: Bounds =
-    Bounds { back: 16.0, distorted: 16.0, invariants: f64::INFINITY, energies: 16.0, ..SINGLE };
+const SINGLE_POLAR: Bounds = Bounds {
+    back: 16.0,
+    distorted: 16.0,
+    invariants: f64::INFINITY,
+    energies: 16.0,
+    flattened: [16.0, 100.0, 100.0],
+    ..SINGLE
+};
 
 fn meets_the_truth(via: &str, bounds: &Bounds) {
     let cases = cases();
@@ -119,10 +131,14 @@ fn meets_the_truth(via: &str, bounds: &Bounds) {
     }
     println!("{via}\n{score}");
     for (category, worst) in &score.worst {
-        let back = if category == "distortion" { bounds.distorted } else { bounds.back };
+        let [back, invariants, energies] = match category.as_str() {
+            "distortion" => [bounds.distorted, bounds.invariants, bounds.energies],
+            "flattened" => bounds.flattened,
+            _ => [bounds.back, bounds.invariants, bounds.energies],
+        };
         assert!(worst.back <= back, "{via}, {category}: stress {}", worst.back);
-        assert!(worst.invariants <= bounds.invariants, "{via}, {category}: invariants {}", worst.invariants);
-        assert!(worst.energies <= bounds.energies, "{via}, {category}: energies {}", worst.energies);
+        assert!(worst.invariants <= invariants, "{via}, {category}: invariants {}", worst.invariants);
+        assert!(worst.energies <= energies, "{via}, {category}: energies {}", worst.energies);
         assert_eq!(worst.wrong, 0, "{via}, {category}: failure flags");
         if ["small", "degenerate"].contains(&category.as_str()) {
             assert!(worst.forward <= bounds.forward, "{via}, {category}: relative error {}", worst.forward);
@@ -153,7 +169,7 @@ fn entries_in_double_precision() {
 
 /// DDSDDE of the entries that return another tangent, which is pushed forward: beside the kinks of `distortion` the strong shears
 /// magnify the rounding of dS/dE most. The exact dS/dE, rounded and pushed forward exactly, has an error of 1.05e-12 in the worst
-/// case; MFront's factors √2 round it otherwise.
+/// case; MFront's factors √2 round it otherwise. Where the yarn is pressed to a thousandth, the fourth power of that comes in.
 #[test]
 fn tangents_that_are_pushed_forward() {
     tangent_through("mgis", 1e-12);
@@ -167,8 +183,10 @@ fn tangent_through(via: &str, bound: f64) {
         let order = [0, 1, 2, 3, 5, 4];
         let rows = order.map(|i| order.map(|j| number(&line["ddsdde"][i][j])));
         if let (Some(error), false) = (case.tangent_error(&rows), case.category == "distortion") {
+            let flattened = case.category == "flattened";
+            let bound = if flattened { 1e-3 } else { bound };
             assert!(error <= bound, "{via}, case {}, {}: {error:e}", case.id, case.category);
-            worst = worst.max(error);
+            worst = if flattened { worst } else { worst.max(error) };
         }
     }
     println!("tangent through {via}: {worst:.1e}");
