@@ -696,6 +696,69 @@ fn greatest_properties_f32() {
     greatest_properties::<f32>();
 }
 
+/// Whatever the stiffnesses, from 0 to their bounds, and however far the columns of F are from 1, to the ends of the range: a stress
+/// that is not finite has a status.
+fn any_stiffness<T: Number>() {
+    let mut random = fastrand::Rng::with_seed(7);
+    let size = if size_of::<T>() == 8 { 52.0 } else { 9.0 };
+    let mut power = |most: f64| 10f64.powf(most * (2.0 * random.f64() - 1.0));
+    // Two of 6e7 points of a search with k_td = 1e10: both transverse stretches near the least ones.
+    let mut inputs = vec![
+        Input::<T>::fresh([1.0, 0.0, 0.0, 0.0, 1.1e-50, 0.0, 0.0, 0.0, 1.2e-50], AXIS),
+        Input::<T>::fresh([1.0, 0.0, 0.0, 0.0, 1.1e-45, 0.0, 0.0, 0.0, 1.2e-45], AXIS),
+    ];
+    for _ in 0..600 {
+        let [a, b, c] = [power(size), power(size), power(size)];
+        // A section of about equal sides, and one of any; sheared and not.
+        let c = if power(1.0) < 1.0 { b * power(0.5) } else { c };
+        let [x, y, z] = [a * power(20.0), a * power(20.0), b * power(20.0)].map(|x| if x > b { 0.0 } else { x });
+        inputs.push(Input::fresh([a, 0.0, 0.0, x, b, 0.0, y, z, c], AXIS));
+        // And at the least and the greatest squares of the range.
+        let edge = (if size > 10.0 { 1e45_f64 } else { 1e5 }) * power(0.3);
+        inputs.push(Input::fresh([power(1.0), 0.0, 0.0, 0.0, 1.0 / edge, 0.0, 0.0, 0.0, 1.1 / edge], AXIS));
+        inputs.push(Input::fresh([1.0 / edge, 0.0, 0.0, 0.0, power(1.0), 0.0, 0.0, 0.0, power(1.0)], AXIS));
+    }
+    for round in 0..24 {
+        let mut stiffness = || match round % 4 {
+            0 => 1e25,
+            1 => 0.0,
+            _ => power(25.0).min(1e25),
+        };
+        let [k_el, k_tc, k_td] = [stiffness(), stiffness(), stiffness()];
+        let [k_td, k_ld] = [if round % 4 == 1 { 1e10 } else { k_td }, if round % 3 == 0 { stiffness() } else { 0.0 }];
+        let p = [1.000_001, 1.5, 2.2, 7.0, 40.0][round % 5];
+        let fibre = if round % 2 == 0 { AXIS } else { [0.48, -0.6, 0.64] };
+        let law = law::<T>([k_el, k_tc, p, k_td, k_ld, 0.0458, 1.8, 0.5, fibre[0], fibre[1], fibre[2]]);
+        for level in levels() {
+            for asked in Asked::USUAL.into_iter().chain([Asked::ALL]) {
+                let (outputs, _) = run(&law, &inputs, &Call { asked, ..Call::new(level) });
+                for (output, input) in outputs.iter().zip(&inputs) {
+                    let v = output.values::<T>();
+                    assert!(
+                        v.iter().all(|x| x.is_finite()),
+                        "{v:?} from {input:?}, k_td = {k_td:e}, {level:?} {asked:?}"
+                    );
+                }
+            }
+        }
+        for input in &inputs {
+            let point = law.point(&input.deformation_gradient(), &input.old, Request::STRESS_AND_STATE);
+            let finite = point.stress.iter().chain(&point.state).all(|&x| x.into().is_finite());
+            assert!(finite, "{point:?} from {input:?}, k_td = {k_td:e}");
+        }
+    }
+}
+
+#[test]
+fn any_stiffness_f64() {
+    any_stiffness::<f64>();
+}
+
+#[test]
+fn any_stiffness_f32() {
+    any_stiffness::<f32>();
+}
+
 /// The columns of F almost multiples of one another, so that the section's vectors may cancel to nothing while det F does not:
 /// whatever is asked for, no NaN leaves.
 fn almost_parallel_images<T: Number>() {

@@ -135,7 +135,7 @@ macro_rules! scalar {
 }
 
 scalar!(
-    f64, u64, root, f64::abs, squares: (1e-100, 1e100), headroom: true,
+    f64, u64, root, f64::abs, squares: (1e-90, 1e90), headroom: true,
     difference: |a, b, c, d| {
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
