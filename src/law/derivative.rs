@@ -48,9 +48,14 @@ pub(crate) trait Derivative<const N: usize>: Copy {
 #[derive(Clone, Copy)]
 pub(crate) struct NoTangent(pub Request);
 
-/// No tangent; stress and state are requested, which the compiler knows.
+/// No tangent; the stress is requested, and the state if `STATE`, which the compiler knows.
 #[derive(Clone, Copy)]
-pub(crate) struct StressAndState;
+pub(crate) struct Stress<const STATE: bool>;
+
+impl<const STATE: bool> Stress<STATE> {
+    pub const REQUEST: Request =
+        Request { stress: true, energies: STATE, invariants: STATE, failure: STATE, modes: false, wave_modulus: false };
+}
 
 impl Derivative<0> for NoTangent {
     type Early<R: Real> = ();
@@ -88,12 +93,12 @@ impl Derivative<0> for NoTangent {
     }
 }
 
-impl Derivative<0> for StressAndState {
+impl<const STATE: bool> Derivative<0> for Stress<STATE> {
     type Early<R: Real> = ();
     type General = NoTangent;
 
     fn general(self) -> NoTangent {
-        NoTangent(Request::STRESS_AND_STATE)
+        NoTangent(Self::REQUEST)
     }
 
     #[inline(always)]
@@ -101,7 +106,7 @@ impl Derivative<0> for StressAndState {
 
     #[inline(always)]
     fn request(self) -> Request {
-        Request::STRESS_AND_STATE
+        Self::REQUEST
     }
 
     #[inline(always)]

@@ -9,7 +9,7 @@ use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::border::{Message, check_plane, check_pointers, entry, fibre_of, oblique, out_of_plane, properties};
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
-use crate::law::derivative::{Derivative, JaumannModulus, StressAndState};
+use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn umat_f64(
     capacity: size_t,
 ) -> i32 {
     let (ddsdde, message) = (core::ptr::null_mut(), Message { text: message, capacity });
-    let tangent = StressAndState;
+    let tangent = Stress::<true>;
     // SAFETY: the caller's promise.
     unsafe {
         umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)

@@ -10,7 +10,7 @@ use super::constants::TORON_LEVEL_BEST;
 use super::prepared::{HyperelasticLaw, numbers};
 use crate::host::border::{Message, entry, properties, store};
 use crate::host::structures::{read, structures};
-use crate::law::derivative::{NineByNine, NoTangent, SixBySix, StressAndState};
+use crate::law::derivative::{NineByNine, NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
 use crate::law::number::level::Level;
 use crate::law::number::real::Real;
@@ -141,21 +141,23 @@ unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> 
     }
 }
 
-/// The sink for the stress and the new state alone, what most callers want.
-struct StressAndStateAnswer<'a, T> {
+/// The sink for the stress alone, or with the new state.
+struct StressAnswer<'a, T, const STATE: bool> {
     stress: *mut T,
     state: *mut T,
     status: &'a mut i32,
 }
 
-impl<T: Real> Sink<T, 0> for StressAndStateAnswer<'_, T> {
+impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     #[inline(always)]
     fn take(self, point: point::Point<T>, _: [T; 0]) {
         *self.status = point.status;
         // SAFETY: `evaluate` makes this from arrays of these sizes.
         unsafe {
             *self.stress.cast() = point.stress;
-            *self.state.cast() = point.state;
+            if STATE {
+                *self.state.cast() = point.state;
+            }
         }
     }
 }
@@ -185,9 +187,15 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
     };
     let mut status = status::OK;
     let nothing_else = modes.is_null() && wave_speed.is_null() && tangent.is_null();
-    if nothing_else && !stress.is_null() && !state_new.is_null() {
-        let sink = StressAndStateAnswer { stress, state: state_new, status: &mut status };
-        evaluate_call(Call { source, f, fibre, state, tangent: StressAndState, sink }, level)?;
+    if nothing_else && !stress.is_null() {
+        // What most callers want is compiled for them.
+        if state_new.is_null() {
+            let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
+            evaluate_call(Call { source, f, fibre, state, tangent: Stress::<false>, sink }, level)?;
+        } else {
+            let sink = StressAnswer::<T, true> { stress, state: state_new, status: &mut status };
+            evaluate_call(Call { source, f, fibre, state, tangent: Stress::<true>, sink }, level)?;
+        }
         return Ok(status);
     }
     check_density::<T>(point.density, !wave_speed.is_null())?;

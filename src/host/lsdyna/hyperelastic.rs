@@ -10,7 +10,7 @@ use crate::host::border::{Message, check_pointers, entry, from_entry, properties
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
-use crate::law::derivative::StressAndState;
+use crate::law::derivative::Stress;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::Level;
@@ -133,7 +133,7 @@ unsafe fn scalar<T: Registers>(
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
-    evaluate_call(Call { source, f, fibre: None, state, tangent: StressAndState, sink }, Level::Avx512)?;
+    evaluate_call(Call { source, f, fibre: None, state, tangent: Stress::<true>, sink }, Level::Avx512)?;
     Ok(status)
 }
 

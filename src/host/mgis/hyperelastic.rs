@@ -4,7 +4,7 @@ use core::cell::Cell;
 use core::slice;
 
 use crate::host::border::{fibre_of, oblique, out_of_plane};
-use crate::law::derivative::{JaumannModulus, NineByNine, NoTangent, SixBySix, StressAndState};
+use crate::law::derivative::{self, JaumannModulus, NineByNine, NoTangent, SixBySix};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::hyperelastic::Hyperelastic;
@@ -77,7 +77,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
         };
     }
     match options.operator {
-        None if usual => evaluate_with!(StressAndState),
+        None if usual => evaluate_with!(derivative::Stress::<true>),
         None => evaluate_with!(NoTangent(request)),
         Some(Operator::CauchyByGradient) if usual => evaluate_with!(JaumannModulus),
         Some(Operator::CauchyByGradient | Operator::KirchhoffByIncrement) => {

@@ -16,13 +16,9 @@ impl Instructions for Avx2 {
     type Lanes<T: Registers> = T::Avx2;
 
     #[target_feature(enable = "avx2,fma")]
-    unsafe fn run<T: Registers, const WANT: u8>(
-        law: &Hyperelastic<T>,
-        block: &Pointers<T>,
-        points: Range<usize>,
-    ) -> i32 {
+    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
         // SAFETY: the caller's promise.
-        unsafe { sweep::<T, T::Avx2, WANT>(law, block, points) }
+        unsafe { sweep::<T, T::Avx2, WANT>(law, block) }
     }
 
     #[target_feature(enable = "avx2,fma")]

@@ -15,13 +15,9 @@ pub(super) struct Baseline;
 impl Instructions for Baseline {
     type Lanes<T: Registers> = T::Baseline;
 
-    unsafe fn run<T: Registers, const WANT: u8>(
-        law: &Hyperelastic<T>,
-        block: &Pointers<T>,
-        points: Range<usize>,
-    ) -> i32 {
+    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
         // SAFETY: the caller's promise.
-        unsafe { sweep::<T, T::Baseline, WANT>(law, block, points) }
+        unsafe { sweep::<T, T::Baseline, WANT>(law, block) }
     }
 
     unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {

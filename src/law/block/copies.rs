@@ -2,28 +2,37 @@
 //! and those that are not next to each other in memory. They go through the same operations as all others, so that the result of a
 //! point does not depend on where it is.
 
+use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
 
 use super::linear::{LinearPointers, LinearStrides};
 use super::pointers::{Pointers, Strides, components, components_mut};
-use crate::law::number::real::{Lanes, Scalar};
+use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-/// F, fibre, energies, invariants, failure, stress, modes, wave speed, active and the largest tangent.
-const COMPONENTS: usize = 9 + 3 + 4 + 4 + 3 + 6 + 24 + 1 + 1 + 81;
+// The first components of F, fibre, energies, invariants, failure, stress, wave speed, active, modes and tangent among those of the
+// copies.
+const F: usize = 0;
+const FIBRE: usize = F + 9;
+const ENERGIES: usize = FIBRE + 3;
+const INVARIANTS: usize = ENERGIES + 4;
+const FAILURE: usize = INVARIANTS + 4;
+const STRESS: usize = FAILURE + 3;
+const WAVE_SPEED: usize = STRESS + 6;
+const ACTIVE: usize = WAVE_SPEED + 1;
+const MODES: usize = ACTIVE + 1;
+const TANGENT: usize = MODES + 24;
+/// The number of components without modes and tangent, and with the largest one.
+pub(super) const USUAL_COMPONENTS: usize = MODES;
+pub(super) const COMPONENTS: usize = TANGENT + 81;
 /// F at both ends, fibre, second axis, axes, state at both ends, stress, wave speed and active of the linear elastic law.
 const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
-/// Component-major arrays of `COUNT` points, taken one after the other from a buffer.
-struct Copies<T, const COUNT: usize> {
-    /// The rest of the buffer.
-    next: *mut T,
-    /// The index of each point in the block; the last ones repeat if there are fewer points.
-    points: [usize; COUNT],
-}
+/// The index in the block of each of `COUNT` copies; the last ones repeat if there are fewer points.
+struct Copies<const COUNT: usize>([usize; COUNT]);
 
 /// Where the points are in a group of arrays: the offset of each, and the distance between components.
 #[derive(Clone, Copy)]
@@ -32,28 +41,18 @@ struct Group<const COUNT: usize> {
     leading_dimension: usize,
 }
 
-impl<T: Scalar, const COUNT: usize> Copies<T, COUNT> {
-    fn new(next: *mut T, points: Range<usize>) -> Self {
+impl<const COUNT: usize> Copies<COUNT> {
+    fn new(points: Range<usize>) -> Self {
         let mut indices = [points.end - 1; COUNT];
         for (index, point) in indices.iter_mut().zip(points) {
             *index = point;
         }
-        Copies { next, points: indices }
-    }
-
-    /// An array of `components` components; null if the block has none.
-    fn array(&mut self, present: bool, components: usize) -> *mut T {
-        if !present {
-            return null_mut();
-        }
-        let array = self.next;
-        self.next = array.wrapping_add(components * COUNT);
-        array
+        Copies(indices)
     }
 
     #[inline(always)]
     fn group(&self, stride: usize, leading_dimension: usize) -> Group<COUNT> {
-        Group { offsets: self.points.map(|point| point * stride), leading_dimension }
+        Group { offsets: self.0.map(|point| point * stride), leading_dimension }
     }
 }
 
@@ -61,7 +60,7 @@ impl<const COUNT: usize> Group<COUNT> {
     /// Copies `components` components from the block; nothing if it has none.
     ///
     /// # Safety
-    /// `from` is null or an array of the block with these components, `to` one of [`Copies::array`].
+    /// `from` is null or an array of the block with these components, `to` one of [`Buffer::array`].
     #[inline(always)]
     unsafe fn copy_in<T: Copy>(&self, from: *const T, to: *mut T, components: usize) {
         if from.is_null() {
@@ -93,24 +92,152 @@ impl<const COUNT: usize> Group<COUNT> {
     }
 }
 
-/// Runs a kernel on `points`, fewer than a register `R` holds; returns its result.
-///
-/// # Safety
-/// As for [`copied`].
-pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(
-    block: &Pointers<T>,
-    points: Range<usize>,
-    run: impl FnOnce(&Pointers<T>) -> i32,
-) -> i32 {
-    if points.is_empty() {
-        return status::OK;
+/// Component-major arrays of `count` points, taken one after the other from a buffer.
+struct Buffer<T> {
+    next: *mut T,
+    count: usize,
+}
+
+impl<T: Scalar> Buffer<T> {
+    /// An array of `components` components; null if the block has none.
+    #[inline(always)]
+    fn array(&mut self, present: bool, components: usize) -> *mut T {
+        if !present {
+            return null_mut();
+        }
+        let array = self.next;
+        self.next = array.wrapping_add(components * self.count);
+        array
     }
-    // SAFETY: the caller's promise.
-    unsafe {
-        match R::COUNT {
-            2 => copied::<T, 2>(block, points, run),
-            4 => copied::<T, 4>(block, points, run),
-            _ => copied::<T, 8>(block, points, run),
+}
+
+/// A block of `count` points in a room for all components, with the arrays that the block `like` has.
+#[inline(always)]
+fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Pointers<T>) -> Pointers<T> {
+    let array = |present: bool, first: usize| if present { room.wrapping_add(first * count) } else { null_mut() };
+    let energies = array(!like.energies.is_null(), ENERGIES);
+    let invariants = array(!like.invariants.is_null(), INVARIANTS);
+    // The latch is read even if failure is not requested.
+    let failure = array(!like.failure_old.is_null() || !like.failure.is_null(), FAILURE);
+    Pointers {
+        n: count,
+        leading_dimension: count,
+        modes_leading_dimension: count,
+        tangent_leading_dimension: count,
+        strides: Strides::UNIT,
+        deformation_gradient: components(room.wrapping_add(F * count), count),
+        fibre: components(array(!like.fibre[0].is_null(), FIBRE), count),
+        energies_old: energies,
+        invariants_old: invariants,
+        failure_old: failure,
+        density: like.density,
+        stress: components_mut(array(!like.stress[0].is_null(), STRESS), count),
+        energies,
+        invariants,
+        failure: if like.failure.is_null() { null_mut() } else { failure },
+        modes: array(!like.modes.is_null(), MODES),
+        wave_speed: array(!like.wave_speed.is_null(), WAVE_SPEED),
+        tangent: array(!like.tangent.is_null(), TANGENT),
+        measure: like.measure,
+        status: codes,
+        active: array(!like.active.is_null(), ACTIVE),
+        level: like.level,
+    }
+}
+
+/// Room for a register of points that has `N` components.
+pub(super) struct Rest<T, R, const N: usize> {
+    values: [MaybeUninit<R>; N],
+    codes: [i32; WIDEST],
+    of: PhantomData<T>,
+}
+
+impl<T: Scalar, R: Lanes<T>, const N: usize> Rest<T, R, N> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Rest { values: [const { MaybeUninit::uninit() }; N], codes: [status::OK; WIDEST], of: PhantomData }
+    }
+
+    /// Copies `count` points from `first` on to the first lanes; the other lanes get points at rest. Returns the block of this register,
+    /// which lives in `self`.
+    ///
+    /// # Safety
+    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of a block with points next to each
+    /// other and its state in place; `N` is enough for what it has arrays for; 0 < count < COUNT.
+    #[inline(always)]
+    pub(super) unsafe fn copy_in(&mut self, block: &Pointers<T>, first: usize, count: usize) -> Pointers<T> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let room: *mut T = self.values.as_mut_ptr().cast();
+        let state = block.leading_dimension;
+        // The new flag of activity is not read, and the index only beside a new one.
+        let failure = match (block.failure_old.is_null(), block.failure.is_null()) {
+            (true, _) => 0..0,
+            (false, true) => 1..2,
+            (false, false) => 0..2,
+        };
+        // Loops and no closures, which would be called, without the processor's instructions.
+        // SAFETY: the caller's promise; the room has a register for each component.
+        unsafe {
+            for c in 0..9 {
+                let fill = if c % 4 == 0 { one } else { zero };
+                R::load_first(block.deformation_gradient[c].add(first), count, fill)
+                    .store(room.add((F + c) * R::COUNT));
+            }
+            if !block.fibre[0].is_null() {
+                for c in 0..3 {
+                    let fill = if c == 0 { one } else { zero };
+                    R::load_first(block.fibre[c].add(first), count, fill).store(room.add((FIBRE + c) * R::COUNT));
+                }
+            }
+            for (old, to) in [(block.energies, ENERGIES), (block.invariants, INVARIANTS)] {
+                if !old.is_null() {
+                    for c in 0..4 {
+                        let old = R::load_first(old.add(c * state + first), count, zero);
+                        old.store(room.add((to + c) * R::COUNT));
+                    }
+                }
+            }
+            for c in failure {
+                let old = R::load_first(block.failure_old.add(c * state + first), count, zero);
+                old.store(room.add((FAILURE + c) * R::COUNT));
+            }
+        }
+        block_in(room, R::COUNT, self.codes.as_mut_ptr(), block)
+    }
+
+    /// Copies the results of [`copy_in`](Self::copy_in)'s block back.
+    ///
+    /// # Safety
+    /// As for `copy_in`, whose arguments these are; the results are there.
+    #[inline(always)]
+    pub(super) unsafe fn copy_out(copies: &Pointers<T>, block: &Pointers<T>, first: usize, count: usize) {
+        let state = block.leading_dimension;
+        // SAFETY: the caller's promise.
+        unsafe {
+            if !block.stress[0].is_null() {
+                for c in 0..6 {
+                    R::copy_first(copies.stress[c], 0, block.stress[c].add(first), 0, 1, count);
+                }
+            }
+            let arrays = [
+                (copies.energies, block.energies, state, 4),
+                (copies.invariants, block.invariants, state, 4),
+                (copies.failure, block.failure, state, 3),
+                (copies.wave_speed, block.wave_speed, 0, 1),
+                (copies.active, block.active, 0, 1),
+                (copies.modes, block.modes, block.modes_leading_dimension, 24),
+                (copies.tangent, block.tangent, block.tangent_leading_dimension, block.measure.components()),
+            ];
+            for (from, to, next, columns) in arrays {
+                if !to.is_null() {
+                    R::copy_first(from, R::COUNT, to.add(first), next, columns, count);
+                }
+            }
+            if !block.status.is_null() {
+                for lane in 0..count {
+                    *block.status.add(first + lane) = *copies.status.add(lane);
+                }
+            }
         }
     }
 }
@@ -127,39 +254,10 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
 ) -> i32 {
     let mut room = [[const { MaybeUninit::<T>::uninit() }; COUNT]; COMPONENTS];
     let mut codes = [status::OK; COUNT];
-    let mut copies = Copies::<T, COUNT>::new(room.as_mut_ptr().cast(), points);
-    let f = copies.array(true, 9);
-    let fibre = copies.array(!block.fibre[0].is_null(), 3);
-    let energies = copies.array(!block.energies.is_null(), 4);
-    let invariants = copies.array(!block.invariants.is_null(), 4);
-    // The latch is read even if failure is not requested.
-    let latch = !block.failure_old.is_null();
-    let failure = copies.array(latch || !block.failure.is_null(), 3);
-    let stress = copies.array(!block.stress[0].is_null(), 6);
-    let of_copies = Pointers {
-        n: COUNT,
-        leading_dimension: COUNT,
-        modes_leading_dimension: COUNT,
-        tangent_leading_dimension: COUNT,
-        strides: Strides::UNIT,
-        deformation_gradient: components(f, COUNT),
-        fibre: components(fibre, COUNT),
-        energies_old: energies,
-        invariants_old: invariants,
-        failure_old: failure,
-        density: block.density,
-        stress: components_mut(stress, COUNT),
-        energies,
-        invariants,
-        failure: if block.failure.is_null() { null_mut() } else { failure },
-        modes: copies.array(!block.modes.is_null(), 24),
-        wave_speed: copies.array(!block.wave_speed.is_null(), 1),
-        tangent: copies.array(!block.tangent.is_null(), block.measure.components()),
-        measure: block.measure,
-        status: codes.as_mut_ptr(),
-        active: copies.array(!block.active.is_null(), 1),
-        level: block.level,
-    };
+    let copies = Copies::<COUNT>::new(points);
+    let of_copies = block_in(room.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), block);
+    let (energies, invariants) = (of_copies.energies, of_copies.invariants);
+    let (failure, latch) = (of_copies.failure_old.cast_mut(), !block.failure_old.is_null());
     let Strides { deformation_gradient, fibre: of_fibre, state, stress: of_stress, modes, tangent } = block.strides;
     let state = copies.group(state, block.leading_dimension);
     let single = copies.group(1, 0);
@@ -170,7 +268,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
         for (from, to) in block.deformation_gradient.into_iter().zip(of_copies.deformation_gradient) {
             of_f.copy_in(from, to.cast_mut(), 1);
         }
-        if !fibre.is_null() {
+        if !of_copies.fibre[0].is_null() {
             let of_fibre = copies.group(of_fibre, 0);
             for (from, to) in block.fibre.into_iter().zip(of_copies.fibre) {
                 of_fibre.copy_in(from, to.cast_mut(), 1);
@@ -192,7 +290,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
             state.copy_in(block.failure_old.add(block.leading_dimension), failure.add(COUNT), 1);
         }
         let worst = run(&of_copies);
-        if !stress.is_null() {
+        if !of_copies.stress[0].is_null() {
             let of_stress = copies.group(of_stress, 0);
             for (from, to) in of_copies.stress.into_iter().zip(block.stress) {
                 of_stress.copy_out(from, to, 1);
@@ -211,7 +309,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
     }
 }
 
-/// As [`padded`], for the linear elastic law, whose old state may be in another array than the new one.
+/// Runs a kernel of the linear elastic law on `points`, fewer than a register `R` holds; returns its result.
 ///
 /// # Safety
 /// As for [`LinearElastic::raw_block`](crate::law::linear_elastic::LinearElastic::raw_block), for these points of the block.
@@ -244,11 +342,12 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
 ) -> i32 {
     let mut room = [[const { MaybeUninit::<T>::uninit() }; COUNT]; LINEAR_COMPONENTS];
     let mut codes = [status::OK; COUNT];
-    let mut copies = Copies::<T, COUNT>::new(room.as_mut_ptr().cast(), points);
-    let (f_old, f_new) = (copies.array(true, 9), copies.array(true, 9));
-    let fibre = copies.array(!block.fibre[0].is_null(), 3);
-    let second_axis = copies.array(!block.second_axis[0].is_null(), 3);
-    let stress = copies.array(!block.stress[0].is_null(), 6);
+    let copies = Copies::<COUNT>::new(points);
+    let mut buffer = Buffer { next: room.as_mut_ptr().cast(), count: COUNT };
+    let (f_old, f_new) = (buffer.array(true, 9), buffer.array(true, 9));
+    let fibre = buffer.array(!block.fibre[0].is_null(), 3);
+    let second_axis = buffer.array(!block.second_axis[0].is_null(), 3);
+    let stress = buffer.array(!block.stress[0].is_null(), 6);
     let of_copies = LinearPointers {
         n: COUNT,
         leading_dimension: COUNT,
@@ -259,16 +358,16 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
         f_new: components(f_new, COUNT),
         fibre: components(fibre, COUNT),
         second_axis: components(second_axis, COUNT),
-        axes: copies.array(!block.axes.is_null(), 9),
-        state_old: copies.array(!block.state_old.is_null(), LINEAR_ELASTIC_STATE),
-        state_new: copies.array(!block.state_new.is_null(), LINEAR_ELASTIC_STATE),
+        axes: buffer.array(!block.axes.is_null(), 9),
+        state_old: buffer.array(!block.state_old.is_null(), LINEAR_ELASTIC_STATE),
+        state_new: buffer.array(!block.state_new.is_null(), LINEAR_ELASTIC_STATE),
         density: block.density,
         stress: components_mut(stress, COUNT),
-        wave_speed: copies.array(!block.wave_speed.is_null(), 1),
+        wave_speed: buffer.array(!block.wave_speed.is_null(), 1),
         tangent: null_mut(),
         measure: block.measure,
         status: codes.as_mut_ptr(),
-        active: copies.array(!block.active.is_null(), 1),
+        active: buffer.array(!block.active.is_null(), 1),
         rotation: block.rotation,
         criterion: block.criterion,
         level: block.level,

@@ -7,7 +7,7 @@ use super::avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
 use super::baseline::Baseline;
-use super::copies::{padded, padded_linear};
+use super::copies::padded_linear;
 #[cfg(target_arch = "x86_64")]
 use super::few;
 use super::instructions::Instructions;
@@ -108,47 +108,25 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 /// As for [`Precision::dispatch`].
 #[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // only kernels of wider instructions depend on the request
 unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
-    let n = block.n;
     // SAFETY: the caller's promise.
     unsafe {
         match level {
-            Level::Baseline => {
-                let part = whole::<T, Baseline>(0, n);
-                let rest = part.end..n;
-                let worst = run_any::<T, Baseline>(law, block, part);
-                worst.min(padded::<T, T::Baseline>(block, rest, |points| {
-                    run_any::<T, Baseline>(law, points, 0..points.n)
-                }))
-            }
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => {
-                let wide = if level == Level::Avx512 { whole::<T, Avx512>(0, n) } else { 0..0 };
-                let part = whole::<T, Avx2>(wide.end, n);
-                let rest = part.end..n;
-                let worst = run::<T, Avx512>(law, block, request, wide).min(run::<T, Avx2>(law, block, request, part));
-                worst.min(padded::<T, T::Avx2>(block, rest, |points| run::<T, Avx2>(law, points, request, 0..points.n)))
-            }
-            #[cfg(not(target_arch = "x86_64"))]
-            Level::Avx2 | Level::Avx512 => run_any::<T, Baseline>(law, block, 0..n),
+            // What fills no more than half a register of AVX-512 takes less time in one of AVX2.
+            Level::Avx512 if block.n > lanes::<T, Avx2>() => run::<T, Avx512>(law, block, request),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 | Level::Avx2 => run::<T, Avx2>(law, block, request),
+            _ => run_any::<T, Baseline>(law, block),
         }
     }
 }
 
-/// Runs a kernel that is compiled for one of the usual requests, or else the general kernel; none if there are no points, since the
-/// processor may not have the instructions.
+/// Runs a kernel that is compiled for one of the usual requests, or else the general kernel.
 ///
 /// # Safety
-/// As for [`Precision::dispatch`], for points of the block that fill whole registers.
+/// As for [`Precision::dispatch`].
 #[cfg(target_arch = "x86_64")]
-unsafe fn run<T: Registers, I: Instructions>(
-    law: &Hyperelastic<T>,
-    block: &Pointers<T>,
-    request: Request,
-    points: Range<usize>,
-) -> i32 {
-    if points.is_empty() {
-        return status::OK;
-    }
+unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;
     let usual = stress && !modes && block.tangent.is_null();
     let state = usual && energies && invariants && failure && !wave_modulus;
@@ -168,18 +146,18 @@ unsafe fn run<T: Registers, I: Instructions>(
     // SAFETY: the caller's promise.
     unsafe {
         match (state, law.shears, stress_alone) {
-            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block, points),
-            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block, points),
-            (true, false, _) => I::run::<T, STATE>(law, block, points),
-            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, block, points),
-            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, block, points),
-            (true, true, _) => I::run::<T, SHEAR_STATE>(law, block, points),
-            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block, points),
-            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block, points),
-            (_, _, true) => I::run::<T, STRESS>(law, block, points),
-            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, block, points),
-            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, block, points),
-            _ => run_any::<T, I>(law, block, points),
+            (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block),
+            (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block),
+            (true, false, _) => I::run::<T, STATE>(law, block),
+            (true, true, _) if fibres => I::run::<T, SHEAR_STATE_FIBRES>(law, block),
+            (true, true, _) if law.aligned => I::run::<T, SHEAR_STATE_ALIGNED>(law, block),
+            (true, true, _) => I::run::<T, SHEAR_STATE>(law, block),
+            (_, _, true) if fibres => I::run::<T, STRESS_FIBRES>(law, block),
+            (_, _, true) if law.aligned => I::run::<T, STRESS_ALIGNED>(law, block),
+            (_, _, true) => I::run::<T, STRESS>(law, block),
+            _ if explicit && fibres => I::run::<T, WAVE_STATE_FIBRES>(law, block),
+            _ if explicit && law.aligned => I::run::<T, WAVE_STATE_ALIGNED>(law, block),
+            _ => run_any::<T, I>(law, block),
         }
     }
 }
@@ -188,19 +166,12 @@ unsafe fn run<T: Registers, I: Instructions>(
 ///
 /// # Safety
 /// As for [`run`].
-unsafe fn run_any<T: Registers, I: Instructions>(
-    law: &Hyperelastic<T>,
-    block: &Pointers<T>,
-    points: Range<usize>,
-) -> i32 {
+unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
     const ANY_ALIGNED: u8 = ANY + ALIGNED;
-    if points.is_empty() {
-        return status::OK;
-    }
     // Compared with the tangent, the products with the frame that an aligned fibre saves take little time.
     let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
     // SAFETY: the caller's promise.
-    unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block, points) } else { I::run::<T, ANY>(law, block, points) } }
+    unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block) } else { I::run::<T, ANY>(law, block) } }
 }
 
 /// # Safety

@@ -3,7 +3,7 @@
 
 use super::interface::Law;
 use super::pointers::Pointers;
-use crate::law::derivative::{Derivative, NoTangent, StressAndState};
+use crate::law::derivative::{Derivative, NoTangent, Stress};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::number::registers::Registers;
@@ -14,7 +14,7 @@ use crate::law::status;
 use crate::law::wave_speed;
 
 /// Blocks of up to this number of points are evaluated one by one.
-pub(super) const FEW: usize = 2;
+pub(super) const FEW: usize = 1;
 
 /// Evaluates the law at every point of a block, one by one, by the same operations as in lanes: the
 /// results at a point do not depend on how many points there are. Returns the worst status.
@@ -35,10 +35,10 @@ pub(super) unsafe fn one_by_one<T: Registers>(
     unsafe {
         match (law, request) {
             (Law::Properties(properties), Request::STRESS_AND_STATE) => {
-                evaluate_each(properties, block, StressAndState)
+                evaluate_each(properties, block, Stress::<true>)
             }
             (Law::Properties(properties), _) => evaluate_each(properties, block, NoTangent(request)),
-            (Law::Prepared(law), Request::STRESS_AND_STATE) => evaluate_each(law, block, StressAndState),
+            (Law::Prepared(law), Request::STRESS_AND_STATE) => evaluate_each(law, block, Stress::<true>),
             (Law::Prepared(law), _) => evaluate_each(law, block, NoTangent(request)),
         }
     }

@@ -19,11 +19,7 @@ pub(super) trait Instructions {
     ///
     /// # Safety
     /// As for [`sweep`](super::kernel::sweep), on a processor that has the instructions.
-    unsafe fn run<T: Registers, const WANT: u8>(
-        law: &Hyperelastic<T>,
-        block: &Pointers<T>,
-        points: Range<usize>,
-    ) -> i32;
+    unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32;
 
     /// The kernel of the linear elastic law.
     ///

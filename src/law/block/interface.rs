@@ -7,13 +7,14 @@ use super::copies::{copied, copied_linear};
 use super::dispatch::Precision;
 #[cfg(target_arch = "x86_64")]
 use super::few::FEW;
-use super::kernel::{STAGED, WIDEST};
+use super::kernel::STAGED;
 use super::linear::{LinearPointers, LinearStrides, with_tangents};
 use super::pointers::{Pointers, Strides, check_layout, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::{LinearElastic, Rotation};
 use crate::law::number::level::Level;
+use crate::law::number::real::WIDEST;
 use crate::law::prepared::PreparedHyperelastic;
 use crate::law::status;
 use crate::law::tangent::Measure;

@@ -3,6 +3,7 @@
 //! Every formula of the law is generic over [`Real`], so that a scalar call and a block of points run the same
 //! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
 
+use core::mem::MaybeUninit;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// A real number, or several of them side by side.
@@ -113,6 +114,9 @@ impl<T: Real<Mask = bool>> Single<T> for T {
     }
 }
 
+/// The number of lanes of the widest register.
+pub(crate) const WIDEST: usize = 16;
+
 /// A number type with one point in each lane, loaded from and stored to arrays of T.
 pub trait Lanes<T>: Real {
     /// The number of lanes.
@@ -127,6 +131,42 @@ pub trait Lanes<T>: Real {
     /// # Safety
     /// `to` has room for `COUNT` values.
     unsafe fn store(self, to: *mut T);
+    /// Loads the first lanes from consecutive values; the others are those of `fill`.
+    ///
+    /// # Safety
+    /// `from` points to `count` values, fewer than `COUNT`.
+    #[inline(always)]
+    unsafe fn load_first(from: *const T, count: usize, fill: Self) -> Self {
+        let mut values = [const { MaybeUninit::<T>::uninit() }; WIDEST];
+        let values = values.as_mut_ptr().cast();
+        // SAFETY: the caller's promise; no register has more lanes.
+        unsafe {
+            fill.store(values);
+            Self::copy_first(from, 0, values, 0, 1, count);
+            Self::load(values)
+        }
+    }
+    /// Copies the first lanes of `columns` columns, which are `from_next` and `to_next` values apart.
+    ///
+    /// # Safety
+    /// Each column has `count` values, fewer than `COUNT`, at both places, which do not overlap.
+    #[inline(always)]
+    unsafe fn copy_first(from: *const T, from_next: usize, to: *mut T, to_next: usize, columns: usize, count: usize) {
+        // The binary digits of the count: a loop over so few values would be compiled to a call.
+        let mut lane = 0;
+        for digit in [8, 4, 2, 1] {
+            if digit < Self::COUNT && count & digit != 0 {
+                for c in 0..columns {
+                    // SAFETY: the caller's promise: the digits add up to `count`.
+                    unsafe {
+                        let from = from.add(c * from_next + lane);
+                        to.add(c * to_next + lane).copy_from_nonoverlapping(from, digit);
+                    }
+                }
+                lane += digit;
+            }
+        }
+    }
     /// Stores the lanes for which a mask holds.
     ///
     /// # Safety

@@ -33,7 +33,9 @@ macro_rules! register {
         reciprocal ($rx:ident) $reciprocal:expr;
         quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
         series $artanh:ident $ln:ident $exp:ident
-        $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)? $(; waits, pair ($pa:ident, $pb:ident) $pair:expr, apart ($pxy:ident) [$pfirst:expr, $psecond:expr])?
+        $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)?
+        $(; load_first ($ffrom:ident, $fcount:ident, $fill:ident) $load_first:expr)? $(; copy_column ($gfrom:ident, $gto:ident, $gcount:ident) $copy_column:expr)?
+        $(; waits, pair ($pa:ident, $pb:ident) $pair:expr, apart ($pxy:ident) [$pfirst:expr, $psecond:expr])?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -262,6 +264,33 @@ macro_rules! register {
                     unsafe { $store_where }
                 }
             )?
+            $(
+                #[inline(always)]
+                unsafe fn load_first($ffrom: *const $t, $fcount: usize, fill: Self) -> Self {
+                    let $fill = fill.0;
+                    // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                    $name(unsafe { $load_first })
+                }
+            )?
+            $(
+                #[inline(always)]
+                unsafe fn copy_first(
+                    from: *const $t,
+                    from_next: usize,
+                    to: *mut $t,
+                    to_next: usize,
+                    columns: usize,
+                    $gcount: usize,
+                ) {
+                    for c in 0..columns {
+                        // SAFETY: the dispatch has checked for the instructions, and the pointers are the caller's promise.
+                        unsafe {
+                            let ($gfrom, $gto) = (from.add(c * from_next), to.add(c * to_next));
+                            $copy_column
+                        }
+                    }
+                }
+            )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
@@ -472,6 +501,10 @@ register! {
         let old = _mm256_castpd_si256(_mm256_loadu_pd(to));
         let new = _mm256_blendv_epi8(old, _mm256_castpd_si256(x), _mm256_castpd_si256(mask.0));
         _mm256_storeu_pd(to, _mm256_castsi256_pd(new))
+    };
+    load_first (from, count, fill) {
+        let mask = _mm256_cmpgt_epi64(_mm256_set1_epi64x(count as i64), _mm256_setr_epi64x(0, 1, 2, 3));
+        _mm256_blendv_pd(fill, _mm256_maskload_pd(from, mask), _mm256_castsi256_pd(mask))
     }
 }
 
@@ -497,6 +530,10 @@ register! {
         let old = _mm256_castps_si256(_mm256_loadu_ps(to));
         let new = _mm256_blendv_epi8(old, _mm256_castps_si256(x), _mm256_castps_si256(mask.0));
         _mm256_storeu_ps(to, _mm256_castsi256_ps(new))
+    };
+    load_first (from, count, fill) {
+        let mask = _mm256_cmpgt_epi32(_mm256_set1_epi32(count as i32), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+        _mm256_blendv_ps(fill, _mm256_maskload_ps(from, mask), _mm256_castsi256_ps(mask))
     }
 }
 
@@ -531,7 +568,12 @@ register! {
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x)
+    store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x);
+    load_first (from, count, fill) _mm512_mask_loadu_pd(fill, __mmask8::MAX >> (Self::COUNT - count), from);
+    copy_column (from, to, count) {
+        let mask = __mmask8::MAX >> (Self::COUNT - count);
+        _mm512_mask_storeu_pd(to, mask, _mm512_maskz_loadu_pd(mask, from))
+    }
 }
 
 register! {
@@ -565,7 +607,12 @@ register! {
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
-    store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x)
+    store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x);
+    load_first (from, count, fill) _mm512_mask_loadu_ps(fill, __mmask16::MAX >> (Self::COUNT - count), from);
+    copy_column (from, to, count) {
+        let mask = __mmask16::MAX >> (Self::COUNT - count);
+        _mm512_mask_storeu_ps(to, mask, _mm512_maskz_loadu_ps(mask, from))
+    }
 }
 
 register! {
