@@ -247,6 +247,70 @@ def test_a_call_of_before_is_not_taken_for_one_of_another_layout_or_option(yarn,
     np.testing.assert_allclose(yarn.evaluate(F, out=speed, density=density)["wave_speed"], 2 * slow)
 
 
+def move_by_resize(array: np.ndarray) -> None:
+    """Gives the array other memory of the same size, and frees what it had."""
+    shape = array.shape
+    array.resize((array.size + 100_000,), refcheck=False)
+    array.resize(shape, refcheck=False)
+
+
+def move_by_setstate(array: np.ndarray) -> None:
+    array.__setstate__(array.copy(order="K").__reduce__()[2])
+
+
+@pytest.mark.parametrize("move", [move_by_resize, move_by_setstate])
+@pytest.mark.parametrize("which", ["F", "stress", "state", "energies"])
+@pytest.mark.parametrize("order", ["C", "F"])
+@pytest.mark.parametrize("has_head", [True, False], ids=["from the object", "from ctypes"])
+def test_no_call_uses_memory_that_an_array_has_no_more(yarn, gradients, monkeypatch, move, which, order, has_head):
+    if not has_head:
+        monkeypatch.setattr("toron.call._HAS_HEAD", False)
+    n = 60
+    arrays = {"F": np.array(gradients(n), order=order)}
+    expected = yarn.stress(arrays["F"])
+    arrays |= {name: np.zeros((n, size), order=order) for name, size in (("stress", 6), ("energies", 4), ("state", 11))}
+    state = {} if which == "energies" else {"state": arrays["state"]}
+    out = {"stress": arrays["stress"]} | ({} if state else {"energies": arrays["energies"]})
+    yarn.evaluate(arrays["F"], out=out, **state)
+    step = yarn.bind(arrays["F"], out=out, **state)
+    step()
+    kept, start, blockers = arrays[which].copy(), arrays[which].ctypes.data, []
+    while arrays[which].ctypes.data == start:
+        # What may be given back to the array is taken by another one first.
+        blockers.append(np.empty(kept.size))
+        move(arrays[which])
+    arrays[which][...] = kept
+    arrays["stress"].fill(np.nan)
+    with pytest.raises(toron.ArgumentError, match=f"^{which} has other memory than when the call was bound; allowed: .*bind again"):
+        step()
+    assert np.isnan(arrays["stress"]).all()
+    yarn.evaluate(arrays["F"], out=out, **state)
+    np.testing.assert_array_equal(arrays["stress"], expected)
+    arrays["stress"].fill(np.nan)
+    np.testing.assert_array_equal(yarn.bind(arrays["F"], out=out, **state)()["stress"], expected)
+
+
+def test_a_bound_call_sees_that_an_array_of_a_class_of_its_own_is_resized(yarn):
+    class Own(np.ndarray):
+        pass
+
+    F = np.tile(np.eye(3), (50, 1, 1)).view(Own).copy()
+    step = yarn.bind(F)
+    step()
+    F.resize((5, 3, 3), refcheck=False)
+    with pytest.raises(toron.ArgumentError, match="F has other memory"):
+        step()
+
+
+def test_a_bound_call_takes_another_shape_of_the_same_memory(yarn, gradients):
+    F = gradients(6)
+    step = yarn.bind(F)
+    F.shape = (2, 3, 3, 3)
+    np.testing.assert_array_equal(step()["stress"], yarn.stress(F).reshape(6, 6))
+    empty = yarn.bind(F[:0], outputs=("stress", "state"))
+    assert empty()["stress"].shape == (0, 3, 6)
+
+
 def test_a_bound_call_keeps_what_it_writes_to(yarn, gradients):
     step = yarn.bind(gradients(50), outputs=("energies", "failure"))
     with pytest.raises(TypeError):

@@ -23,7 +23,8 @@ class Arrays:
         #: have no array of their own are parts: all that must live as long as the call.
         self.all: dict[str, np.ndarray] = {}
         self.written: dict[str, np.ndarray] = {}
-        self.wholes: list[np.ndarray] = []
+        #: Those that have the memory: the caller's own objects, and what has been made. They must live as long as the call.
+        self.held: dict[str, np.ndarray] = {}
         self._placed: list[Placed] = []
         array = self._array(name, gradient)
         self.dtype = array.dtype if array.dtype in _FLOATS else np.dtype(np.float64)
@@ -70,13 +71,13 @@ class Arrays:
         self._check_shape(name, array, member)
         if not array.flags.writeable:
             raise ArgumentError(f"{name} is read-only; allowed: an array that may be written", lib.TORON_BAD_ARGUMENT)
-        self.all[name] = self.written[name] = array
+        self.all[name] = self.written[name] = self.held[name] = array
         return array
 
     def parts(self, members: list[Member]) -> dict[str, np.ndarray]:
         """New arrays for outputs that share a layout in the library, by the members' names: the parts of one array."""
         whole = self.empty(Member("parts", (sum(member.components[0] for member in members),)))
-        self.wholes.append(whole)
+        self.held[", ".join(member.name for member in members)] = whole
         return self.put_parts(members, whole)
 
     def empty(self, member: Member) -> np.ndarray:
@@ -97,7 +98,9 @@ class Arrays:
     def _array(self, name: str, values: Any) -> np.ndarray:
         if not self._frozen and not isinstance(values, np.ndarray):
             raise ArgumentError(f"{name} is a {type(values).__name__}; allowed: a NumPy array", lib.TORON_BAD_ARGUMENT)
-        return _real(name, values)
+        array = _real(name, values)
+        self.held[name] = values if isinstance(values, np.ndarray) else array
+        return array
 
     def _check_shape(self, name: str, array: np.ndarray, member: Member) -> None:
         if array.shape != self.shape(member.components):

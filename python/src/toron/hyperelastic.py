@@ -106,9 +106,10 @@ class Hyperelastic(Law):
     ) -> Call:
         """As `evaluate`, but returns a call to be made as often as you like: `step = law.bind(F, state=h)`, then `step()`.
 
-        Every call reads and writes these arrays as they are then, checks nothing but their contents, and returns the same arrays.
+        Every call reads and writes these arrays as they are then, checks nothing but their contents and that they have not been resized,
+        and returns the same arrays.
         """
-        return self._bind((F, state, state_old, fibre), out, outputs, (tangent, density, points, level), frozen=False)
+        return self._bind((F, state, state_old, fibre), out, outputs, (tangent, density, points, level), frozen=False).for_later()
 
     def stress(self, F: ArrayLike, *, out: np.ndarray | None = None, **arguments: Any) -> NDArray[Any]:
         """The Cauchy stress, 11 22 33 12 23 31: (…, 6), or (6, …) with `points="last"`; arguments as for `evaluate`."""

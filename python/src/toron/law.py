@@ -158,16 +158,16 @@ class Law:
         evaluate some points.
         """
         if outputs is not None or not isinstance(out, Mapping) or not out:
-            return dict(self._bind(inputs, out, outputs, options)())
+            return dict(self._bind(inputs, out, outputs, options).run())
         given = (*inputs, *options, *out, *out.values())
         for call, before in self._calls:
             if len(before) == len(given) and all(map(is_, before, given)) and call.unchanged():
-                call()
+                call.run()
                 return out
         call = self._bind(inputs, out, outputs, options)
         if _can_be_remembered((*inputs, *out.values()), options):
-            self._calls = ((call, given), *self._calls)[:_CALLS]
-        call()
+            self._calls = ((call.for_later(), given), *self._calls)[:_CALLS]
+        call.run()
         return out
 
     def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:

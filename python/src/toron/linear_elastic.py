@@ -122,7 +122,7 @@ class LinearElastic(Law):
     ) -> Call:
         """As `evaluate`, but returns a call to be made as often as you like, as `Hyperelastic.bind`."""
         inputs = (f_old, f_new, state, state_old, fibre, second_axis, axes)
-        return self._bind(inputs, out, outputs, (tangent, density, points, level), frozen=False)
+        return self._bind(inputs, out, outputs, (tangent, density, points, level), frozen=False).for_later()
 
     def increment(self, strain: ArrayLike, state: np.ndarray, jacobian: float | None = None) -> NDArray[np.float64]:
         """The stress after a strain increment at one point, for a solver that turns the material axes by itself.
