@@ -1,6 +1,7 @@
 """No status is lost, and every exception says in the library's words what is wrong and what is allowed."""
 
 import pickle
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -122,6 +123,117 @@ def test_what_is_no_number_is_refused_as_an_error_of_the_package(yarn, linear):
     with pytest.raises(toron.ArgumentError, match="layout is 'Last'"):
         yarn.new_state(5, layout="Last")
     assert yarn.new_state(np.int64(5)).shape == (5, 11)
+
+
+class Unprintable:
+    def __repr__(self) -> str:
+        raise RuntimeError
+
+
+#: What few arguments may be: every one is wrong in most places, and must be refused there by an error of the package.
+ODD = [
+    *(10**400, -(10**5000), 2**63, -1, 1j, True, float("nan"), float("inf"), Decimal("nan"), Unprintable(), object, Ellipsis),
+    *("", "1", "a", "kevlar-km2-600\0", "si\0-", "\ud800", "é" * 600, b"stress", bytearray(3), memoryview(b"abc"), iter([1]), range(2)),
+    *([], [None], [[1, 2], [3]], ["stress", ["stress"]], {}, {1: 2}, {"stress": None}, {"stress": 1}, {"\ud800": 1}, {"stress"}),
+    *(np.zeros(()), np.zeros(5), np.array("3"), np.zeros((3, 3), object), np.zeros((3, 3), "M8[s]"), np.zeros((3, 3), [("a", "f8")])),
+    *(np.ma.masked, np.ma.zeros(6), np.ma.zeros((3, 3)), np.ma.zeros(11), [np.ma.masked, 1.0, 1.0], np.zeros((1,) * 30 + (3, 3))),
+]
+
+
+def calls(law) -> dict:
+    """Ways to pass an argument, by what it is."""
+    kind, one = type(law), np.eye(3)
+    F = (one,) if kind is toron.Hyperelastic else (one, one)
+    names = ("outputs", "out", "state", "state_old", "fibre", "tangent", "points", "level") + ("second_axis", "axes") * (len(F) - 1)
+    found = {f"evaluate {name}": lambda value, name=name: law.evaluate(*F, **{name: value}) for name in names}
+    found |= {f"bind {name}": lambda value, name=name: law.bind(*F, **{name: value})() for name in names}
+    found |= {f"out {name}": lambda value, name=name: law.evaluate(*F, out={name: value}) for name in ("stress", "tangent", "status")}
+    found |= {f"property {name}": lambda value, name=name: law.replace(**{name: value}) for name in law._options() | dict(law.properties)}
+    found |= {
+        "F": lambda value: law.evaluate(*F[1:], value),
+        "F bound": lambda value: law.bind(*F[1:], value)(),
+        "density": lambda value: law.evaluate(*F, outputs="wave_speed", density=value),
+        "preset": lambda value: kind.from_preset(value, "si"),
+        "units": lambda value: kind.from_preset("kevlar-km2-600", value),
+        "values": lambda value: kind.from_values(value),
+        "state variable": lambda value: kind.state_index(value),
+        "name": lambda value: kind(**{value: 1.0}) if isinstance(value, str) else kind(),
+        "points": lambda value: law.new_state((2**62, value)),
+        "layout": lambda value: law.new_state(2, layout=value),
+        "dtype": lambda value: law.new_state(2, value),
+        "attribute": lambda value: setattr(law, value if isinstance(value, str) else "k_el", value),
+        "no law": lambda value: toron.Law(**{value: 1.0} if isinstance(value, str) else {}),
+    }
+    if kind is toron.Hyperelastic:
+        found |= {
+            "acoustic F": lambda value: law.least_acoustic_eigenvalue(value),
+            "acoustic fibre": lambda value: law.least_acoustic_eigenvalue(one, value),
+            "status": lambda value: toron.status_message(value),
+            "matrix": lambda value: toron.matrix(value),
+            "first": lambda value: toron.first_piola_kirchhoff(value, np.zeros(6)),
+            "first, stress": lambda value: toron.first_piola_kirchhoff(one, value, points="last"),
+            "second": lambda value: toron.second_piola_kirchhoff(value),
+            "measure's points": lambda value: toron.matrix(np.zeros(6), value),
+        }
+    else:
+        found |= {
+            "strain": lambda value: law.increment(value, law.new_state()),
+            "state": lambda value: law.increment(np.zeros(6), value),
+            "jacobian": lambda value: law.increment(np.zeros(6), law.new_state(), value),
+            "axes": lambda value: law.reference_axes(value, value),
+        }
+    return found
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_whatever_is_wrong_is_an_error_of_the_package(yarn, linear):
+    refused = 0
+    for law in (yarn, linear):
+        for name, call in calls(law).items():
+            for value in ODD:
+                try:
+                    call(value)
+                except toron.Error as error:
+                    assert len(str(error).encode()) > 5, name
+                    refused += 1
+                except Exception as error:
+                    raise AssertionError(f"{name}: {type(error).__name__}: {error}") from error
+    assert refused > 3000, refused
+
+
+def test_names_are_not_cut_at_a_null_character(yarn):
+    for name in ("kevlar-km2-600\0", "kevlar-km2-600\0-linear", "\ud800"):
+        with pytest.raises(toron.ArgumentError, match="preset is 'kevlar|preset is .*ud800"):
+            toron.Hyperelastic.from_preset(name, "si")
+    with pytest.raises(toron.ArgumentError, match=r"units is 'si\\x00x'; allowed: .*null"):
+        toron.Hyperelastic.from_preset("kevlar-km2-600", "si\0x")
+    with pytest.raises(toron.ArgumentError, match=r"property is 'k_el\\x00'"):
+        yarn.replace(**{"k_el\0": 1.0})
+    with pytest.raises(toron.ArgumentError, match=r"state variable is 'failed\\x00'"):
+        yarn.state_index("failed\0")
+
+
+@pytest.mark.parametrize("mask", [False, True])
+def test_masks_are_refused(yarn, linear, mask):
+    def masked(array):
+        return np.ma.array(array, mask=mask)
+
+    one, text = np.eye(3), r"^{} is a masked array; allowed: an array without a mask.*filled"
+    for name, call in {
+        "F": lambda: yarn.stress(masked(one)),
+        "fibre": lambda: yarn.stress(one, fibre=masked([1.0, 0, 0])),
+        "stress": lambda: yarn.stress(one, out=masked(np.zeros(6))),
+        "state": lambda: yarn.stress(one, state=masked(np.zeros(11))),
+        "state_old": lambda: yarn.stress(one, state_old=masked(np.zeros(11))),
+        "strain": lambda: linear.increment(masked(np.zeros(6)), linear.new_state()),
+        "modes": lambda: toron.second_piola_kirchhoff(masked(np.zeros((4, 6)))),
+    }.items():
+        with pytest.raises(toron.ArgumentError, match=text.format(name)):
+            call()
+    with pytest.raises(toron.ArgumentError, match=text.format("F")):
+        yarn.stress([masked(one), masked(one)])
+    with pytest.raises(toron.ArgumentError, match=text.format("F")):
+        yarn.bind(masked(one))
 
 
 def test_a_bound_call_wants_arrays(yarn):

@@ -1,5 +1,6 @@
 """The laws as objects: properties, presets, tables, tangents, failure, the linear law's steps."""
 
+import copy
 import pickle
 
 import numpy as np
@@ -42,6 +43,25 @@ def test_a_law_is_its_properties(yarn, linear):
     assert eval(repr(yarn), {"Hyperelastic": toron.Hyperelastic}).properties == yarn.properties
     with pytest.raises(TypeError):
         yarn.properties["k_el"] = 1.0
+
+
+def test_laws_of_the_same_properties_are_equal(yarn, linear):
+    for law, other in ((yarn, yarn.replace(k_el=1.0)), (linear, linear.replace(rotation="polar")), (linear, linear.replace(criterion="fibre"))):
+        for same in (pickle.loads(pickle.dumps(law)), copy.deepcopy(law), law.replace()):
+            assert same == law and hash(same) == hash(law) and {law: 1}[same] == 1
+            assert same is not law
+        assert law != other and law != law.replace(density=1.0) and law.replace(density=1.0) != law.replace(density=None)
+        assert law != dict(law.properties) and law != None  # noqa: E711
+    assert yarn != linear
+
+
+def test_a_law_does_not_change(yarn, linear):
+    for law, name, value in ((yarn, "k_el", 3), (yarn, "density", 1.0), (yarn, "k_ell", 3), (linear, "rotation", "spin"), (linear, "criterion", "fibre")):
+        before = repr(law)
+        for kind in (toron.Error, AttributeError):
+            with pytest.raises(kind, match=rf"^{name} cannot be set.*law\.replace\({name}=…\)"):
+                setattr(law, name, value)
+        assert repr(law) == before and not hasattr(law, "k_ell")
 
 
 def test_the_stress_is_linear_in_the_stiffness(yarn, gradients):

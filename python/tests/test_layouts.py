@@ -158,6 +158,27 @@ def test_fibre_directions_of_points(yarn):
     np.testing.assert_allclose(yarn.stress(last(F), fibre=last(fibre), points="last").T, turned.stress(F), rtol=1e-14, atol=1e-12)
 
 
+@pytest.mark.parametrize("shape", [(), (3,), (2, 4)])
+def test_one_direction_is_that_of_all_points(yarn, linear, shape):
+    F = np.tile(np.diag([1.01, 1.02, 0.97]), (*shape, 1, 1))
+    points_last = np.moveaxis(F, (-2, -1), (0, 1))
+    expected = yarn.replace(m_1=0.0, m_2=1.0).stress(F)
+    for fibre in ([0, 1, 0], np.array([0.0, 1.0, 0.0])):
+        out = np.empty((*shape, 6))
+        for _ in range(2):
+            np.testing.assert_allclose(yarn.stress(F, fibre=fibre, out=out), expected, rtol=1e-14, atol=1e-12)
+        found = yarn.stress(points_last, fibre=fibre, points="last")
+        np.testing.assert_allclose(np.moveaxis(found, 0, -1), expected, rtol=1e-14, atol=1e-12)
+    turned = linear.replace(m_1=0.0, m_2=1.0, n_1=0.0, n_2=0.0, n_3=1.0)
+    start = np.broadcast_to(np.eye(3), F.shape)
+    found = linear.evaluate(start, F, fibre=[0, 1, 0], second_axis=[0, 0, 1])["stress"]
+    np.testing.assert_allclose(found, turned.evaluate(start, F)["stress"], rtol=1e-13, atol=1e-10)
+    direction = np.array([0.0, 1.0, 0.0])
+    step = yarn.bind(F, fibre=direction)
+    direction[:] = 1.0, 0.0, 0.0
+    np.testing.assert_allclose(step()["stress"], yarn.stress(F), rtol=1e-14, atol=1e-12)
+
+
 def test_what_is_no_array_of_numbers_of_the_library_is_converted(yarn):
     rows = [[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]
     np.testing.assert_array_equal(yarn.stress(rows), np.zeros(6))

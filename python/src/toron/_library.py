@@ -27,7 +27,8 @@ buffers = _Buffers()
 
 def text(characters: Any) -> str:
     """A null-terminated array of the library as a text."""
-    return ffi.string(characters).decode()
+    # A message that is cut off may end within a character.
+    return ffi.string(characters).decode(errors="replace")
 
 
 def structure(name: str) -> Any:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from toron._library import lib
-from toron.errors import ArgumentError
+from toron.errors import ArgumentError, shown
 from toron.placement import Copy, Member, Placed, components_first, place
 
 _FLOATS = (np.dtype(np.float32), np.dtype(np.float64))
@@ -19,8 +19,7 @@ class Arrays:
 
     def __init__(self, name: str, member: Member, gradient: Any, points_last: bool, frozen: bool) -> None:
         self._points_last, self._frozen = points_last, frozen
-        #: By name, the arrays of the caller and those made in their place; which of them are written; and of what the outputs that
-        #: have no array of their own are parts: all that must live as long as the call.
+        #: By name, the arrays as they are read and written, and which of them are written.
         self.all: dict[str, np.ndarray] = {}
         self.written: dict[str, np.ndarray] = {}
         #: Those that have the memory: the caller's own objects, and what has been made. They must live as long as the call.
@@ -61,6 +60,15 @@ class Arrays:
         self.all[name] = array
         return array
 
+    def direction(self, name: str, member: Member, values: Any) -> np.ndarray:
+        """As `input`; one vector is that of all points."""
+        array = self._array(name, values)
+        if array.shape != member.components or not self.points:
+            return self.input(name, member, values)
+        own_axes = array.reshape(array.shape + (1,) * len(self.points)) if self._points_last else array
+        self.all[name] = np.broadcast_to(own_axes, self.shape(member.components))
+        return self.all[name]
+
     def output(self, name: str, member: Member, given: Any) -> np.ndarray:
         """An array that is written, perhaps after it has been read: the one given, checked, or a new one."""
         array = self.empty(member) if given is None else given
@@ -68,6 +76,7 @@ class Arrays:
         if not isinstance(array, np.ndarray) or array.dtype != dtype:
             found = f"type {array.dtype}" if isinstance(array, np.ndarray) else f"type {type(array).__name__}"
             raise ArgumentError(f"{name} has {found}; allowed: a NumPy array of {dtype}", lib.TORON_BAD_ARGUMENT)
+        refuse_mask(name, array)
         self._check_shape(name, array, member)
         if not array.flags.writeable:
             raise ArgumentError(f"{name} is read-only; allowed: an array that may be written", lib.TORON_BAD_ARGUMENT)
@@ -98,7 +107,7 @@ class Arrays:
     def _array(self, name: str, values: Any) -> np.ndarray:
         if not self._frozen and not isinstance(values, np.ndarray):
             raise ArgumentError(f"{name} is a {type(values).__name__}; allowed: a NumPy array", lib.TORON_BAD_ARGUMENT)
-        array = _real(name, values)
+        array = real(name, values)
         self.held[name] = values if isinstance(values, np.ndarray) else array
         return array
 
@@ -120,7 +129,7 @@ class Arrays:
                     raise ArgumentError(f"{name} shares memory with {other}; allowed: arrays of their own", lib.TORON_BAD_ARGUMENT)
 
 
-def _real(name: str, values: Any) -> np.ndarray:
+def real(name: str, values: Any) -> np.ndarray:
     """The values as an array of real numbers of any type."""
     try:
         array = np.asarray(values)
@@ -128,23 +137,36 @@ def _real(name: str, values: Any) -> np.ndarray:
         raise ArgumentError(f"{name} is no array of numbers: {error}", lib.TORON_BAD_ARGUMENT) from None
     if not np.can_cast(array.dtype, np.float64, "same_kind"):
         raise ArgumentError(f"{name} has type {array.dtype}; allowed: real numbers", lib.TORON_BAD_ARGUMENT)
+    refuse_mask(name, values)
     return array
+
+
+def refuse_mask(name: str, values: Any) -> None:
+    """The library has no masks: it would take what is under one for a value. Lists may have masked arrays in them."""
+    if isinstance(values, np.ma.MaskedArray):
+        allowed = 'an array without a mask, such as "filled(value)" or the entries that are not masked'
+        raise ArgumentError(f"{name} is a masked array; allowed: {allowed}", lib.TORON_BAD_ARGUMENT)
+    if isinstance(values, (list, tuple)):
+        for value in values:
+            refuse_mask(name, value)
 
 
 def numbers(name: str, values: Any, shape: tuple[int, ...]) -> np.ndarray:
     """The values as a contiguous array of this shape, float64."""
-    array = np.ascontiguousarray(_real(name, values), np.float64)
+    array = np.ascontiguousarray(real(name, values), np.float64)
     if array.shape != shape:
         raise ArgumentError(f"{name} has shape {array.shape}; allowed: {shape}", lib.TORON_BAD_COUNT)
     return array
 
 
-def number(name: str, value: Any, allowed: str) -> float:
-    """The value as a number."""
+def number(value: Any) -> float | None:
+    """The value as a number; None if it is none, or none that float64 has. A text is none, as little as bytes."""
+    if isinstance(value, (str, bytes, bytearray, np.ma.MaskedArray)):
+        return None
     try:
         return float(value)
-    except (TypeError, ValueError):
-        raise ArgumentError(f"{name} is {value!r}; allowed: {allowed}", lib.TORON_BAD_ARGUMENT) from None
+    except (TypeError, ValueError, OverflowError):
+        return None
 
 
 def _same_place(a: np.ndarray, b: np.ndarray) -> bool:
@@ -156,11 +178,16 @@ def names(outputs: str | Iterable[str] | None, out: Mapping[str, Any] | None, al
     if out is not None and not isinstance(out, Mapping):
         found = type(out).__name__
         raise ArgumentError(f"out is of type {found}; allowed: arrays by the names of outputs, {{\"stress\": …}}", lib.TORON_BAD_ARGUMENT)
+    for name, array in (out or {}).items():
+        if array is None:
+            raise ArgumentError(f"{name} in out is None; allowed: a NumPy array", lib.TORON_BAD_ARGUMENT)
     if outputs is None:
         outputs = () if out else "stress"
-    named = (outputs,) if isinstance(outputs, str) else tuple(outputs)
-    wanted = tuple(dict.fromkeys((*(out or ()), *named)))
-    for name in wanted:
-        if name not in allowed:
-            raise ArgumentError(f"output {name!r} is unknown; allowed: {', '.join(allowed)}", lib.TORON_UNKNOWN_NAME)
-    return wanted
+    try:
+        named = (*(out or ()), *((outputs,) if isinstance(outputs, str) else outputs))
+    except TypeError:
+        raise ArgumentError(f"outputs is {shown(outputs)}; allowed: {', '.join(allowed)}", lib.TORON_BAD_ARGUMENT) from None
+    for name in named:
+        if not isinstance(name, str) or name not in allowed:
+            raise ArgumentError(f"output {shown(name)} is unknown; allowed: {', '.join(allowed)}", lib.TORON_UNKNOWN_NAME)
+    return tuple(dict.fromkeys(named))

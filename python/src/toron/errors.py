@@ -1,5 +1,6 @@
 """Exceptions. Their text is the library's: it names the argument, its value and what is allowed."""
 
+from operator import index as integer
 from typing import Any
 
 import numpy as np
@@ -10,13 +11,16 @@ from toron._library import CAPACITY, buffers, lib, text
 #: Codes from here on say that points could not be evaluated, while the call as such was right.
 _OF_POINTS = -300
 _OF_PROPERTIES = -200
+#: Characters of a value in a message.
+_LONGEST = 60
 
 
 class Error(Exception):
     """What all exceptions of this package are. `code` is the status code of the library, `TORON_...` in toron.h."""
 
     def __init__(self, message: str, code: int) -> None:
-        super().__init__(message)
+        # A name with half a character, of which Python makes texts, could not be printed.
+        super().__init__(message.encode(errors="backslashreplace").decode())
         self.code = code
 
     def __reduce__(self) -> Any:
@@ -25,6 +29,10 @@ class Error(Exception):
 
 class ArgumentError(Error, ValueError):
     """An argument of a call is wrong: a name, an option, the shape of an array. Nothing has been written."""
+
+
+class AssignmentError(ArgumentError, AttributeError):
+    """An attribute of what does not change has been set."""
 
 
 class PropertyError(Error, ValueError):
@@ -44,6 +52,15 @@ class PointError(Error, ArithmeticError):
 
     def __reduce__(self) -> Any:
         return type(self), (str(self), self.code, self.status)
+
+
+def shown(value: Any) -> str:
+    """A value in a message, cut where it is long."""
+    try:
+        text = repr(value)
+    except Exception:  # That of a foreign object, or of an integer with more digits than Python prints.
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
 
 
 def is_of_points(code: int) -> bool:
@@ -72,9 +89,9 @@ def status_message(code: int) -> str:
     Raises `ArgumentError` if there is no such code.
     """
     try:
-        known = lib.toron_status_message(code, buffers.message, CAPACITY)
+        known = lib.toron_status_message(integer(code), buffers.message, CAPACITY)
     except (OverflowError, TypeError):
-        raise ArgumentError(f"status code {code!r} is unknown", lib.TORON_UNKNOWN_NAME) from None
+        raise ArgumentError(f"status code {shown(code)} is unknown; allowed: codes of toron.h", lib.TORON_UNKNOWN_NAME) from None
     raise_for(known)
     return text(buffers.message)
 

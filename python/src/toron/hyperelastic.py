@@ -83,7 +83,7 @@ class Hyperelastic(Law):
         `state`: the old state, updated in place. Or `state_old`, which is only read, and the output "state". Without either all old
         states are 0. Without a new state, nor "failure", no point fails; those that have failed before stay so.
 
-        `fibre`: (3,) at every point, reference directions of any length in place of the law's own; `level`: the widest instructions
+        `fibre`: (3,) at every point, or one for all, reference directions of any length in place of the law's own; `level`: the widest instructions
         to use, "best", "baseline", "avx2" or "avx512".
 
         Raises `ArgumentError` for an argument, `PointError` for points that cannot be evaluated (all others have been written).
@@ -152,7 +152,7 @@ class Hyperelastic(Law):
         given = dict(out or {})
         placed = arrays.Arrays("F", _F, F, choice("points", points, POINTS) == 1, frozen)
         if fibre is not None:
-            placed.put(_FIBRE, placed.input("fibre", _FIBRE, fibre))
+            placed.put(_FIBRE, placed.direction("fibre", _FIBRE, fibre))
         block = structure(f"toron_block_{SUFFIX[placed.dtype]}")
         block.level = choice("level", level, LEVELS)
         block.measure = choice("tangent", tangent, TANGENTS)

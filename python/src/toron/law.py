@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from toron import tables
 from toron._library import CAPACITY, buffers, constants, ffi, lib
-from toron.arrays import Arrays, number
+from toron.arrays import Arrays, number, numbers
 from toron.call import Call
-from toron.errors import ArgumentError, PropertyError, raise_for
+from toron.errors import ArgumentError, AssignmentError, PropertyError, raise_for, shown
 from toron.placement import Member
 from toron.tables import Row
 
@@ -41,13 +41,16 @@ def choice(name: str, value: Any, choices: dict[str, int]) -> int:
     try:
         return choices[value]
     except (KeyError, TypeError):
-        raise ArgumentError(f"{name} is {value!r}; allowed: {', '.join(choices)}", lib.TORON_BAD_ARGUMENT) from None
+        raise ArgumentError(f"{name} is {shown(value)}; allowed: {', '.join(choices)}", lib.TORON_BAD_ARGUMENT) from None
 
 
 class Law:
-    """A law prepared from its properties. Laws do not change; they may be used by several threads, and be pickled."""
+    """A law prepared from its properties. Laws do not change; they may be used by several threads, and be pickled. Those of one class
+    with the same properties and options are equal.
+    """
 
-    _number: ClassVar[int]
+    #: The library's constant for the law; this one is of none.
+    _number: ClassVar[int] = -1
     _structure: ClassVar[str]
 
     def __init__(self, density: float | None = None, **properties: float) -> None:
@@ -69,10 +72,11 @@ class Law:
     def from_values(cls, values: ArrayLike, density: float | None = None, **options: Any) -> Self:
         """The law from its properties in the order of the table, and options of the class."""
         names = [row.name for row in cls.properties_table()]
-        numbers = np.asarray(values, np.float64)
-        if numbers.shape != (len(names),):
-            raise PropertyError(f"values has shape {numbers.shape}; allowed: ({len(names)},)", lib.TORON_PROPERTY_COUNT)
-        return cls(density=density, **options, **dict(zip(names, numbers.tolist())))
+        try:
+            given = numbers("values", values, (len(names),))
+        except ArgumentError as error:
+            raise PropertyError(str(error), lib.TORON_PROPERTY_COUNT) from None
+        return cls(density=density, **options, **dict(zip(names, given.tolist())))
 
     @classmethod
     def from_preset(cls, name: str, units: str, **changes: Any) -> Self:
@@ -100,7 +104,8 @@ class Law:
     @classmethod
     def state_index(cls, name: str) -> int:
         """The index of a state variable in a `state` array. Raises `ArgumentError`, which lists the names, if there is none."""
-        return raise_for(lib.toron_state_index(cls._number, name.encode(), buffers.message, CAPACITY))
+        wanted = tables.encoded("state variable", name)
+        return raise_for(lib.toron_state_index(cls._number, wanted, buffers.message, CAPACITY))
 
     @property
     def properties(self) -> Mapping[str, float]:
@@ -120,6 +125,21 @@ class Law:
         """The law with other properties or options."""
         return type(self)(**(self._options() | dict(self.properties) | changes))
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AssignmentError(
+                f"{name} cannot be set, since a law does not change; allowed: a new one, law.replace({name}=…)", lib.TORON_BAD_ARGUMENT
+            )
+        super().__setattr__(name, value)
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self.properties == other.properties and self._options() == other._options()
+
+    def __hash__(self) -> int:
+        return hash((type(self), *self.properties.values(), *self._options().values()))
+
     def __repr__(self) -> str:
         arguments = ", ".join(f"{name}={value!r}" for name, value in (dict(self.properties) | self._options()).items())
         return f"{type(self).__name__}({arguments})"
@@ -128,10 +148,23 @@ class Law:
         return _remade, (type(self), self._options() | dict(self.properties))
 
     def new_state(self, points: int | tuple[int, ...] = (), dtype: DTypeLike = np.float64, layout: Points = "first") -> NDArray[Any]:
-        """The state of so many points at the start, zeros: (n, number of state variables), or (…, n) with `layout="last"`."""
-        shape = tuple(points) if isinstance(points, Iterable) else (integer(points),)
-        count = (len(self.state_table()),)
-        return np.zeros(count + shape if choice("layout", layout, POINTS) else shape + count, dtype)
+        """The state of so many points at the start, zeros: (n, number of state variables), or (…, n) with `layout="last"`.
+
+        Raises `ArgumentError` for what are no numbers of points, and a `dtype` that is neither float64 nor float32.
+        """
+        try:
+            kind = np.dtype(dtype)
+        except Exception:  # NumPy has many for what is no type.
+            kind = None
+        if kind not in SUFFIX:
+            raise ArgumentError(f"dtype is {shown(dtype)}; allowed: float64, float32", lib.TORON_BAD_ARGUMENT)
+        last, count = choice("layout", layout, POINTS), (len(self.state_table()),)
+        try:
+            shape = tuple(map(integer, points)) if isinstance(points, Iterable) else (integer(points),)
+            return np.zeros(count + shape if last else shape + count, kind)
+        except (TypeError, ValueError, OverflowError, MemoryError):
+            allowed = "a number of points that memory has room for, or a tuple of such numbers"
+            raise ArgumentError(f"points is {shown(points)}; allowed: {allowed}", lib.TORON_BAD_COUNT) from None
 
     def _law_in(self, dtype: np.dtype) -> Any:
         """The prepared law in this precision."""
@@ -185,17 +218,16 @@ class Law:
 
 
 def _property(name: str, value: Any) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise PropertyError(f"property {name} is {value!r}; allowed: a number", lib.TORON_PROPERTY_NOT_FINITE) from None
+    found = number(value)
+    if found is None:
+        raise PropertyError(f"property {name} is {shown(value)}; allowed: a number", lib.TORON_PROPERTY_NOT_FINITE)
+    return found
 
 
 def _checked_density(density: Any) -> float:
-    allowed = "a finite number > 0"
-    value = number("density", density, allowed)
-    if not 0 < value < inf:
-        raise ArgumentError(f"density is {density!r}; allowed: {allowed}", lib.TORON_BAD_ARGUMENT)
+    value = number(density)
+    if value is None or not 0 < value < inf:
+        raise ArgumentError(f"density is {shown(density)}; allowed: a finite number > 0", lib.TORON_BAD_ARGUMENT)
     return value
 
 

@@ -1,6 +1,7 @@
 """The linear elastic orthotropic law."""
 
 from collections.abc import Iterable, Mapping
+from math import inf
 from typing import Any, Literal
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from toron import arrays
 from toron._library import CAPACITY, buffers, constants, ffi, lib, structure
 from toron.call import Call
-from toron.errors import ArgumentError, raise_for_point
+from toron.errors import ArgumentError, raise_for_point, shown
 from toron.law import LEVELS, POINTS, STATUS, SUFFIX, TANGENTS, Law, Level, Points, Tangent, choice
 from toron.placement import Member
 
@@ -93,7 +94,7 @@ class LinearElastic(Law):
         - `f_old`, `f_new`: F at both ends of the step, (3, 3), (…, 3, 3) or (3, 3, …); copy the new one to the old one after it;
         - `state`, `state_old` and the output "state": (10,) at every point; the law needs it, since the stress is in it:
           without it every step starts without stress;
-        - `fibre`, `second_axis`: (3,) at every point, reference directions in place of the law's own;
+        - `fibre`, `second_axis`: (3,) at every point, or one for all, reference directions in place of the law's own;
         - `axes`: (3, 3) at every point, the current material axes one after the other, updated in place, for the frame "spin";
           `reference_axes` gives those at the start.
 
@@ -136,12 +137,13 @@ class LinearElastic(Law):
         strains, stress = arrays.numbers("strain", strain, (6,)), np.empty(6)
         if not isinstance(state, np.ndarray) or state.dtype != np.float64 or state.shape != _STATE_OLD.components:
             raise ArgumentError(f"state is no float64 array of shape {_STATE_OLD.components}", lib.TORON_BAD_ARGUMENT)
+        arrays.refuse_mask("state", state)
         if not state.flags.writeable:
             raise ArgumentError("state is read-only; allowed: an array that may be written", lib.TORON_BAD_ARGUMENT)
         new = np.array(state)
         step = structure("toron_linear_increment_f64")
         step.criterion = self._criterion_code
-        step.jacobian = 0.0 if jacobian is None else arrays.number("jacobian", jacobian, "a number > 0")
+        step.jacobian = 0.0 if jacobian is None else _checked_jacobian(jacobian)
         step.strain, step.stress = ffi.from_buffer("double[]", strains), ffi.from_buffer("double[]", stress)
         step.state_old = step.state_new = ffi.from_buffer("double[]", new)
         law = self._law_in(np.dtype(np.float64))
@@ -170,9 +172,11 @@ class LinearElastic(Law):
         wanted = arrays.names(outputs, out, _OUTPUTS)
         given = dict(out or {})
         placed = arrays.Arrays("f_new", _NEW, f_new, choice("points", points, POINTS) == 1, frozen)
-        for name, member, values in (("f_old", _OLD, f_old), ("fibre", _FIBRE, fibre), ("second_axis", _SECOND_AXIS, second_axis)):
+        if f_old is not None:
+            placed.put(_OLD, placed.input("f_old", _OLD, f_old))
+        for name, member, values in (("fibre", _FIBRE, fibre), ("second_axis", _SECOND_AXIS, second_axis)):
             if values is not None:
-                placed.put(member, placed.input(name, member, values))
+                placed.put(member, placed.direction(name, member, values))
         if axes is not None:
             placed.put(_AXES, placed.output("axes", _AXES, axes))
         block = structure(f"toron_linear_block_{SUFFIX[placed.dtype]}")
@@ -195,3 +199,11 @@ class LinearElastic(Law):
             results[name] = placed.output(name, member, given.get(name))
             placed.put(member, results[name])
         return self._call(f"toron_linear_elastic_block_{SUFFIX[placed.dtype]}", block, placed, results)
+
+
+def _checked_jacobian(jacobian: Any) -> float:
+    value = arrays.number(jacobian)
+    # The library takes 0 for one that is not given.
+    if value is None or not 0 < value < inf:
+        raise ArgumentError(f"jacobian is {shown(jacobian)}; allowed: a finite number > 0", lib.TORON_BAD_ARGUMENT)
+    return value

@@ -1,9 +1,10 @@
 """The tables of properties and state variables, and the presets, as the library tells them."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from toron._library import CAPACITY, buffers, ffi, lib, structure, text
-from toron.errors import ArgumentError, PropertyError, raise_for
+from toron.errors import ArgumentError, PropertyError, raise_for, shown
 
 
 @dataclass(frozen=True)
@@ -64,9 +65,21 @@ def state_variables(law: int) -> tuple[Row, ...]:
     return _rows(count, lambda index, row: lib.toron_state_variable(law, index, row, buffers.message, CAPACITY))
 
 
+def encoded(what: str, name: Any) -> bytes:
+    """A name as the library takes it. Raises `ArgumentError` for what is no text, or would be another one there."""
+    try:
+        found = name.encode() if isinstance(name, str) else b"\0"
+    except UnicodeEncodeError:
+        found = b"\0"
+    if b"\0" in found:
+        allowed = "a text of Unicode characters but the null character"
+        raise ArgumentError(f"{what} is {shown(name)}; allowed: {allowed}", lib.TORON_BAD_ARGUMENT)
+    return found
+
+
 def property_index(law: int, name: str) -> int:
     """The index of a property, counted from 0. Raises `ArgumentError`, which lists the names, if there is none."""
-    return raise_for(lib.toron_property_index(law, name.encode(), buffers.message, CAPACITY))
+    return raise_for(lib.toron_property_index(law, encoded("property", name), buffers.message, CAPACITY))
 
 
 def preset(name: str, units: str, count: int) -> tuple[list[float], float]:
@@ -74,11 +87,9 @@ def preset(name: str, units: str, count: int) -> tuple[list[float], float]:
 
     Raises `ArgumentError` for a name or a unit that does not exist, `PropertyError` if the preset is of another law.
     """
-    for argument, given in (("preset", name), ("units", units)):
-        if not isinstance(given, str):
-            raise ArgumentError(f"{argument} is {given!r}; allowed: a text", lib.TORON_BAD_ARGUMENT)
+    wanted, system = encoded("preset", name), encoded("units", units)
     values, density = ffi.new("double[]", count), ffi.new("double *")
-    code = lib.toron_preset_f64(name.encode(), units.encode(), values, count, density, buffers.message, CAPACITY)
+    code = lib.toron_preset_f64(wanted, system, values, count, density, buffers.message, CAPACITY)
     if code == lib.TORON_PROPERTY_COUNT:
         raise PropertyError(f"preset {name} is of another law: {text(buffers.message)}", code)
     raise_for(code)
