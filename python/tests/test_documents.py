@@ -21,6 +21,11 @@ def test_the_documents_programs(tmp_path, monkeypatch):
         with contextlib.redirect_stdout(printed):
             exec(program, names)
         assert printed.getvalue() == expected
+        if "savefig" in program:
+            drawn = dict(names)
+    # What the figure shows: nothing is carried after the failure.
+    stress, failed = drawn["stress"], drawn["failure"][:, 1] == 1
+    assert 0 < failed.argmax() < 390 and not stress[failed.argmax() + 1 :].any() and 2700 < stress.max() < 2800
     assert (tmp_path / "yarn.png").stat().st_size > 10_000
 
 
