@@ -5,6 +5,8 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from setuptools import Distribution, setup
@@ -51,6 +53,21 @@ def shared_library() -> Path:
     sys.exit("cargo has built no shared library")
 
 
+@contextmanager
+def licences() -> Iterator[None]:
+    """Puts the licence texts, which stand at the root of the repository, beside this file while the wheel is built: those of the package,
+    and the notices of what the library has from others.
+    """
+    texts = [ROOT / "LICENSE-MIT", ROOT / "LICENSE-APACHE", *ROOT.glob("THIRD-PARTY.md")]
+    for text in texts:
+        shutil.copyfile(text, HERE / text.name)
+    try:
+        yield
+    finally:
+        for text in texts:
+            (HERE / text.name).unlink()
+
+
 class BuildWithLibrary(build_py):
     """Adds the library and the module made from its header."""
 
@@ -76,4 +93,5 @@ class WithLibrary(Distribution):
         return True
 
 
-setup(version=version(), distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})
+with licences():
+    setup(version=version(), distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})

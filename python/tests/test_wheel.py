@@ -1,12 +1,15 @@
 """The wheel in an empty environment: TORON_WHEEL names it."""
 
 import os
+import re
 import subprocess
 import venv
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 
+ROOT = Path(__file__).parents[2]
 WHEEL = os.environ.get("TORON_WHEEL")
 
 PROGRAM = """
@@ -15,6 +18,18 @@ yarn = toron.Hyperelastic.from_preset("kevlar-km2-600", units="mm-tonne-s")
 print(toron.__file__)
 print(*yarn.stress(np.diag([1.02, 1.0, 0.8])).round(2))
 """
+
+
+@pytest.mark.skipif(WHEEL is None, reason="TORON_WHEEL is not set")
+def test_the_licences_come_with_it():
+    """Their texts to the letter, and the notices of what the library is linked with, where they are written."""
+    with ZipFile(WHEEL) as wheel:
+        (metadata,) = (name for name in wheel.namelist() if name.endswith(".dist-info/METADATA"))
+        found = {Path(name).name: wheel.read(name) for name in wheel.namelist() if ".dist-info/licenses/" in name}
+        declared = re.findall("^License-File: (.*)$", wheel.read(metadata).decode(), flags=re.MULTILINE)
+    texts = [ROOT / "LICENSE-MIT", ROOT / "LICENSE-APACHE", *ROOT.glob("THIRD-PARTY.md")]
+    assert found == {text.name: text.read_bytes() for text in texts} and sorted(declared) == sorted(found)
+    assert not any((ROOT / "python" / text.name).exists() for text in texts)
 
 
 @pytest.mark.skipif(WHEEL is None, reason="TORON_WHEEL is not set")
