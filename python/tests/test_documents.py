@@ -7,11 +7,14 @@ import runpy
 import sys
 from pathlib import Path
 
+from test_files import FITTED
+
 ROOT = Path(__file__).parents[2]
 
 
 def test_the_documents_programs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "kevlar-identified.toml").write_text(FITTED, encoding="utf-8")
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.DOTALL)
     assert len(programs) >= 7

@@ -46,7 +46,8 @@ def test_a_law_is_its_properties(yarn, linear):
 
 
 def test_laws_of_the_same_properties_are_equal(yarn, linear):
-    for law, other in ((yarn, yarn.replace(k_el=1.0)), (linear, linear.replace(rotation="polar")), (linear, linear.replace(criterion="fibre"))):
+    others = (yarn, yarn.replace(k_el=1.0)), (linear, linear.replace(rotation="polar")), (linear, linear.replace(criterion="fibre"))
+    for law, other in others:
         for same in (pickle.loads(pickle.dumps(law)), copy.deepcopy(law), law.replace()):
             assert same == law and hash(same) == hash(law) and {law: 1}[same] == 1
             assert same is not law
@@ -56,7 +57,8 @@ def test_laws_of_the_same_properties_are_equal(yarn, linear):
 
 
 def test_a_law_does_not_change(yarn, linear):
-    for law, name, value in ((yarn, "k_el", 3), (yarn, "density", 1.0), (yarn, "k_ell", 3), (linear, "rotation", "spin"), (linear, "criterion", "fibre")):
+    attempts = (yarn, "k_el", 3), (yarn, "density", 1.0), (yarn, "k_ell", 3), (linear, "rotation", "spin"), (linear, "criterion", "fibre")
+    for law, name, value in attempts:
         before = repr(law)
         for kind in (toron.Error, AttributeError):
             with pytest.raises(kind, match=rf"^{name} cannot be set.*law\.replace\({name}=…\)"):

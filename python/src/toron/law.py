@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 from math import inf, prod
 from operator import index as integer
 from operator import is_
+from os import PathLike
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal, Self
 
@@ -16,6 +17,7 @@ from toron.arrays import Arrays, number, numbers
 from toron.call import Call
 from toron.errors import ArgumentError, AssignmentError, PropertyError, raise_for, shown
 from toron.placement import Member
+from toron.preset_file import File
 from toron.tables import Row
 
 Tangent = Literal["material", "truesdell", "jaumann", "nominal"]
@@ -90,6 +92,22 @@ class Law:
         names = [row.name for row in cls.properties_table()]
         values, density = tables.preset(name, units, len(names))
         return cls(**({"density": density} | dict(zip(names, values)) | changes))
+
+    @classmethod
+    def from_file(cls, path: str | PathLike[str], units: str, **changes: Any) -> Self:
+        """The law of a preset's file, such as `toron fit` writes, with its density if it has one.
+
+        `units`: those of your model, as for `from_preset`; values are converted to them from the units of the file. `changes`: properties
+        and options that replace those of the file, and give what it leaves open.
+
+        Raises `ArgumentError` for a file that cannot be read, a key or a unit, `PropertyError` for a property; both name the file.
+        """
+        file = File(path, cls._number, units)
+        file.check_complete(changes)
+        try:
+            return cls(**(file.values | changes))
+        except PropertyError as error:
+            raise error if changes else file.of_law(error) from None
 
     @classmethod
     def properties_table(cls) -> tuple[Row, ...]:
