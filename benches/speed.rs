@@ -1,6 +1,6 @@
 //! Speed against error: the library and what it is measured against, on the same points, in one run on one core.
 //!
-//! `cargo bench` measures, prints a table and writes `benches/results/`; docs/speed.md says how to read it.
+//! `cargo bench` measures, prints a table and writes `benches/results/`; docs/results/speed.md says how to read it.
 
 mod baselines;
 #[path = "../tests/common/mod.rs"]

@@ -1,6 +1,6 @@
 /* toron: a transversely isotropic hyperelastic yarn law, and its linear elastic baseline.
  *
- * Generated from the library's source: do not edit. docs/c.md shows how it is used.
+ * Generated from the library's source: do not edit. docs/guides/c.md shows how it is used.
  *
  * Deformation gradients are passed by columns, F11 F21 F31 F12 F22 F32 F13 F23 F33; stresses as 11 22 33 12 23 31 unless a host has
  * its own order. Status codes: 0 is success, a negative number an error; functions that return a count or an index return that, or

@@ -39,8 +39,8 @@
 //! The laws take deformation gradients as columns, `[[T; 3]; 3]`, or as `nalgebra::Matrix3`, where a matrix says by its type which
 //! index is the row; nalgebra is used for nothing else in the hot paths.
 //!
-//! The documents beside the README say the rest: `docs/theory.md` the law as it is computed, `docs/hosts.md` how it goes
-//! into a solver, `docs/validation.md` how the numbers are checked, `docs/load-paths.md` what the program reads.
+//! The documents beside the README say the rest: `docs/reference/theory.md` the law as it is computed, `docs/guides/hosts.md` how it goes
+//! into a solver, `docs/results/validation.md` how the numbers are checked, `docs/guides/load-paths.md` what the program reads.
 
 #![cfg_attr(not(test), no_std)]
 

@@ -21,7 +21,7 @@ struct Arguments {
 enum Command {
     /// Take one element along a load path; write a table and a plot of it.
     Run {
-        /// The load path (see docs/load-paths.md); without it, a demonstration: compaction, then tension to failure.
+        /// The load path (see docs/guides/load-paths.md); without it, a demonstration: compaction, then tension to failure.
         path: Option<PathBuf>,
         /// Where the table and the plot go.
         #[arg(short, long, default_value = "toron-out")]
@@ -32,7 +32,7 @@ enum Command {
         /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
         #[arg(long)]
         units: Option<String>,
-        /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/load-paths.md).
+        /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/guides/load-paths.md).
         #[arg(long)]
         preset: Option<String>,
     },
@@ -50,7 +50,7 @@ enum Command {
     },
     /// Strike a woven panel by a sphere.
     Fabric {
-        /// The scene (see docs/fabric.md and examples/fabric_impact/).
+        /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
         scene: PathBuf,
         /// Where the histories and pictures go.
         #[arg(short, long, default_value = "toron-out")]
@@ -61,7 +61,7 @@ enum Command {
     },
     /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
     Fit {
-        /// The data and what is known besides (see docs/identification.md and examples/identification/).
+        /// The data and what is known besides (see docs/guides/identification.md and examples/identification/).
         data: PathBuf,
         /// Where the preset, the tables and the plot go.
         #[arg(short, long, default_value = "toron-out")]
@@ -72,7 +72,7 @@ enum Command {
     },
     /// Strike a yarn: run the cases of a scene; write histories, plots, pictures and a table of them.
     Impact {
-        /// The scene (see docs/impact.md and examples/yarn_impact/).
+        /// The scene (see docs/guides/impact.md and examples/yarn_impact/).
         scene: PathBuf,
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out")]
@@ -91,7 +91,7 @@ enum Command {
     },
     /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
     Weave {
-        /// The weave (see docs/fabric.md and examples/fabric_impact/).
+        /// The weave (see docs/guides/fabric.md and examples/fabric_impact/).
         scene: PathBuf,
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out")]

@@ -1,4 +1,4 @@
-"""The programs of docs/python.md, one after the other, print what stands there; the gallery draws its pictures."""
+"""The programs of docs/guides/python.md, one after the other, print what stands there; the gallery draws its pictures."""
 
 import contextlib
 import io
@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 def test_the_documents_programs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "kevlar-identified.toml").write_text(FITTED, encoding="utf-8")
-    text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs/guides/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.DOTALL)
     assert len(programs) >= 7
     names: dict = {}

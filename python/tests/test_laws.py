@@ -15,7 +15,7 @@ def test_presets_in_units():
     si = toron.Hyperelastic.from_preset("kevlar-km2-600", units="si")
     F = np.diag([1.02, 1.0, 0.8])
     np.testing.assert_allclose(si.stress(F), 1e6 * yarn.stress(F), rtol=1e-13)
-    np.testing.assert_allclose(yarn.stress(F)[:3], [1998.25, -57.91, -146.75], atol=0.005)  # as docs/c.md prints
+    np.testing.assert_allclose(yarn.stress(F)[:3], [1998.25, -57.91, -146.75], atol=0.005)  # as docs/guides/c.md prints
     other = toron.Hyperelastic.from_preset("kevlar-km2-600", "mm-tonne-s", k_ld=7.0, m_1=0.0, m_3=2.0)
     assert (other.properties["k_ld"], other.properties["m_3"]) == (7.0, 2.0)
 
@@ -191,7 +191,7 @@ def test_increment(linear):
     state, strain = law.new_state(), np.array([0.001, 0, 0, 0.001, 0, 0])
     for _ in range(3):
         stress = law.increment(strain, state)
-    np.testing.assert_allclose(stress[[0, 3]], [238.242, 0.756], atol=0.005)  # as docs/c.md prints
+    np.testing.assert_allclose(stress[[0, 3]], [238.242, 0.756], atol=0.005)  # as docs/guides/c.md prints
     before = state.copy()
     with pytest.raises(toron.PointError):
         law.increment(np.full(6, np.nan), state)

@@ -50,7 +50,7 @@ def test_double_precision(cases, layout):
         if category in truth.MODES_HELD:
             assert worst["modes"] <= 1e-12, category
         if "tangent" in worst and category != "distortion":
-            # In `distortion` the input does not determine the side of a kink: docs/validation.md.
+            # In `distortion` the input does not determine the side of a kink: docs/results/validation.md.
             assert worst["tangent"] <= (1e-8 if category in ("compaction", "exponent") else 1e-12), category
     assert sum("tangent" in row for row in table.values()) == len(table) - 1, "all but rest have a tangent"
 

@@ -20,7 +20,7 @@
 //!
 //! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact in floating point, and
 //! C − 1 follows from H without cancellation; elsewhere the sums over F itself round best. One formula covers both,
-//! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0 (χ in `docs/theory.md`): the
+//! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0 (χ in `docs/reference/theory.md`): the
 //! choice is a number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = σ t1 + δ2 and x22 = a·a − σ = δ2·(a + σ t1),
 //! and b and x33 follow in the same way from δ3.
 //!

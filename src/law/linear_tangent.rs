@@ -1,4 +1,4 @@
-//! The tangent of the linear elastic law, consistent with its finite step (derivation in `docs/theory.md`).
+//! The tangent of the linear elastic law, consistent with its finite step (derivation in `docs/reference/theory.md`).
 
 use nalgebra::{Matrix3, Vector3};
 

@@ -2,7 +2,7 @@
 //!
 //! In the current frame (e, q1, q2) most entries of the Truesdell modulus of τ vanish. With E = e⊗e, P = 1 − E, the
 //! deviator D of the section, A⊙B = A_ik B_jl + A_il B_jk + A_jk B_il + A_jl B_ik, and the factors of `Factors`, it is
-//! (derivation in `docs/theory.md`)
+//! (derivation in `docs/reference/theory.md`)
 //!
 //! ```text
 //! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙H + E⊙(G − τ_ld)
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e
-//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in H (Y in `docs/theory.md`), which becomes
+//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in H (Y in `docs/reference/theory.md`), which becomes
 //! ½ K P + ½ τ_el + ½ τ_ld.
 //!
 //! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b', where c, a

@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, value_enum)]
     host: Host,
     /// The yarn: a preset by name (`toron params` lists them), or a file of your own, as my-yarn.toml (see
-    /// docs/load-paths.md); without it, the first built-in one of the law.
+    /// docs/guides/load-paths.md); without it, the first built-in one of the law.
     #[arg(long)]
     preset: Option<String>,
     /// The yarn's file, whatever its name ends in: what --preset takes, and `toron fit` writes.

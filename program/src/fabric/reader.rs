@@ -1,4 +1,4 @@
-//! A scene from its TOML file. The format is described in `docs/fabric.md`.
+//! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
 
 use std::ops::Range;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/identification.md` has the keys.
+//! A fit from its TOML file: the yarn, what is known of its fibre, and the data sets. `docs/guides/identification.md` has the keys.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,5 +1,5 @@
 //! A load path from its TOML file, with errors that name file, line and what was expected. The format is described in
-//! `docs/load-paths.md`.
+//! `docs/guides/load-paths.md`.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! A material as files describe it: a preset, a law, and what is other than they have it. `docs/load-paths.md` has the keys.
+//! A material as files describe it: a preset, a law, and what is other than they have it. `docs/guides/load-paths.md` has the keys.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -1,4 +1,4 @@
-//! Presets: those of the library and those of a user's own files, which are used alike. `docs/load-paths.md` has the keys.
+//! Presets: those of the library and those of a user's own files, which are used alike. `docs/guides/load-paths.md` has the keys.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -433,7 +433,7 @@ mod tests {
 
     #[test]
     fn the_documentation_s_example_is_a_preset() {
-        let document = include_str!("../../../docs/load-paths.md");
+        let document = include_str!("../../../docs/guides/load-paths.md");
         let (_, section) = document.split_once("## A preset of your own").expect("the section");
         let example = section.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
         let preset = parse(example).expect("it is valid");

@@ -1,4 +1,4 @@
-//! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers. `docs/fabric.md` has the
+//! `toron weave`: woven panels meshed with hexahedra, for the explicit host and for decks of solvers. `docs/guides/fabric.md` has the
 //! keys of a scene.
 //!
 //! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,

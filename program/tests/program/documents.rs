@@ -21,16 +21,16 @@ use toron::{Hyperelastic, Point, Request};
 
 const DOCUMENTS: [&str; 11] = [
     "../README.md",
-    "theory.md",
-    "hosts.md",
-    "hosts/ls-dyna.md",
-    "hosts/abaqus.md",
-    "hosts/calculix.md",
-    "hosts/openradioss.md",
-    "hosts/mgis.md",
-    "validation.md",
-    "load-paths.md",
-    "identification.md",
+    "reference/theory.md",
+    "guides/hosts.md",
+    "guides/hosts/ls-dyna.md",
+    "guides/hosts/abaqus.md",
+    "guides/hosts/calculix.md",
+    "guides/hosts/openradioss.md",
+    "guides/hosts/mgis.md",
+    "results/validation.md",
+    "guides/load-paths.md",
+    "guides/identification.md",
 ];
 
 fn document(name: &str) -> PathBuf {
@@ -331,7 +331,7 @@ fn programs_print_what_is_shown() {
         ("c", "gcc", &["-std=c11", "-Wall", "-Wextra", "-Werror"]),
         ("fortran", "gfortran", &["-std=f2018", "-Wall", "-Werror"]),
     ];
-    let blocks = blocks(&read("c.md"));
+    let blocks = blocks(&read("guides/c.md"));
     let mut programs = 0;
     for (i, (language, code)) in blocks.iter().enumerate() {
         let Some((_, compiler, options)) = compilers.iter().find(|row| row.0 == language) else { continue };
@@ -362,7 +362,19 @@ fn linked_documents() -> Vec<PathBuf> {
         let paths = entries.map(|entry| entry.expect("an entry").path());
         paths.filter(|path| path.extension().is_some_and(|ending| ending == "md")).collect::<Vec<_>>()
     };
-    [".", "docs", "docs/hosts", "fortran-shim", "ffi-tests", "examples/one-element"].map(markdown).concat()
+    [
+        ".",
+        "docs",
+        "docs/guides",
+        "docs/guides/hosts",
+        "docs/reference",
+        "docs/results",
+        "fortran-shim",
+        "ffi-tests",
+        "examples/one-element",
+    ]
+    .map(markdown)
+    .concat()
 }
 
 /// A heading as a link names it: small letters, digits and hyphens.
@@ -399,7 +411,7 @@ fn links_lead_somewhere() {
 /// Rows of the table of symbols: `| no | symbol | meaning | `name` | `file` |`.
 #[test]
 fn symbols_have_the_names_that_they_are_said_to_have() {
-    let theory = read("theory.md");
+    let theory = read("reference/theory.md");
     let (_, symbols) = theory.split_once("## Symbols").expect("a table of symbols");
     let rows: Vec<_> = symbols.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
     assert!(rows.len() > 20);

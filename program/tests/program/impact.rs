@@ -1,4 +1,4 @@
-//! The yarn under impact on coarse meshes, against the thesis, against another solver and against theory. `docs/impact.md` has
+//! The yarn under impact on coarse meshes, against the thesis, against another solver and against theory. `docs/guides/impact.md` has
 //! the figures of the full scenes.
 //!
 //! Where the bands come from:
@@ -576,11 +576,12 @@ fn the_program_writes_what_came_of_a_scene() {
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
-    let page = std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/impact-files.md")).expect("a page");
+    let page = std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/reference/impact-files.md"))
+        .expect("a page");
     for file in ["b.csv", "summary.csv"] {
         for column in read(file).lines().next().expect("a heading").split(',') {
             let known = page.contains(&format!("`{column}`")) || ["width_2", "width_3"].contains(&column);
-            assert!(known, "docs/impact-files.md does not know {column}");
+            assert!(known, "docs/reference/impact-files.md does not know {column}");
         }
     }
     let history = read("b.csv");

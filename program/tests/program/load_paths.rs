@@ -282,7 +282,7 @@ fn input_errors_name_file_line_and_what_was_expected() {
 
 #[test]
 fn the_documentations_example_runs() {
-    let document = include_str!("../../../docs/load-paths.md");
+    let document = include_str!("../../../docs/guides/load-paths.md");
     let example = document.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("an example");
     let path = parse(example);
     assert_eq!(path.points.len(), 3);

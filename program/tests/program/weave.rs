@@ -13,9 +13,10 @@ fn the_example_is_meshed_and_drawn() {
     let answer = program.args(arguments).arg(&output).current_dir(ROOT).output().expect("it starts");
     let text = String::from_utf8(answer.stdout).expect("UTF-8");
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
-    let document = std::fs::read_to_string(Path::new(ROOT).join("docs/fabric.md")).expect("docs/fabric.md");
+    let document =
+        std::fs::read_to_string(Path::new(ROOT).join("docs/guides/fabric.md")).expect("docs/guides/fabric.md");
     let (figures, _) = text.split_once("\nFiles in ").expect("the files are named last");
-    assert!(document.contains(figures), "docs/fabric.md shows other figures than\n{figures}");
+    assert!(document.contains(figures), "docs/guides/fabric.md shows other figures than\n{figures}");
     let mesh = std::fs::read_to_string(output.join("weave.vtu")).expect("a mesh");
     assert!(mesh.contains("NumberOfPoints=\"173424\" NumberOfCells=\"98136\""));
     for picture in ["weave.svg", "weave.png"] {

@@ -78,7 +78,7 @@ class Hyperelastic(Law):
         - status: (), int32, 0 or the code of a point that cannot be evaluated. Without it such points raise `PointError`.
 
         `out`: arrays for outputs, by name; they are outputs too. Without `outputs` it is `out` that is returned. They are written
-        without a copy where their strides allow: docs/python.md says when. No output may share memory with another array of the call.
+        without a copy where their strides allow: docs/guides/python.md says when. No output may share memory with another array of the call.
 
         `state`: the old state, updated in place. Or `state_old`, which is only read, and the output "state". Without either all old
         states are 0. Without a new state, nor "failure", no point fails; those that have failed before stay so.
