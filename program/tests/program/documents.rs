@@ -3,6 +3,7 @@
 //! documents` writes it anew. The programs shown there compile and print what is shown behind them, links lead to a file and to a
 //! heading in it, and the code names of the symbols exist.
 
+use std::collections::BTreeSet;
 use std::ffi::c_char;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,18 +20,21 @@ use toron::law::status;
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Point, Request};
 
-const DOCUMENTS: [&str; 11] = [
+const DOCUMENTS: [&str; 14] = [
     "../README.md",
     "reference/theory.md",
+    "reference/tables.md",
     "guides/hosts.md",
     "guides/hosts/ls-dyna.md",
     "guides/hosts/abaqus.md",
     "guides/hosts/calculix.md",
     "guides/hosts/openradioss.md",
     "guides/hosts/mgis.md",
-    "results/validation.md",
     "guides/load-paths.md",
     "guides/identification.md",
+    "guides/fabric.md",
+    "results/validation.md",
+    "tutorial.md",
 ];
 
 fn document(name: &str) -> PathBuf {
@@ -198,6 +202,16 @@ fn fit_of_energies() -> String {
     fenced(report)
 }
 
+/// What `toron weave` prints of its example.
+fn figures_of_the_weave() -> String {
+    let output = folder("documents-weave");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    program.args(["weave", "examples/fabric_impact/weave.toml", "-o"]).arg(output).current_dir(ROOT);
+    let text = String::from_utf8(run(&mut program, "").stdout).expect("UTF-8");
+    let (figures, _) = text.split_once("\nFiles in ").expect("the files are named last");
+    fenced(figures)
+}
+
 fn fenced(text: &str) -> String {
     format!("```text\n{text}```\n")
 }
@@ -276,6 +290,7 @@ fn generate(name: &str) -> String {
         "mistakes" => mistakes(),
         "figures" => figures(),
         "fit of energies" => fit_of_energies(),
+        "figures of the weave" => figures_of_the_weave(),
         name => match name.strip_prefix("toron ") {
             Some(arguments) => printed(arguments),
             None => panic!("nothing is generated under the name {name}"),
@@ -310,7 +325,7 @@ fn generated_parts_are_current() {
         );
         count += parts;
     }
-    assert_eq!(count, 20, "a part has got lost");
+    assert_eq!(count, 21, "a part has got lost");
 }
 
 /// The fenced blocks of a document in their order: language and text.
@@ -427,4 +442,169 @@ fn symbols_have_the_names_that_they_are_said_to_have() {
             assert!(source.split(word).any(|token| token == name), "{name} is not in {file}");
         }
     }
+}
+
+/// The words of a page that stand as code, such as keys and columns.
+pub fn code_words(page: &str) -> BTreeSet<String> {
+    let text = read(page);
+    let spans = text.split('`').skip(1).step_by(2);
+    let word = |c: char| !c.is_alphanumeric() && !"_-".contains(c);
+    spans.flat_map(|span| span.split(word)).map(String::from).collect()
+}
+
+/// What a file may have the program says itself, when it refuses a key.
+#[test]
+fn the_guides_have_the_keys_that_the_program_reads() {
+    const NONE: &str = "no-such-key = 1";
+    let rows: [(&str, &str, &[&str]); 6] = [
+        ("run", "guides/load-paths.md", &["", "[material]", "[[point]]", "[[step]]", "[plot]"]),
+        ("fit", "guides/identification.md", &["", "[yarn]", "[fibre]", "[[data]]"]),
+        ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
+        ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
+        ("weave", "guides/fabric.md", &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]"]),
+        ("fabric", "guides/fabric.md", &["", "[scene]", "[[case]]"]),
+    ];
+    let mut keys = 0;
+    for (command, page, tables) in rows {
+        let known = code_words(page);
+        let output = folder(&format!("keys-of-{command}"));
+        for table in tables {
+            let file = output.join("file.toml");
+            std::fs::write(&file, format!("units = \"mm-g-ms\"\n{table}\n{NONE}\n")).expect("a file");
+            let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+            let answer = program.arg(command).arg(&file).arg("-o").arg(&output).output().expect("it starts");
+            let said = String::from_utf8(answer.stderr).expect("UTF-8");
+            let (_, allowed) = said.split_once(", expected ").unwrap_or_else(|| panic!("{command} {table}: {said}"));
+            for key in allowed.split('`').skip(1).step_by(2) {
+                keys += 1;
+                assert!(known.contains(key), "docs/{page} lacks {key} of {table} of toron {command}");
+            }
+        }
+    }
+    assert!(keys > 150, "{keys} keys");
+}
+
+/// The cell of a table in a page, by the heading over the table, the row's first cell and the column's heading.
+fn cell(page: &str, heading: &str, row: &str, column: &str) -> String {
+    let text = read(page);
+    let (_, section) = text.split_once(&format!("\n{heading}\n")).unwrap_or_else(|| panic!("{page}: no {heading}"));
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
+    let mut lines = section.lines().skip_while(|line| !line.starts_with('|'));
+    let place = cells(lines.next().expect("a table")).iter().position(|title| title == column);
+    let row = lines.take_while(|line| line.starts_with('|')).map(cells).find(|cells| cells[0] == row);
+    let (place, row) = (place.unwrap_or_else(|| panic!("no {column}")), row.unwrap_or_else(|| panic!("no {row}")));
+    row[place].clone()
+}
+
+/// The README's figures of the panel are of one panel, and those of the results, to its digits.
+#[test]
+fn the_readme_s_figures_of_the_panel_are_those_of_the_results() {
+    const PAGE: &str = "results/fabric.md";
+    let words: Vec<String> = read("../README.md").split_whitespace().map(String::from).collect();
+    let words = words.join(" ");
+    let after = |text: &str| {
+        let (_, rest) = words.split_once(text).unwrap_or_else(|| panic!("README.md lacks \"{text}\""));
+        rest.split([' ', ',', ')']).next().expect("a word").to_string()
+    };
+    let same = |shown: String, measured: String| {
+        let digits = shown.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let measured = measured.split(' ').next().expect("a figure").parse::<f64>().expect("a number");
+        assert_eq!(shown, format!("{measured:.digits$}"));
+    };
+    let panel = "R = 19.05 mm";
+    assert!(words.contains(&format!("On the fine mesh with {panel} it gives way by")));
+    let slow = |column| cell(PAGE, "## 63 m/s, nothing fails", "largest deflection, mm", column);
+    same(after("it gives way by "), slow(panel));
+    same(after("mm at 63 m/s (thesis: "), slow("thesis"));
+    assert_eq!(slow("thesis").split_once("(experiment ").expect("both").1, format!("{})", after("6.8, experiment: ")));
+    // All runs of the second table are of that panel.
+    assert!(read(PAGE).contains(&format!("## 142 m/s\n\n{panel}, clearance 1 µm, to 60 µs")));
+    let fast = |row| cell(PAGE, "## 142 m/s", row, "speed at 60 µs, m/s");
+    same(after("at 142 m/s with uniaxial failure "), fast("uniaxial, fine"));
+    same(after("left to the sphere (thesis: "), fast("thesis, uniaxial"));
+    assert_eq!(
+        fast("thesis, uniaxial").split_once("(experiment ").expect("both").1,
+        format!("{})", after("120, experiment: "))
+    );
+}
+
+/// What a page tells to write and to type: its files, by the name in the line before, and its commands with what they print.
+enum Told {
+    File { name: String, text: String },
+    Command { words: Vec<String>, output: Option<String> },
+}
+
+fn told(page: &str) -> Vec<Told> {
+    let text = read(page);
+    let mut told = Vec::new();
+    let mut named = None;
+    let mut rest = text.as_str();
+    while let Some((before, after)) = rest.split_once("\n```") {
+        let (code, after) = after.split_once("\n```").expect("the block is closed");
+        let (language, code) = code.split_once('\n').expect("a line of code");
+        named = before.lines().rev().flat_map(|line| line.rsplit('`')).find(|word| word.ends_with(".toml")).or(named);
+        match language {
+            "toml" => told.push(Told::File { name: named.expect("a name").into(), text: format!("{code}\n") }),
+            "sh" => told.extend(
+                code.lines()
+                    .filter_map(|line| line.strip_prefix("toron "))
+                    .map(|line| Told::Command { words: line.split(' ').map(String::from).collect(), output: None }),
+            ),
+            _ => match told.last_mut() {
+                Some(Told::Command { output, .. }) => *output = Some(format!("{code}\n")),
+                _ => panic!("{code} is nobody's output"),
+            },
+        }
+        rest = after;
+    }
+    told
+}
+
+/// Does what the tutorial tells; the strike takes a minute and is only begun, unless the whole is asked for.
+fn follow_the_tutorial(name: &str, whole: bool) {
+    let place = folder(name);
+    let mut commands = 0;
+    for step in told("tutorial.md") {
+        match step {
+            Told::File { name, text } => {
+                let text =
+                    if whole { text } else { text.replace("end = 0.2\n", "end = 0.001\n").replace("[0.1]", "[0.001]") };
+                std::fs::write(place.join(name), text).expect("a file");
+            }
+            Told::Command { words, output } => {
+                let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+                let answer = run(program.args(&words).current_dir(&place), "");
+                let printed = String::from_utf8(answer.stdout).expect("UTF-8");
+                let Some(output) = output else { continue };
+                commands += 1;
+                if words[0] != "fabric" {
+                    assert_eq!(printed, output, "toron {}", words.join(" "));
+                } else if whole {
+                    // The last two columns are the time that it took.
+                    let cells = |text: &str| {
+                        let row = text.lines().find(|line| line.starts_with("scene ")).expect("a case").to_string();
+                        let mut cells: Vec<String> = row.split_whitespace().map(String::from).collect();
+                        cells.truncate(cells.len() - 2);
+                        cells
+                    };
+                    assert_eq!(cells(&printed), cells(&output));
+                } else {
+                    assert_eq!(printed.lines().next(), output.lines().next());
+                    assert!(place.join("strike/scene-panel-1.png").exists());
+                }
+            }
+        }
+    }
+    assert_eq!(commands, 3);
+}
+
+#[test]
+fn the_tutorial_does_what_it_says() {
+    follow_the_tutorial("tutorial", false);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn the_tutorial_strikes_as_it_says() {
+    follow_the_tutorial("tutorial-whole", true);
 }
