@@ -49,6 +49,8 @@ struct Implementation {
     family: Family,
     /// How it was compiled, where that differs from the benchmark itself.
     flags: String,
+    /// Whether it evaluates the scene's points one by one, not its arrays.
+    by_point: bool,
     kernel: Prepare,
 }
 
@@ -83,6 +85,7 @@ fn implementations(has_fortran: bool) -> Vec<Implementation> {
                 name: routine.name.clone(),
                 family: if routine.name.contains("spatial") { Family::Spatial } else { Family::Literal },
                 flags: routine.flags.clone(),
+                by_point: routine.by_point(),
                 kernel: Box::new(move |properties| {
                     let (routine, properties) = (routine.clone(), properties.to_vec());
                     Kernel::Double(Box::new(move |scene| routine.run(&properties, scene)))
@@ -108,7 +111,7 @@ where
         let properties = Properties::new(properties);
         Kernel::Double(Box::new(move |scene| each_point(scene, |f, state| law(&properties, f, state))))
     };
-    Implementation { name: name.to_string(), family, flags: String::new(), kernel: Box::new(kernel) }
+    Implementation { name: name.to_string(), family, flags: String::new(), by_point: true, kernel: Box::new(kernel) }
 }
 
 /// A way into the library.
@@ -127,6 +130,7 @@ fn library<T: Precision + Scalar + Send + Sync>(
         name: format!("{}{precision} {}", if entry == Entry::Copy { "" } else { "toron " }, entry.name()),
         family: if entry == Entry::Copy { Family::Copy } else { family },
         flags: String::new(),
+        by_point: entry == Entry::Point,
         kernel: Box::new(kernel),
     }
 }
@@ -213,8 +217,8 @@ fn accuracy(implementation: &Implementation, cases: &[Case]) -> Accuracy {
     let mut accuracy = Accuracy::default();
     for case in cases {
         let stress = match (implementation.kernel)(&case.properties()) {
-            Kernel::Double(run) => stress(case, run),
-            Kernel::Single(run) => stress(case, run),
+            Kernel::Double(run) => stress(case, implementation.by_point, run),
+            Kernel::Single(run) => stress(case, implementation.by_point, run),
         };
         let [error, relative] = case.stress_errors(&stress);
         accuracy.add(&case.category, error, relative);
@@ -223,8 +227,9 @@ fn accuracy(implementation: &Implementation, cases: &[Case]) -> Accuracy {
 }
 
 /// The stress that a law gives for a case of the truth.
-fn stress<T: Precision>(case: &Case, run: impl Fn(&mut Scene<T>)) -> [f64; 6] {
+fn stress<T: Precision>(case: &Case, by_point: bool, run: impl Fn(&mut Scene<T>)) -> [f64; 6] {
     let mut scene = Scene::new(COPIES, std::iter::repeat(case.deformation_gradient()));
     run(&mut scene);
-    std::array::from_fn(|c| scene.stress[c * scene.leading_dimension].into())
+    let of_block = || std::array::from_fn(|c| scene.stress[c * scene.leading_dimension]);
+    (if by_point { scene.points[0].stress } else { of_block() }).map(Into::into)
 }

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use libloading::Library;
-use toron_program::bench::entries::{Answer, each_point};
 use toron_program::bench::scene::Scene;
+use toron_program::entries::hosts::OnePoint;
 
 const SOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/baselines");
 const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
@@ -149,18 +149,21 @@ fn run(command: &mut Command) -> Result<String, String> {
 }
 
 impl Fortran {
+    /// Whether it evaluates the scene's points one by one, not its arrays.
+    pub fn by_point(&self) -> bool {
+        matches!(self.routine, Loaded::Point(_))
+    }
+
     /// Evaluates a scene.
     pub fn run(&self, properties: &[f64], scene: &mut Scene<f64>) {
         match self.routine {
-            Loaded::Point(routine) => each_point(scene, |f, old| {
-                let (mut stress, mut state, mut status): Answer<f64> = ([0.0; 6], *old, 0);
-                // SAFETY: eleven properties, nine numbers of F by columns, eleven state variables.
-                unsafe {
-                    let f = f.as_slice().as_ptr();
-                    routine(properties.as_ptr(), f, stress.as_mut_ptr(), state.as_mut_ptr(), &mut status);
+            Loaded::Point(routine) => {
+                for OnePoint { deformation_gradient, stress, state, status } in &mut scene.points {
+                    let (properties, f) = (properties.as_ptr(), deformation_gradient.as_ptr());
+                    // SAFETY: eleven properties, nine numbers of F by columns, six of the stress, eleven state variables.
+                    unsafe { routine(properties, f, stress.as_mut_ptr(), state.as_mut_ptr(), status) };
                 }
-                (stress, state, status)
-            }),
+            }
             Loaded::Block(routine) => {
                 let size = |n: usize| c_int::try_from(n).expect("a number of points");
                 // SAFETY: the scene's arrays have the columns that the routine declares.

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use nalgebra::Scalar;
 use serde::Serialize;
 
+use super::choices::{self, Choice};
 use super::entries::Entry;
 use super::hosts::{Host, HostArrays, call};
 use super::scene::Scene;
@@ -17,7 +18,7 @@ use crate::common::error::Error;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
 use toron::law::block::Precision;
-use toron::law::parameters::{self, HYPERELASTIC_PROPERTIES};
+use toron::law::parameters;
 
 /// The sizes of a block: one point, a few, a solver's vectors, a batch that stays in the cache, one that does not.
 pub const SIZES: [usize; 6] = [1, 8, 64, 192, 4096, 1_000_000];
@@ -31,7 +32,7 @@ pub const PRESET: &str = "kevlar-km2-600";
 const ROUNDS: usize = 40;
 /// The same for more points than [`LARGEST_HOST`].
 const ROUNDS_OF_MANY: usize = 7;
-/// A timing repeats the call until it has lasted this long.
+/// A timing repeats the call so often that it lasts about this long.
 const BATCH: Duration = Duration::from_millis(1);
 
 /// A line of the report.
@@ -51,6 +52,7 @@ struct Report {
     preset: &'static str,
     sizes: [usize; 6],
     rows: Vec<Row>,
+    choices: Vec<Choice>,
 }
 
 /// Measures the library on this machine, prints a table, and writes `bench.json` to `output` if there is one.
@@ -60,8 +62,14 @@ struct Report {
 pub fn run(output: Option<&Path>) -> Result<(), Error> {
     let mut rows = measured::<f64>("f64", &[&Host::BOTH[..], &Host::DOUBLE].concat())?;
     rows.extend(measured::<f32>("f32", &Host::BOTH)?);
-    let report =
-        Report { version: env!("CARGO_PKG_VERSION"), processor: processor(), preset: PRESET, sizes: SIZES, rows };
+    let report = Report {
+        version: env!("CARGO_PKG_VERSION"),
+        processor: processor(),
+        preset: PRESET,
+        sizes: SIZES,
+        rows,
+        choices: choices::measured()?,
+    };
     print(&table(&report));
     let Some(folder) = output else { return Ok(()) };
     let file = folder.join("bench.json");
@@ -81,8 +89,7 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
     let values: Vec<T> = properties().iter().map(|&value| T::splat(value)).collect();
     let law_error = |error: toron::Error| Error::Evaluation(error.to_string());
     let law = Hyperelastic::new(&values).map_err(law_error)?;
-    let values: [T; HYPERELASTIC_PROPERTIES] =
-        values.try_into().map_err(|_| Error::Evaluation("the preset has other properties".to_string()))?;
+    let values = choices::all_properties(values)?;
     let entries = Entry::all();
     let mut times = vec![Vec::new(); hosts.len() + entries.len()];
     for n in SIZES {
@@ -91,24 +98,24 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
             true => Some(HostArrays::new(&values, &scene).map_err(Error::Evaluation)?),
             false => None,
         };
-        let mut best = vec![None; times.len()];
+        let mut best = vec![Best::default(); times.len()];
         for _ in 0..if n <= LARGEST_HOST { ROUNDS } else { ROUNDS_OF_MANY } {
             let (of_hosts, of_entries) = best.split_at_mut(hosts.len());
             if let Some(arrays) = &mut arrays {
                 for (&host, best) in hosts.iter().zip(of_hosts) {
-                    faster(best, &mut scene, |scene| {
-                        call(host, black_box(&values), scene, arrays);
+                    best.time(|| {
+                        call(host, black_box(&mut scene), arrays);
                         Ok(())
                     })
                     .map_err(law_error)?;
                 }
             }
             for (&entry, best) in entries.iter().zip(of_entries) {
-                faster(best, &mut scene, |scene| entry.run(black_box(&law), scene)).map_err(law_error)?;
+                best.time(|| entry.run(black_box(&law), &mut scene)).map_err(law_error)?;
             }
         }
         for (times, best) in times.iter_mut().zip(best) {
-            times.push(best);
+            times.push(best.seconds.map(|seconds| seconds * 1e9 / n as f64));
         }
     }
     let copies = times.last().cloned().unwrap_or_default();
@@ -121,26 +128,44 @@ fn measured<T: Precision + BlockPrecision + Scalar>(precision: &str, hosts: &[Ho
     Ok(names.zip(times).map(row).collect())
 }
 
-/// Nanoseconds a point of one more round, where they are fewer than those of the rounds before.
-fn faster<T: Precision>(
-    best: &mut Option<f64>,
-    scene: &mut Scene<T>,
-    mut run: impl FnMut(&mut Scene<T>) -> Result<(), toron::Error>,
-) -> Result<(), toron::Error> {
-    // One call first, so that the caches hold this row's data and not the last one's.
-    run(scene)?;
-    let start = Instant::now();
-    let mut calls = 0;
-    while start.elapsed() < BATCH {
-        // So many at a time that the clock does not count.
-        for _ in 0..256_usize.div_ceil(scene.n) {
-            run(black_box(scene))?;
-            calls += 1;
+/// The fastest of some timings of a call.
+#[derive(Clone, Default)]
+pub struct Best {
+    /// How often a timing repeats the call; 0 before the first one.
+    calls: usize,
+    /// Of one call.
+    pub seconds: Option<f64>,
+}
+
+impl Best {
+    /// One more timing, after a call that is not timed, so that the caches hold this call's data and not another's.
+    fn time(&mut self, mut run: impl FnMut() -> Result<(), toron::Error>) -> Result<(), toron::Error> {
+        run()?;
+        if self.calls == 0 {
+            self.calls = calls_that_last(BATCH, &mut run)?;
         }
+        let seconds = timed(self.calls, &mut run)?;
+        self.seconds = Some(self.seconds.map_or(seconds, |best| best.min(seconds)));
+        Ok(())
     }
-    let time = start.elapsed().as_secs_f64() * 1e9 / (calls * scene.n) as f64;
-    *best = Some(best.map_or(time, |best| best.min(time)));
-    Ok(())
+}
+
+/// Seconds of one call, of so many.
+pub fn timed<E>(calls: usize, run: &mut impl FnMut() -> Result<(), E>) -> Result<f64, E> {
+    let start = Instant::now();
+    for _ in 0..calls {
+        run()?;
+    }
+    Ok(start.elapsed().as_secs_f64() / calls as f64)
+}
+
+/// How many calls last about so long, at least one.
+pub fn calls_that_last<E>(duration: Duration, run: &mut impl FnMut() -> Result<(), E>) -> Result<usize, E> {
+    let mut calls = 1;
+    while timed(calls, run)? * (calls as f64) < duration.as_secs_f64() {
+        calls *= 2;
+    }
+    Ok(calls)
 }
 
 /// The processor's name, where the system tells it.
@@ -166,19 +191,7 @@ fn table(report: &Report) -> String {
             let _ = write!(text, "{cell:>15}");
         }
     }
-    let row = |host: Host| report.rows.iter().find(|row| row.name == format!("f64 {}", host.name()));
-    let ratios = [
-        ("DDSDDE or not, ratio", Host::Umat { tangent: true }, Host::Umat { tangent: false }),
-        ("C block / C point, ratio", Host::Block, Host::Point { tangent: false }),
-        ("OpenRadioss / C blocks, ratio", Host::OpenRadioss, Host::BlockOfGroup),
-    ];
-    for (name, above, below) in ratios {
-        let Some((above, below)) = row(above).zip(row(below)) else { continue };
-        let _ = write!(text, "\n\n{name:<30}");
-        for (above, below) in above.nanoseconds.iter().zip(&below.nanoseconds) {
-            let cell = above.zip(*below).map_or("–".to_string(), |(above, below)| format!("{:.2}", above / below));
-            let _ = write!(text, "{cell:>15}");
-        }
-    }
-    text + "\n"
+    text.push_str("\n\n");
+    choices::table(&report.choices, &mut text);
+    text
 }

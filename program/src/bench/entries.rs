@@ -9,7 +9,7 @@ use super::scene::Scene;
 use toron::Level;
 use toron::Real;
 use toron::law::block::Precision;
-use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use toron::law::state::HYPERELASTIC_STATE;
 use toron::{Hyperelastic, Request};
 
 /// A way to evaluate a scene, or what to compare it with.
@@ -67,34 +67,20 @@ impl Entry {
     }
 }
 
-/// What the law answers for a point: stress, state and status.
+/// What a law answers for a point: stress, state and status.
 pub type Answer<T> = ([T; 6], [T; HYPERELASTIC_STATE], i32);
 
-/// Point by point, as a solver calls a scalar law: from the deformation gradient and the old state to the answer.
+/// Point by point, as a solver calls a scalar law: from the deformation gradient and the old state to the answer. Inlined, so that the
+/// law is too: a call of a closure, and copies of what it takes and gives, would cost as much as half of a law.
+#[inline(always)]
 pub fn each_point<T: Real + Scalar>(
     scene: &mut Scene<T>,
     mut law: impl FnMut(&Matrix3<T>, &[T; HYPERELASTIC_STATE]) -> Answer<T>,
 ) {
-    let stride = scene.leading_dimension;
-    for i in 0..scene.n {
-        let f = Matrix3::from_fn(|row, column| scene.deformation_gradient[(3 * column + row) * stride + i]);
-        let state: [T; HYPERELASTIC_STATE] = std::array::from_fn(|c| match c {
-            ENERGIES..INVARIANTS => scene.energies[(c - ENERGIES) * stride + i],
-            INVARIANTS..FAILURE_INDEX => scene.invariants[(c - INVARIANTS) * stride + i],
-            _ => scene.failure[(c - FAILURE_INDEX) * stride + i],
-        });
-        let (stress, state, status) = law(&f, &state);
-        for (c, value) in stress.into_iter().enumerate() {
-            scene.stress[c * stride + i] = value;
-        }
-        for (c, value) in state.into_iter().enumerate() {
-            match c {
-                ENERGIES..INVARIANTS => scene.energies[(c - ENERGIES) * stride + i] = value,
-                INVARIANTS..FAILURE_INDEX => scene.invariants[(c - INVARIANTS) * stride + i] = value,
-                _ => scene.failure[(c - FAILURE_INDEX) * stride + i] = value,
-            }
-        }
-        scene.status[i] = status;
+    for point in &mut scene.points {
+        let [f11, f21, f31, f12, f22, f32, f13, f23, f33] = point.deformation_gradient;
+        let f = Matrix3::new(f11, f12, f13, f21, f22, f23, f31, f32, f33);
+        (point.stress, point.state, point.status) = law(&f, &point.state);
     }
 }
 

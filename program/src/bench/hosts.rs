@@ -1,33 +1,26 @@
-//! What is measured of the hosts: their C entries, called on arrays as they keep them.
+//! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else. What such a call
+//! takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
 
 use std::hint::black_box;
 
-use nalgebra::{Matrix3, Scalar};
-
-use super::entries::each_point;
-use super::scene::Scene;
+use super::scene::{Aligned, Scene};
 use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
 use crate::entries::hosts::{
     CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat,
-    VumatArrays,
+    VumatArrays, Wanted,
 };
 use crate::entries::precision::BlockPrecision;
 use toron::host::c::HyperelasticLaw;
-use toron::host::mgis::INTEGRATED;
 use toron::law::block::Precision;
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
-use toron::law::status;
 
-/// A C entry as its host calls it. Those for one point are called point by point on the scene's arrays; but for `Point` they
-/// prepare the law at every call. The others have arrays of their own, laid out as the host keeps them, with the scene's
-/// deformations.
+/// A C entry as its host calls it. Those for one point are called for one point after the other; but for `Point` they prepare the law
+/// at every call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Host {
-    /// `toron_hyperelastic_point`, with a law that has been prepared, with dS/dE or with none.
-    Point {
-        tangent: bool,
-    },
+    /// `toron_hyperelastic_point`, with a law that has been prepared.
+    Point(Wanted),
     /// `toron_hyperelastic_point_with_properties`.
     PointWithProperties,
     /// `toron_hyperelastic_block`.
@@ -52,9 +45,10 @@ pub enum Host {
 
 impl Host {
     /// Those in either precision.
-    pub const BOTH: [Host; 9] = [
-        Host::Point { tangent: false },
-        Host::Point { tangent: true },
+    pub const BOTH: [Host; 10] = [
+        Host::Point(Wanted::State),
+        Host::Point(Wanted::Stress),
+        Host::Point(Wanted::Tangent),
         Host::PointWithProperties,
         Host::Block,
         Host::Vumat,
@@ -74,8 +68,9 @@ impl Host {
 
     pub fn name(self) -> &'static str {
         match self {
-            Host::Point { tangent: false } => "C point",
-            Host::Point { tangent: true } => "C point with dS/dE",
+            Host::Point(Wanted::State) => "C point",
+            Host::Point(Wanted::Stress) => "C point, stress only",
+            Host::Point(Wanted::Tangent) => "C point with dS/dE",
             Host::PointWithProperties => "C point with properties",
             Host::Block => "C block",
             Host::Umat { tangent: false } => "UMAT",
@@ -92,14 +87,25 @@ impl Host {
     }
 }
 
-/// The arrays of the hosts that keep points in arrays.
+/// The arrays of the hosts, each with the scene's deformations, as it keeps them.
 pub struct HostArrays<T> {
+    properties: [T; HYPERELASTIC_PROPERTIES],
     law: HyperelasticLaw<T>,
-    state: Vec<T>,
+    state: Aligned<T>,
     vumat: VumatArrays<T>,
-    lsdyna: LsdynaVector<T>,
+    lsdyna: Vec<LsdynaElement<T>>,
+    lsdyna_vector: LsdynaVector<T>,
     groups: Vec<OpenradiossGroup<T>>,
-    wave_speed: Vec<T>,
+    wave_speed: Aligned<T>,
+    double: DoubleArrays,
+}
+
+/// Those of the hosts in double precision alone.
+struct DoubleArrays {
+    properties: [f64; HYPERELASTIC_PROPERTIES],
+    umat: Vec<([f64; 9], Umat)>,
+    calculix: Vec<CalculixPoint>,
+    mgis: Vec<MgisPoint>,
 }
 
 /// The elements of a full group of OpenRadioss.
@@ -114,138 +120,142 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
     pub fn new(properties: &[T; HYPERELASTIC_PROPERTIES], scene: &Scene<T>) -> Result<Self, String> {
         let law = prepared(properties)?;
         let (n, stride) = (scene.n, scene.leading_dimension);
-        let (mut vumat, mut lsdyna) = (VumatArrays::new(n), LsdynaVector::new(n));
+        let (mut vumat, mut lsdyna_vector) = (VumatArrays::new(n), LsdynaVector::new(n));
         let half = T::splat(0.5);
         let mut groups = (0..n)
             .step_by(GROUP)
             .map(|first| OpenradiossGroup::new(GROUP.min(n - first), properties, false))
             .collect::<Result<Vec<_>, i32>>()
             .map_err(|status| format!("OpenRadioss: status {status}"))?;
-        for i in 0..n {
-            let f = |row: usize, column: usize| scene.deformation_gradient[(3 * column + row) * stride + i];
+        for (i, point) in scene.points.iter().enumerate() {
+            let f = |row: usize, column: usize| point.deformation_gradient[3 * column + row];
             for (c, (row, column)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
                 vumat.stretch[c * n + i] = half * (f(row, column) + f(column, row));
             }
-            for c in 0..9 {
-                lsdyna.history[(HYPERELASTIC_STATE + c) * n + i] = f(c % 3, c / 3);
-                groups[i / GROUP].gradient[c * OpenradiossGroup::<T>::LENGTH + i % GROUP] = f(c % 3, c / 3);
+            for (c, &value) in point.deformation_gradient.iter().enumerate() {
+                lsdyna_vector.history[(HYPERELASTIC_STATE + c) * n + i] = value;
+                groups[i / GROUP].gradient[c * OpenradiossGroup::<T>::LENGTH + i % GROUP] = value;
             }
         }
-        let zeros = |components: usize| vec![T::splat(0.0); components * stride];
-        let (state, wave_speed) = (zeros(HYPERELASTIC_STATE), zeros(1));
-        Ok(HostArrays { law, state, vumat, lsdyna, groups, wave_speed })
+        let zeros = |components: usize| Aligned::new(T::splat(0.0), components * stride);
+        let doubles = || scene.points.iter().map(|point| point.deformation_gradient.map(Into::into));
+        let mut double = DoubleArrays {
+            properties: properties.map(Into::into),
+            umat: doubles().map(|f| (f, Umat::FRESH)).collect(),
+            calculix: doubles().map(CalculixPoint::new).collect(),
+            mgis: doubles().map(|f| MgisPoint::new(&f)).collect(),
+        };
+        double.step();
+        Ok(HostArrays {
+            properties: *properties,
+            law,
+            state: zeros(HYPERELASTIC_STATE),
+            vumat,
+            lsdyna: scene.points.iter().map(|point| LsdynaElement::new(point.deformation_gradient)).collect(),
+            lsdyna_vector,
+            groups,
+            wave_speed: zeros(1),
+            double,
+        })
     }
 }
 
 /// Calls a host's entry for all points.
-pub fn call<T: Precision + BlockPrecision + Scalar>(
-    host: Host,
-    properties: &[T; HYPERELASTIC_PROPERTIES],
-    scene: &mut Scene<T>,
-    arrays: &mut HostArrays<T>,
-) {
-    let columns = |f: &Matrix3<T>| -> [T; 9] { std::array::from_fn(|c| f[c]) };
-    let law = &arrays.law;
+pub fn call<T: Precision + BlockPrecision>(host: Host, scene: &mut Scene<T>, arrays: &mut HostArrays<T>) {
+    let (law, properties) = (Given::Prepared(&arrays.law), &arrays.properties);
+    let mut tangent = [[T::splat(0.0); 6]; 6];
     match host {
-        Host::Point { .. } | Host::PointWithProperties => {
-            let tangent = host == Host::Point { tangent: true };
-            let prepared = host != Host::PointWithProperties;
-            let law = if prepared { Given::Prepared(law) } else { Given::Properties(properties) };
-            let mut point = OnePoint::default();
-            each_point(scene, |f, state| {
-                point.state = *state;
-                let status = point.call(law, &columns(f), tangent);
-                black_box(&point.tangent);
-                (point.stress, point.state, status)
-            });
+        Host::Point(wanted) => OnePoint::call_each(&mut scene.points, law, wanted, &mut tangent),
+        Host::PointWithProperties => {
+            OnePoint::call_each(&mut scene.points, Given::Properties(properties), Wanted::State, &mut tangent);
         }
-        Host::Block => {
-            let block = SolverBlock {
-                n: scene.n,
-                leading_dimension: scene.leading_dimension,
-                deformation_gradient: &scene.deformation_gradient,
-                state: &mut arrays.state,
-                energies: true,
-                failure: true,
-                stress: &mut scene.stress,
-                wave_speed: None,
-                status: &mut scene.status,
-            };
-            hyperelastic_block(law, block);
-        }
+        Host::Block => drop(hyperelastic_block(law, whole(scene, &mut arrays.state))),
         Host::Vumat => {
             arrays.vumat.call(properties);
             let VumatArrays { state_old, state_new, .. } = &mut arrays.vumat;
             std::mem::swap(state_old, state_new); // as Abaqus does from step to step
         }
         Host::Lsdyna => {
-            let zero = T::splat(0.0);
-            let mut element = LsdynaElement { stress: [zero; 6], history: [zero; HYPERELASTIC_STATE + 9] };
-            each_point(scene, |f, state| {
-                let (old, gradient) = element.history.split_at_mut(HYPERELASTIC_STATE);
-                old.copy_from_slice(state);
-                gradient.copy_from_slice(&columns(f));
-                let status = element.call(properties);
-                (element.stress, std::array::from_fn(|c| element.history[c]), status)
-            });
+            for (element, point) in arrays.lsdyna.iter_mut().zip(&mut scene.points) {
+                point.status = element.call(properties);
+            }
         }
-        Host::LsdynaVector => drop(arrays.lsdyna.call(properties)),
+        Host::LsdynaVector => drop(arrays.lsdyna_vector.call(properties)),
         Host::BlockOfGroup => blocks_of_groups(scene, arrays),
         Host::OpenRadioss => {
             for group in &mut arrays.groups {
                 group.call();
             }
         }
-        Host::Umat { .. } | Host::Calculix | Host::Mgis { .. } => double(host, &properties.map(Into::into), scene),
+        Host::Umat { tangent } => arrays.double.umat(tangent),
+        Host::Calculix => arrays.double.calculix(),
+        Host::Mgis { tangent } => arrays.double.mgis(tangent),
+    }
+}
+
+/// The scene as a block with stress, state and status.
+pub fn whole<'a, T: Precision>(scene: &'a mut Scene<T>, state: &'a mut [T]) -> SolverBlock<'a, T> {
+    SolverBlock {
+        n: scene.n,
+        leading_dimension: scene.leading_dimension,
+        deformation_gradient: &scene.deformation_gradient,
+        state,
+        state_old: None,
+        energies: true,
+        failure: true,
+        stress: &mut scene.stress,
+        wave_speed: None,
+        tangent: None,
+        status: &mut scene.status,
     }
 }
 
 /// The C entry for parts of the scene that are as long as a group of OpenRadioss, with what that asks for.
-fn blocks_of_groups<T: Precision + BlockPrecision + Scalar>(scene: &mut Scene<T>, arrays: &mut HostArrays<T>) {
+fn blocks_of_groups<T: Precision + BlockPrecision>(scene: &mut Scene<T>, arrays: &mut HostArrays<T>) {
     for first in (0..scene.n).step_by(GROUP) {
         let block = SolverBlock {
             n: GROUP.min(scene.n - first),
             leading_dimension: scene.leading_dimension,
             deformation_gradient: &scene.deformation_gradient[first..],
             state: &mut arrays.state[first..],
+            state_old: None,
             energies: true,
             failure: true,
             stress: &mut scene.stress[first..],
             wave_speed: Some((T::splat(1.0), &mut arrays.wave_speed[first..])),
+            tangent: None,
             status: &mut scene.status[first..],
         };
-        hyperelastic_block(&arrays.law, block);
+        hyperelastic_block(Given::Prepared(&arrays.law), block);
     }
 }
 
-/// The hosts in double precision alone.
-fn double<T: Precision + Scalar>(host: Host, properties: &[f64; HYPERELASTIC_PROPERTIES], scene: &mut Scene<T>) {
-    let (mut umat, mut calculix, mut mgis) = (Umat::FRESH, CalculixPoint::default(), MgisPoint::FRESH);
-    each_point(scene, |f, state| {
-        let (columns, state): ([f64; 9], _) = (std::array::from_fn(|c| f[c].into()), state.map(Into::into));
-        let (stress, state, status) = match host {
-            Host::Umat { tangent } => {
-                umat.statev = state;
-                let status = umat.call(properties, &columns, tangent);
-                black_box(&umat.ddsdde);
-                (umat.stress, umat.statev, status)
-            }
-            Host::Mgis { tangent } => {
-                let [f11, f21, f31, f12, f22, f32, f13, f23, f33] = columns;
-                mgis.gradients = [f11, f22, f33, f12, f21, f13, f31, f23, f32];
-                mgis.state_old = state;
-                let result =
-                    mgis.call(properties, if tangent { MgisTangent::CauchyByGradient } else { MgisTangent::None });
-                black_box(&mgis.k);
-                (mgis.stress, mgis.state, result - INTEGRATED)
-            }
-            _ => {
-                calculix.state_old = state;
-                calculix.call(properties, &columns);
-                black_box(&calculix.stiffness);
-                (calculix.stress, calculix.state, status::OK)
-            }
-        };
-        (stress.map(T::splat), state.map(T::splat), status)
-    });
+impl DoubleArrays {
+    /// The state of later steps, where points have failed, for the hosts that keep the old one apart.
+    fn step(&mut self) {
+        self.calculix();
+        self.mgis(false);
+        self.calculix.iter_mut().for_each(|point| point.state_old = point.state);
+        self.mgis.iter_mut().for_each(|point| point.state_old = point.state);
+    }
+
+    fn umat(&mut self, tangent: bool) {
+        let mut ddsdde = [[0.0; 6]; 6];
+        for (f, point) in &mut self.umat {
+            point.call(&self.properties, f, tangent.then_some(&mut ddsdde));
+        }
+        black_box(&ddsdde);
+    }
+
+    fn calculix(&mut self) {
+        for point in &mut self.calculix {
+            point.call(&self.properties);
+        }
+    }
+
+    fn mgis(&mut self, tangent: bool) {
+        for point in &mut self.mgis {
+            point.call(&self.properties, if tangent { MgisTangent::CauchyByGradient } else { MgisTangent::None });
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! `toron bench`: what the law costs by point, on its own and through the hosts' entries.
 
+pub mod choices;
 pub mod command;
 pub mod entries;
 pub mod hosts;

@@ -5,6 +5,7 @@ use std::ops::{Deref, DerefMut};
 use fastrand::Rng;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::entries::hosts::OnePoint;
 use toron::Level;
 use toron::Measure;
 use toron::Real;
@@ -24,7 +25,7 @@ pub struct Aligned<T> {
 }
 
 impl<T: Copy> Aligned<T> {
-    fn new(value: T, length: usize) -> Self {
+    pub fn new(value: T, length: usize) -> Self {
         let values = vec![value; length + LINE];
         let start = values.as_ptr().align_offset(LINE * size_of::<f32>()).min(LINE);
         Aligned { values, start, length }
@@ -33,18 +34,21 @@ impl<T: Copy> Aligned<T> {
 
 impl<T> Deref for Aligned<T> {
     type Target = [T];
+    #[inline]
     fn deref(&self) -> &[T] {
         &self.values[self.start..self.start + self.length]
     }
 }
 
 impl<T> DerefMut for Aligned<T> {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [T] {
         &mut self.values[self.start..self.start + self.length]
     }
 }
 
-/// Points in component-major arrays, laid out as [`block`](toron::law::block) says; the fibre is the first axis.
+/// Points twice: in component-major arrays, laid out as [`block`](toron::law::block) says, and one after the other, for what is called
+/// point by point. The fibre is the first axis.
 #[derive(Debug)]
 pub struct Scene<T> {
     pub n: usize,
@@ -55,6 +59,7 @@ pub struct Scene<T> {
     pub invariants: Aligned<T>,
     pub failure: Aligned<T>,
     pub status: Aligned<i32>,
+    pub points: Vec<OnePoint<T>>,
 }
 
 impl<T: Precision> Scene<T> {
@@ -62,9 +67,20 @@ impl<T: Precision> Scene<T> {
     pub fn new(n: usize, deformation_gradients: impl Iterator<Item = Matrix3<f64>>) -> Self {
         let full = n.next_multiple_of(LINE);
         let leading_dimension = if full.is_multiple_of(PAGE) { full + LINE } else { full };
+        Scene::with_leading_dimension(n, leading_dimension, deformation_gradients)
+    }
+
+    /// The same with a leading dimension of one's own, at least `n`.
+    pub fn with_leading_dimension(
+        n: usize,
+        leading_dimension: usize,
+        deformation_gradients: impl Iterator<Item = Matrix3<f64>>,
+    ) -> Self {
         let array = |components: usize| Aligned::new(T::splat(0.0), components * leading_dimension);
         let mut deformation_gradient = array(9);
+        let mut points = Vec::with_capacity(n);
         for (i, f) in deformation_gradients.take(n).enumerate() {
+            points.push(OnePoint::new(std::array::from_fn(|c| T::splat(f[c]))));
             for (c, &value) in f.iter().enumerate() {
                 deformation_gradient[c * leading_dimension + i] = T::splat(value);
             }
@@ -78,13 +94,13 @@ impl<T: Precision> Scene<T> {
             invariants: array(4),
             failure: array(3),
             status: Aligned::new(0, leading_dimension),
+            points,
         }
     }
 
     /// `n` random states of a yarn under impact, always the same ones.
     pub fn impact(n: usize) -> Self {
-        let mut random = Rng::with_seed(1);
-        Scene::new(n, std::iter::from_fn(|| Some(impact(&mut random))))
+        Scene::new(n, impacts())
     }
 
     /// All that a solver wants.
@@ -143,6 +159,12 @@ fn stress_arrays<'a, T: Real>(
         active: None,
         level: Some(level),
     }
+}
+
+/// The deformation gradients of [`Scene::impact`].
+pub fn impacts() -> impl Iterator<Item = Matrix3<f64>> {
+    let mut random = Rng::with_seed(1);
+    std::iter::from_fn(move || Some(impact(&mut random)))
 }
 
 /// A deformation gradient as a point of a yarn sees it: ahead of the waves, in tension behind the longitudinal one,

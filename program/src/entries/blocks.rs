@@ -2,8 +2,9 @@
 
 use std::ffi::c_char;
 use std::mem::MaybeUninit;
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
+use super::hosts::Given;
 use super::precision::{BlockPrecision, PrepareEntry};
 use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw};
 use toron::law::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
@@ -51,6 +52,8 @@ pub struct SolverBlock<'a, T> {
     pub deformation_gradient: &'a [T],
     /// In and out, 11: the state variables; only the groups that are wanted are read and written.
     pub state: &'a mut [T],
+    /// In, 11: the old state, where it is kept apart from the new one.
+    pub state_old: Option<&'a [T]>,
     /// Whether energies and invariants are wanted, and whether points may fail.
     pub energies: bool,
     pub failure: bool,
@@ -58,44 +61,60 @@ pub struct SolverBlock<'a, T> {
     pub stress: &'a mut [T],
     /// The reference density, and out, 1: a bound of the wave speed.
     pub wave_speed: Option<(T, &'a mut [T])>,
+    /// Out, 36: dS/dE.
+    pub tangent: Option<&'a mut [T]>,
     /// Out: a status code for each point.
     pub status: &'a mut [i32],
 }
 
-/// The hyperelastic law at a block of points through `toron_hyperelastic_block_f64` or `_f32`, as an explicit solver calls
-/// it; returns the entry's code.
+/// The hyperelastic law at a block of points through `toron_hyperelastic_block_f64` or `_f32`, or their namesakes with properties, as
+/// an explicit solver calls it; returns the entry's code.
 ///
 /// # Panics
 /// An array is shorter than its components need.
-pub fn hyperelastic_block<T: BlockPrecision>(law: &HyperelasticLaw<T>, block: SolverBlock<'_, T>) -> i32 {
-    let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, .. } = block;
+pub fn hyperelastic_block<T: BlockPrecision>(law: Given<'_, T>, block: SolverBlock<'_, T>) -> i32 {
+    let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, tangent, .. } = block;
     let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
     let (density, wave_speed) = block.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
     assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), HYPERELASTIC_STATE));
     assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
+    assert!(tangent.as_ref().is_none_or(|to| holds(to.len(), 36)));
+    assert!(block.state_old.is_none_or(|old| holds(old.len(), HYPERELASTIC_STATE)));
     let state = state.as_mut_ptr();
+    let old = block.state_old.map_or(state.cast_const(), <[T]>::as_ptr);
     // SAFETY: the array holds all rows, as has just been seen.
     let part = |wanted: bool, row: usize| if wanted { unsafe { state.add(row * stride) } } else { null_mut() };
+    // SAFETY: as above.
+    let old = |wanted: bool, row: usize| if wanted { unsafe { old.add(row * stride) } } else { null() };
     let (energies, invariants) = (part(block.energies, ENERGIES), part(block.energies, INVARIANTS));
     let failure = part(block.failure, FAILURE_INDEX);
     let mut arrays = Block {
         n,
         leading_dimension: stride,
-        energies_old: energies,
-        invariants_old: invariants,
-        failure_old: failure,
+        measure: c::TORON_TANGENT_MATERIAL,
+        energies_old: old(block.energies, ENERGIES),
+        invariants_old: old(block.energies, INVARIANTS),
+        failure_old: old(block.failure, FAILURE_INDEX),
         density: density.into(),
         energies,
         invariants,
         failure,
         wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
+        tangent: tangent.map_or(null_mut(), <[T]>::as_mut_ptr),
         status: status.as_mut_ptr(),
         ..Block::empty()
     };
     arrays.deformation_gradient[0] = deformation_gradient.as_ptr();
     arrays.stress[0] = stress.as_mut_ptr();
-    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly.
-    unsafe { T::BLOCK(law, &arrays, null_mut(), 0) }
+    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is elsewhere.
+    unsafe {
+        match law {
+            Given::Properties(values) => {
+                T::BLOCK_WITH_PROPERTIES(values.as_ptr(), values.len(), &arrays, null_mut(), 0)
+            }
+            Given::Prepared(law) => T::BLOCK(law, &arrays, null_mut(), 0),
+        }
+    }
 }
 
 /// The arrays of an explicit solver for the linear elastic law, as those of [`SolverBlock`].

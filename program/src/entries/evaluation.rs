@@ -5,7 +5,9 @@ use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
-use super::hosts::{CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, call_point};
+use super::hosts::{
+    CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, Wanted, call_point,
+};
 use super::precision::BlockPrecision;
 use toron::host::c::{self, Block, Point};
 use toron::host::openradioss::card;
@@ -56,14 +58,14 @@ pub fn prepared_point<T: BlockPrecision>(
 }
 
 fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: bool) -> Answer {
-    let mut single = OnePoint::default();
-    let status = single.call(law, f, false);
+    let mut single = OnePoint::new(*f);
+    OnePoint::call_each(std::slice::from_mut(&mut single), law, Wanted::State, &mut Default::default());
     let mut modes = [[T::default(); 6]; 4];
     let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
     // SAFETY: the arrays have the sizes that the entry asks for.
     unsafe { call_point(law, &Point { modes: modes.as_mut_ptr().cast(), ..point }) };
     let mut answer = Answer {
-        status,
+        status: single.status,
         stress: single.stress.map(Into::into),
         state: single.state.map(Into::into),
         modes: Some(modes.map(|mode| mode.map(Into::into))),
@@ -153,9 +155,9 @@ pub fn block<T: BlockPrecision>(
 }
 
 pub fn umat(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> Answer {
-    let mut point = Umat::FRESH;
-    let status = point.call(properties, f, tangent);
-    let Umat { stress: [s11, s22, s33, s12, s13, s23], statev, ddsdde, .. } = point;
+    let (mut point, mut ddsdde) = (Umat::FRESH, [[0.0; 6]; 6]);
+    let status = point.call(properties, f, tangent.then_some(&mut ddsdde));
+    let Umat { stress: [s11, s22, s33, s12, s13, s23], statev, .. } = point;
     let order = [0, 1, 2, 3, 5, 4];
     Answer {
         status,
@@ -172,9 +174,7 @@ pub fn mgis(
     f: &[f64; 9],
     tangent: bool,
 ) -> (Answer, Option<[[f64; 6]; 6]>) {
-    let &[f11, f21, f31, f12, f22, f32, f13, f23, f33] = f;
-    let gradients = [f11, f22, f33, f12, f21, f13, f31, f23, f32];
-    let mut host = MgisPoint { gradients, ..MgisPoint::FRESH };
+    let mut host = MgisPoint::new(f);
     let request = if tangent { MgisTangent::Material } else { MgisTangent::None };
     if host.call(properties, request) != mgis::INTEGRATED {
         // MGIS gets a text and no code: it is the point entry's.
@@ -203,9 +203,9 @@ pub fn mgis(
 pub fn calculix(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) -> (Answer, [[f64; 6]; 6]) {
     // CalculiX gets a smaller increment and no code: it is the point entry's. For wrong properties the entry would end the process.
     let status = point(properties, f, true).status;
-    let mut host = CalculixPoint::default();
+    let mut host = CalculixPoint::new(*f);
     if status == status::OK || status <= status::INVERTED {
-        host.call(properties, f);
+        host.call(properties);
     }
     let entry = |i: usize, j: usize| host.stiffness[if i <= j { i + j * (j + 1) / 2 } else { j + i * (i + 1) / 2 }];
     let material = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));

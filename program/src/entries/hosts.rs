@@ -6,6 +6,7 @@ use std::ptr::{null, null_mut};
 use nalgebra::Matrix3;
 
 use super::precision::BlockPrecision;
+use toron::Real;
 use toron::host::c::{self, HyperelasticLaw, Point};
 use toron::host::calculix::Behaviour;
 use toron::host::mgis::{self, BehaviourDataView, StateView};
@@ -21,28 +22,50 @@ pub enum Given<'a, T> {
     Prepared(&'a HyperelasticLaw<T>),
 }
 
-/// One point through the C entry: stress and state, the old one on entry; with `tangent` dS/dE.
-#[derive(Clone, Copy, Debug, Default)]
+/// What a solver keeps of a point of its own between calls: F by columns, stress and state.
+#[derive(Clone, Copy, Debug)]
 pub struct OnePoint<T> {
+    pub deformation_gradient: [T; 9],
     pub stress: [T; 6],
     pub state: [T; HYPERELASTIC_STATE],
-    pub tangent: [[T; 6]; 6],
+    pub status: i32,
+}
+
+/// What is asked of the C entry for one point: the stress alone, with the state, with the state and dS/dE.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    Stress,
+    State,
+    Tangent,
+}
+
+impl<T: Real> OnePoint<T> {
+    /// A point at the start of an analysis.
+    pub fn new(deformation_gradient: [T; 9]) -> Self {
+        let zero = T::splat(0.0);
+        OnePoint { deformation_gradient, stress: [zero; 6], state: [zero; HYPERELASTIC_STATE], status: 0 }
+    }
 }
 
 impl<T: BlockPrecision> OnePoint<T> {
-    /// Calls the entry; returns its status.
-    pub fn call(&mut self, law: Given<'_, T>, f: &[T; 9], tangent: bool) -> i32 {
-        let point = Point {
-            measure: c::TORON_TANGENT_MATERIAL,
-            deformation_gradient: f.as_ptr(),
-            state_old: self.state.as_ptr(),
-            state_new: self.state.as_mut_ptr(),
-            stress: self.stress.as_mut_ptr(),
-            tangent: if tangent { self.tangent.as_mut_ptr().cast() } else { null_mut() },
-            ..Point::empty()
-        };
-        // SAFETY: the arrays have the sizes that the entry asks for; the new state replaces the old one.
-        unsafe { call_point(law, &point) }
+    /// Calls the entry for each of the points; a tangent goes to `tangent`, and the next one there too. The structure is filled as in
+    /// a solver's loop: what does not change, once.
+    #[inline]
+    pub fn call_each(points: &mut [Self], law: Given<'_, T>, wanted: Wanted, tangent: &mut [[T; 6]; 6]) {
+        let mut call = Point { measure: c::TORON_TANGENT_MATERIAL, ..Point::empty() };
+        if wanted == Wanted::Tangent {
+            call.tangent = tangent.as_mut_ptr().cast();
+        }
+        for point in points {
+            call.deformation_gradient = point.deformation_gradient.as_ptr();
+            call.stress = point.stress.as_mut_ptr();
+            if wanted != Wanted::Stress {
+                call.state_new = point.state.as_mut_ptr();
+                call.state_old = call.state_new;
+            }
+            // SAFETY: the arrays have the sizes that the entry asks for; the new state replaces the old one.
+            point.status = unsafe { call_point(law, &call) };
+        }
     }
 }
 
@@ -50,6 +73,7 @@ impl<T: BlockPrecision> OnePoint<T> {
 ///
 /// # Safety
 /// The arrays of the point have the sizes that the entry asks for.
+#[inline]
 pub unsafe fn call_point<T: BlockPrecision>(law: Given<'_, T>, point: &Point<T>) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
@@ -68,7 +92,15 @@ pub struct LsdynaElement<T> {
 }
 
 impl<T: BlockPrecision> LsdynaElement<T> {
+    /// An element at the start of an analysis.
+    pub fn new(f: [T; 9]) -> Self {
+        let mut history = [T::default(); HYPERELASTIC_STATE + 9];
+        history[HYPERELASTIC_STATE..].copy_from_slice(&f);
+        LsdynaElement { stress: [T::default(); 6], history }
+    }
+
     /// Calls the entry; returns its status.
+    #[inline]
     pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
         let (count, mut failed) = (HYPERELASTIC_STATE as i32, 0);
         // SAFETY: the arrays have the sizes that the entry asks for.
@@ -166,9 +198,12 @@ impl<T: BlockPrecision> VumatArrays<T> {
     }
 }
 
-/// One integration point as CalculiX hands it over: the old and the new state, second Piola–Kirchhoff stress and dS/dE.
+/// One integration point as CalculiX hands it over: F and E, the old and the new state, second Piola–Kirchhoff stress and dS/dE.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CalculixPoint {
+    pub deformation_gradient: [f64; 9],
+    /// E, 11 22 33 12 13 23.
+    pub strain: [f64; 6],
     pub state_old: [f64; HYPERELASTIC_STATE],
     pub state: [f64; HYPERELASTIC_STATE],
     /// 11 22 33 12 13 23.
@@ -179,11 +214,17 @@ pub struct CalculixPoint {
 }
 
 impl CalculixPoint {
-    /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
-    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9]) {
-        let f = Matrix3::from_column_slice(f);
+    /// A point at the start of an analysis.
+    pub fn new(deformation_gradient: [f64; 9]) -> Self {
+        let f = Matrix3::from_column_slice(&deformation_gradient);
         let strain = 0.5 * (f.tr_mul(&f) - Matrix3::identity());
         let strain = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|component| strain[component]);
+        CalculixPoint { deformation_gradient, strain, ..CalculixPoint::default() }
+    }
+
+    /// Calls the entry. It ends the process where the properties are wrong, as CalculiX wants.
+    #[inline]
+    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES]) {
         let (name, kode, zeros) = ([b' ' as c_char; 80], -100 - HYPERELASTIC_PROPERTIES as i32, [0.0; 9]);
         let (one, none, state_count) = (1, 0, HYPERELASTIC_STATE as i32);
         let call = Behaviour {
@@ -192,9 +233,9 @@ impl CalculixPoint {
             iint: &one,
             kode: &kode,
             elconloc: properties.as_ptr(),
-            emec: strain.as_ptr(),
+            emec: self.strain.as_ptr(),
             beta: zeros.as_ptr(),
-            xkl: f.as_ptr(),
+            xkl: self.deformation_gradient.as_ptr(),
             mi: &one,
             nstate_: &state_count,
             xstateini: self.state_old.as_ptr(),
@@ -216,24 +257,28 @@ impl CalculixPoint {
 pub struct Umat {
     pub stress: [f64; 6],
     pub statev: [f64; HYPERELASTIC_STATE],
-    pub ddsdde: [[f64; 6]; 6],
     pub sse: f64,
     pub pnewdt: f64,
 }
 
 impl Umat {
     /// A point at the start of an analysis.
-    pub const FRESH: Umat =
-        Umat { stress: [0.0; 6], statev: [0.0; HYPERELASTIC_STATE], ddsdde: [[0.0; 6]; 6], sse: 0.0, pnewdt: 1.0 };
+    pub const FRESH: Umat = Umat { stress: [0.0; 6], statev: [0.0; HYPERELASTIC_STATE], sse: 0.0, pnewdt: 1.0 };
 
-    /// Calls the UMAT, without `tangent` with a null DDSDDE; returns its status.
-    pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent: bool) -> i32 {
+    /// Calls the UMAT, without a place for DDSDDE with a null one; returns its status.
+    #[inline]
+    pub fn call(
+        &mut self,
+        properties: &[f64; HYPERELASTIC_PROPERTIES],
+        f: &[f64; 9],
+        ddsdde: Option<&mut [[f64; 6]; 6]>,
+    ) -> i32 {
         // SAFETY: the arrays have the sizes that the entry asks for.
         unsafe {
             abaqus::umat_tangent_f64(
                 self.stress.as_mut_ptr(),
                 self.statev.as_mut_ptr(),
-                if tangent { self.ddsdde.as_mut_ptr().cast() } else { null_mut() },
+                ddsdde.map_or(null_mut(), |rows| rows.as_mut_ptr().cast()),
                 &mut self.sse,
                 &mut self.pnewdt,
                 f.as_ptr(),
@@ -285,7 +330,13 @@ impl MgisPoint {
         k: [0.0; 54],
     };
 
+    /// A point at the start of an analysis, but for its F, given by columns.
+    pub fn new(&[f11, f21, f31, f12, f22, f32, f13, f23, f33]: &[f64; 9]) -> Self {
+        MgisPoint { gradients: [f11, f22, f33, f12, f21, f13, f31, f23, f32], ..MgisPoint::FRESH }
+    }
+
     /// Calls the behaviour; returns what it returns: 1, or −1 if the point is not integrated.
+    #[inline]
     pub fn call(&mut self, properties: &[f64; HYPERELASTIC_PROPERTIES], tangent: MgisTangent) -> i32 {
         /// Neither the old stress nor the external state variables are read, nor the first gradients for these tangents.
         const AT_REST: &[f64; 9] = &MgisPoint::FRESH.gradients;

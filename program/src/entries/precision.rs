@@ -30,6 +30,7 @@ pub trait BlockPrecision: Precision + Default + FromF64 + Send + Sync + 'static 
     const PREPARE: PrepareEntry<HyperelasticLaw<Self>, Self>;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<Self>, Self>;
     const BLOCK: PreparedEntry<HyperelasticLaw<Self>, Block<Self>>;
+    const BLOCK_WITH_PROPERTIES: PropertiesEntry<Self, Block<Self>>;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<Self>, LinearBlock<Self>>;
     const POINT: PreparedEntry<HyperelasticLaw<Self>, Point<Self>>;
     const POINT_WITH_PROPERTIES: PropertiesEntry<Self, Point<Self>>;
@@ -67,6 +68,7 @@ impl BlockPrecision for f64 {
     const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = c::hyperelastic_prepare_f64;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f64>, f64> = c::linear_elastic_prepare_f64;
     const BLOCK: PreparedEntry<HyperelasticLaw<f64>, Block<f64>> = c::hyperelastic_block_f64;
+    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f64, Block<f64>> = c::hyperelastic_block_with_properties_f64;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> = c::linear_elastic_block_f64;
     const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = c::hyperelastic_point_f64;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> = c::hyperelastic_point_with_properties_f64;
@@ -80,6 +82,7 @@ impl BlockPrecision for f32 {
     const PREPARE: PrepareEntry<HyperelasticLaw<f32>, f32> = c::hyperelastic_prepare_f32;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<f32>, f32> = c::linear_elastic_prepare_f32;
     const BLOCK: PreparedEntry<HyperelasticLaw<f32>, Block<f32>> = c::hyperelastic_block_f32;
+    const BLOCK_WITH_PROPERTIES: PropertiesEntry<f32, Block<f32>> = c::hyperelastic_block_with_properties_f32;
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> = c::linear_elastic_block_f32;
     const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = c::hyperelastic_point_f32;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> = c::hyperelastic_point_with_properties_f32;

@@ -12,6 +12,7 @@ use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::Section;
 use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
+use crate::entries::hosts::Given;
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
@@ -237,13 +238,15 @@ impl<T: Number> ElementBlock<T> {
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
             state: &mut self.state,
+            state_old: None,
             energies: options.law_outputs,
             failure: medium.fails,
             stress: &mut scratch.stress,
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
+            tangent: None,
             status: &mut scratch.status,
         };
-        hyperelastic_block(law, arrays)
+        hyperelastic_block(Given::Prepared(law), arrays)
     }
 
     fn call_linear_elastic(

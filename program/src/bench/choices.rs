@@ -1,0 +1,238 @@
+//! What an entry, an output, a layout or a block's size costs beside another: ratios of calls in turn, since single times of different
+//! moments are not to be divided by one another where a processor's clock changes.
+
+use std::convert::Infallible;
+use std::fmt::Write;
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::command::{calls_that_last, properties, timed};
+use super::hosts::{Host, HostArrays, call, whole};
+use super::scene::{Aligned, Scene, impacts};
+use crate::common::error::Error;
+use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
+use crate::entries::hosts::{Given, Wanted};
+use toron::Hyperelastic;
+use toron::law::block::Arrays;
+use toron::law::parameters::HYPERELASTIC_PROPERTIES;
+use toron::law::state::HYPERELASTIC_STATE;
+
+/// A ratio is the median over so many pairs of timings; of calls of a millisecond, over fewer.
+const PAIRS: usize = 301;
+const PAIRS_OF_LONG: usize = 51;
+/// A timing repeats the call so often that it lasts about this long.
+const BATCH: Duration = Duration::from_micros(50);
+/// The points of one pass where they are called one by one.
+const POINTS: usize = 256;
+/// A block where the outputs are compared.
+const BLOCK: usize = 1024;
+
+/// A line of the report.
+#[derive(Serialize)]
+pub struct Choice {
+    name: String,
+    /// Points of a call above and below; those of all calls of a pass where a call has one.
+    points: [usize; 2],
+    /// How many times the second the first takes: the median over pairs of timings.
+    ratio: f64,
+    /// The least times: a point, or, where the numbers of points differ, a call.
+    nanoseconds: [f64; 2],
+}
+
+/// What is timed, with arrays of its own.
+type Run = Box<dyn FnMut() -> Result<(), Infallible>>;
+
+/// All properties of the law that is measured.
+///
+/// # Errors
+/// The law has another number of them.
+pub fn all_properties<T>(values: Vec<T>) -> Result<[T; HYPERELASTIC_PROPERTIES], Error> {
+    values.try_into().map_err(|_| Error::Evaluation("the preset has other properties".to_string()))
+}
+
+/// Every ratio, in double precision.
+///
+/// # Errors
+/// The law cannot be prepared.
+pub fn measured() -> Result<Vec<Choice>, Error> {
+    let mut choices = Vec::new();
+    let mut add = |name: &str, n: [usize; 2], runs: [Result<Run, Error>; 2]| {
+        let [above, below] = runs;
+        choices.push(in_turn(name, n, above?, below?));
+        Ok(())
+    };
+    let point = Host::Point(Wanted::State);
+    for (above, below) in [
+        (Host::Point(Wanted::Stress), point),
+        (Host::Point(Wanted::Tangent), point),
+        (Host::PointWithProperties, point),
+        (Host::Umat { tangent: false }, point),
+        (Host::Umat { tangent: true }, Host::Umat { tangent: false }),
+        (Host::Lsdyna, point),
+        (Host::Mgis { tangent: false }, Host::Umat { tangent: false }),
+        (Host::Mgis { tangent: true }, Host::Mgis { tangent: false }),
+    ] {
+        let name = format!("{} / {}", above.name(), below.name());
+        add(&name, [POINTS; 2], [above, below].map(|host| of_host(host, POINTS)))?;
+    }
+
+    let state = Outputs { energies: true, invariants: true, failure: true, ..Outputs::default() };
+    for (name, outputs) in [
+        ("stress only", Outputs::default()),
+        ("energies alone", Outputs { energies: true, ..Outputs::default() }),
+        ("with wave speed", Outputs { wave_speed: true, ..state }),
+        ("with modes", Outputs { modes: true, ..state }),
+    ] {
+        let name = format!("block, {name} / with whole state");
+        add(&name, [BLOCK; 2], [outputs, state].map(|outputs| of_outputs(outputs, BLOCK)))?;
+    }
+    let plain = Calls::default();
+    for n in [4096, 100_000] {
+        let apart = Calls { old_state_apart: true, ..plain };
+        add("block, old state apart / in place", [n; 2], [apart, plain].map(|calls| of_block(calls, n)))?;
+    }
+    // A multiple of a page: all columns fall into the same set of the cache.
+    let page = Calls { leading_dimension: Some(4096), ..plain };
+    let line_more = Calls { leading_dimension: Some(4104), ..plain };
+    let name = "block, leading dimension 4096 / 4104";
+    add(name, [4096; 2], [page, line_more].map(|calls| of_block(calls, 4096)))?;
+    for n in [1, 16, 64] {
+        let by_properties = Calls { by_properties: true, ..plain };
+        add("block, with properties / prepared", [n; 2], [by_properties, plain].map(|calls| of_block(calls, n)))?;
+    }
+
+    for n in [1, 2, 3, 4, 8] {
+        add("block / C points", [n; 2], [of_block(plain, n), of_host(point, n)])?;
+    }
+    let tangent = Calls { tangent: true, ..plain };
+    let runs = [of_block(tangent, 1), of_host(Host::Point(Wanted::Tangent), 1)];
+    add("block with dS/dE / C point with dS/dE", [1; 2], runs)?;
+    for (n, full) in [(1, 4), (2, 4), (3, 4), (5, 8), (9, 16), (63, 64), (127, 128)] {
+        add(&format!("block of {n} / of {full}"), [n, full], [n, full].map(|n| of_block(plain, n)))?;
+    }
+    Ok(choices)
+}
+
+/// Both in turn: a clock that wanders slows both of a pair alike. A call that is not timed, before each timing, leaves the caches as the
+/// call itself leaves them.
+fn in_turn(name: &str, points: [usize; 2], mut above: Run, mut below: Run) -> Choice {
+    let Ok(calls) = calls_that_last(BATCH, &mut above).and_then(|a| Ok([a, calls_that_last(BATCH, &mut below)?]));
+    let seconds = |run: &mut Run, calls: usize| {
+        let Ok(seconds) = timed(1, run).and_then(|_| timed(calls, run));
+        seconds
+    };
+    let pairs = if calls[0] > 1 { PAIRS } else { PAIRS_OF_LONG };
+    let times: Vec<[f64; 2]> =
+        (0..pairs).map(|_| [seconds(&mut above, calls[0]), seconds(&mut below, calls[1])]).collect();
+    let mut ratios: Vec<f64> = times.iter().map(|[above, below]| above / below).collect();
+    ratios.sort_by(f64::total_cmp);
+    let least = |side: usize| times.iter().map(|pair| pair[side]).fold(f64::INFINITY, f64::min);
+    let divided_by = if points[0] == points[1] { points[0] as f64 } else { 1.0 };
+    Choice {
+        name: name.to_string(),
+        points,
+        ratio: ratios[pairs / 2],
+        nanoseconds: [0, 1].map(|side| 1e9 * least(side) / divided_by),
+    }
+}
+
+fn of_host(host: Host, n: usize) -> Result<Run, Error> {
+    let mut scene = Scene::<f64>::impact(n);
+    let mut arrays = HostArrays::new(&all_properties(properties().to_vec())?, &scene).map_err(Error::Evaluation)?;
+    Ok(Box::new(move || {
+        call(host, &mut scene, &mut arrays);
+        Ok(())
+    }))
+}
+
+/// What is asked of a block beside stress and status.
+#[derive(Clone, Copy, Default)]
+struct Outputs {
+    energies: bool,
+    invariants: bool,
+    failure: bool,
+    modes: bool,
+    wave_speed: bool,
+}
+
+/// A block of the law's own interface with some of its outputs.
+fn of_outputs(outputs: Outputs, n: usize) -> Result<Run, Error> {
+    let law_error = |error: toron::Error| Error::Evaluation(error.to_string());
+    let law = Hyperelastic::new(properties()).map_err(law_error)?;
+    let mut scene = Scene::<f64>::impact(n);
+    let array = |components: usize| Aligned::new(0.0, components * scene.leading_dimension);
+    let (mut modes, mut wave_speed) = (array(24), array(1));
+    let mut run = move || {
+        let Scene { n, leading_dimension, .. } = scene;
+        let arrays = Arrays {
+            n,
+            leading_dimension,
+            deformation_gradient: &scene.deformation_gradient,
+            density: 1.0,
+            stress: Some(&mut scene.stress),
+            energies: outputs.energies.then_some(&mut scene.energies),
+            invariants: outputs.invariants.then_some(&mut scene.invariants),
+            failure: outputs.failure.then_some(&mut scene.failure),
+            modes: outputs.modes.then_some(&mut modes),
+            wave_speed: outputs.wave_speed.then_some(&mut wave_speed),
+            status: Some(&mut scene.status),
+            ..Arrays::default()
+        };
+        law.block(arrays).map(drop)
+    };
+    run().map_err(law_error)?;
+    // The same call does not fail later.
+    Ok(Box::new(move || {
+        let _ = run();
+        Ok(())
+    }))
+}
+
+/// How the C entry for blocks is called.
+#[derive(Clone, Copy, Default)]
+struct Calls {
+    /// Another one than the scene's.
+    leading_dimension: Option<usize>,
+    old_state_apart: bool,
+    by_properties: bool,
+    tangent: bool,
+}
+
+fn of_block(calls: Calls, n: usize) -> Result<Run, Error> {
+    let properties = all_properties(properties().to_vec())?;
+    let law = prepared(&properties).map_err(Error::Evaluation)?;
+    let mut scene = match calls.leading_dimension {
+        Some(leading_dimension) => Scene::with_leading_dimension(n, leading_dimension, impacts()),
+        None => Scene::<f64>::impact(n),
+    };
+    let array = |wanted: bool, components: usize| {
+        Aligned::new(0.0, if wanted { components * scene.leading_dimension } else { 0 })
+    };
+    let mut state = array(true, HYPERELASTIC_STATE);
+    let (old, mut tangent) = (array(calls.old_state_apart, HYPERELASTIC_STATE), array(calls.tangent, 36));
+    Ok(Box::new(move || {
+        let block = SolverBlock {
+            state_old: calls.old_state_apart.then_some(&*old),
+            tangent: calls.tangent.then_some(&mut *tangent),
+            ..whole(&mut scene, &mut state)
+        };
+        let law = if calls.by_properties { Given::Properties(&properties) } else { Given::Prepared(&law) };
+        hyperelastic_block(law, block);
+        Ok(())
+    }))
+}
+
+/// The ratios as a table.
+pub fn table(choices: &[Choice], text: &mut String) {
+    // Writing to a string does not fail.
+    let _ = writeln!(
+        text,
+        "choices: ratios of calls in turn; nanoseconds a point, or a call where the numbers of points differ\n\n{:<44}{:>10}{:>8}{:>12}{:>12}",
+        "", "points", "ratio", "ns above", "ns below"
+    );
+    for Choice { name, points: [above, below], ratio, nanoseconds: [first, second] } in choices {
+        let points = if above == below { above.to_string() } else { format!("{above}, {below}") };
+        let _ = writeln!(text, "{name:<44}{points:>10}{ratio:>8.2}{first:>12.2}{second:>12.2}");
+    }
+}
