@@ -1,6 +1,5 @@
 //! The yarn's section in CalculiX and in the explicit host, on coarse meshes: against the thesis's parameters, against Hertz, against its own balance of
-//! energy. Those that are too long for every run are ignored; `cargo test -p toron-program cell -- --ignored --nocapture` runs
-//! them, before a release.
+//! energy. Those that are too long for every run are ignored; `.ci/long cell` runs them, before a release.
 //!
 //! Where the bands come from:
 //!

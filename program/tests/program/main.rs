@@ -24,6 +24,7 @@ mod hexahedra;
 mod identify;
 mod impact;
 mod load_paths;
+mod long;
 mod newton;
 mod one_element;
 mod parallel;
