@@ -9,8 +9,9 @@ use serde::Serialize;
 
 use super::command::{calls_that_last, properties, timed};
 use super::hosts::{Host, HostArrays, call, whole};
-use super::scene::{Aligned, Scene, impacts};
+use super::scene::{Scene, impacts};
 use crate::common::error::Error;
+use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
 use crate::entries::hosts::{Given, Wanted};
 use toron::Hyperelastic;

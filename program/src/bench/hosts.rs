@@ -1,9 +1,8 @@
 //! What is measured of the hosts: their C entries, called on arrays as they keep them, in loops that do nothing else. What such a call
 //! takes in a C program is measured by `ffi-tests/speed`; `.ci/long bench` compares the two.
 
-use std::hint::black_box;
-
-use super::scene::{Aligned, Scene};
+use super::scene::Scene;
+use crate::entries::aligned::Aligned;
 use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
 use crate::entries::hosts::{
     CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat,
@@ -91,6 +90,7 @@ impl Host {
 pub struct HostArrays<T> {
     properties: [T; HYPERELASTIC_PROPERTIES],
     law: HyperelasticLaw<T>,
+    tangent: [[T; 6]; 6],
     state: Aligned<T>,
     vumat: VumatArrays<T>,
     lsdyna: Vec<LsdynaElement<T>>,
@@ -103,6 +103,7 @@ pub struct HostArrays<T> {
 /// Those of the hosts in double precision alone.
 struct DoubleArrays {
     properties: [f64; HYPERELASTIC_PROPERTIES],
+    ddsdde: [[f64; 6]; 6],
     umat: Vec<([f64; 9], Umat)>,
     calculix: Vec<CalculixPoint>,
     mgis: Vec<MgisPoint>,
@@ -141,6 +142,7 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
         let doubles = || scene.points.iter().map(|point| point.deformation_gradient.map(Into::into));
         let mut double = DoubleArrays {
             properties: properties.map(Into::into),
+            ddsdde: [[0.0; 6]; 6],
             umat: doubles().map(|f| (f, Umat::FRESH)).collect(),
             calculix: doubles().map(CalculixPoint::new).collect(),
             mgis: doubles().map(|f| MgisPoint::new(&f)).collect(),
@@ -149,6 +151,7 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
         Ok(HostArrays {
             properties: *properties,
             law,
+            tangent: [[T::splat(0.0); 6]; 6],
             state: zeros(HYPERELASTIC_STATE),
             vumat,
             lsdyna: scene.points.iter().map(|point| LsdynaElement::new(point.deformation_gradient)).collect(),
@@ -163,11 +166,11 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
 /// Calls a host's entry for all points.
 pub fn call<T: Precision + BlockPrecision>(host: Host, scene: &mut Scene<T>, arrays: &mut HostArrays<T>) {
     let (law, properties) = (Given::Prepared(&arrays.law), &arrays.properties);
-    let mut tangent = [[T::splat(0.0); 6]; 6];
+    let tangent = &mut arrays.tangent;
     match host {
-        Host::Point(wanted) => OnePoint::call_each(&mut scene.points, law, wanted, &mut tangent),
+        Host::Point(wanted) => OnePoint::call_each(&mut scene.points, law, wanted, tangent),
         Host::PointWithProperties => {
-            OnePoint::call_each(&mut scene.points, Given::Properties(properties), Wanted::State, &mut tangent);
+            OnePoint::call_each(&mut scene.points, Given::Properties(properties), Wanted::State, tangent);
         }
         Host::Block => drop(hyperelastic_block(law, whole(scene, &mut arrays.state))),
         Host::Vumat => {
@@ -240,11 +243,9 @@ impl DoubleArrays {
     }
 
     fn umat(&mut self, tangent: bool) {
-        let mut ddsdde = [[0.0; 6]; 6];
         for (f, point) in &mut self.umat {
-            point.call(&self.properties, f, tangent.then_some(&mut ddsdde));
+            point.call(&self.properties, f, tangent.then_some(&mut self.ddsdde));
         }
-        black_box(&ddsdde);
     }
 
     fn calculix(&mut self) {

@@ -1,51 +1,17 @@
 //! The points that speed is measured on: random states of a yarn under impact, in a solver's arrays.
 
-use std::ops::{Deref, DerefMut};
-
 use fastrand::Rng;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::entries::aligned::{Aligned, LINE};
 use crate::entries::hosts::OnePoint;
 use toron::Level;
 use toron::Measure;
 use toron::Real;
 use toron::law::block::{Arrays, Precision};
 
-/// Numbers in a cache line, of single precision: arrays and columns start on one.
-const LINE: usize = 16;
 /// A leading dimension that is a multiple of this (4096 bytes) would put all columns in the same lines of the cache.
 const PAGE: usize = 512;
-
-/// An array whose first element stands on a cache line.
-#[derive(Clone, Debug)]
-pub struct Aligned<T> {
-    values: Vec<T>,
-    start: usize,
-    length: usize,
-}
-
-impl<T: Copy> Aligned<T> {
-    pub fn new(value: T, length: usize) -> Self {
-        let values = vec![value; length + LINE];
-        let start = values.as_ptr().align_offset(LINE * size_of::<f32>()).min(LINE);
-        Aligned { values, start, length }
-    }
-}
-
-impl<T> Deref for Aligned<T> {
-    type Target = [T];
-    #[inline]
-    fn deref(&self) -> &[T] {
-        &self.values[self.start..self.start + self.length]
-    }
-}
-
-impl<T> DerefMut for Aligned<T> {
-    #[inline]
-    fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.values[self.start..self.start + self.length]
-    }
-}
 
 /// Points twice: in component-major arrays, laid out as [`block`](toron::law::block) says, and one after the other, for what is called
 /// point by point. The fibre is the first axis.

@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 
 use nalgebra::Matrix3;
 
+use super::aligned::Aligned;
 use super::precision::BlockPrecision;
 use toron::Real;
 use toron::host::c::{self, HyperelasticLaw, Point};
@@ -115,14 +116,14 @@ impl<T: BlockPrecision> LsdynaElement<T> {
 #[derive(Debug)]
 pub struct LsdynaVector<T> {
     pub n: usize,
-    pub stress: Vec<T>,
-    pub history: Vec<T>,
+    pub stress: Aligned<T>,
+    pub history: Aligned<T>,
     pub failed: Vec<c_int>,
 }
 
 impl<T: BlockPrecision> LsdynaVector<T> {
     pub fn new(n: usize) -> Self {
-        let array = |components: usize| vec![T::default(); components * n];
+        let array = |components: usize| Aligned::new(T::default(), components * n);
         LsdynaVector { n, stress: array(6), history: array(HYPERELASTIC_STATE + 9), failed: vec![0; n] }
     }
 
@@ -141,19 +142,19 @@ impl<T: BlockPrecision> LsdynaVector<T> {
 #[derive(Debug)]
 pub struct VumatArrays<T> {
     pub n: usize,
-    pub stretch: Vec<T>,
-    pub state_old: Vec<T>,
-    pub state_new: Vec<T>,
-    pub stress: Vec<T>,
+    pub stretch: Aligned<T>,
+    pub state_old: Aligned<T>,
+    pub state_new: Aligned<T>,
+    pub stress: Aligned<T>,
     /// Zeros and ones for what the law does not look at, or only at the value of.
-    zeros: Vec<T>,
-    ones: Vec<T>,
-    energies: [Vec<T>; 2],
+    zeros: Aligned<T>,
+    ones: Aligned<T>,
+    energies: [Aligned<T>; 2],
 }
 
 impl<T: BlockPrecision> VumatArrays<T> {
     pub fn new(n: usize) -> Self {
-        let array = |components: usize| vec![T::default(); components * n];
+        let array = |components: usize| Aligned::new(T::default(), components * n);
         VumatArrays {
             n,
             stretch: array(6),
@@ -161,7 +162,7 @@ impl<T: BlockPrecision> VumatArrays<T> {
             state_new: array(HYPERELASTIC_STATE),
             stress: array(6),
             zeros: array(6),
-            ones: vec![T::from_f64(1.0); n],
+            ones: Aligned::new(T::from_f64(1.0), n),
             energies: [array(1), array(1)],
         }
     }
@@ -383,12 +384,12 @@ impl MgisPoint {
 #[derive(Debug)]
 pub struct OpenradiossGroup<T> {
     pub n: usize,
-    pub gradient: Vec<T>,
-    pub stress: Vec<T>,
-    pub uvar: Vec<T>,
-    pub off: Vec<T>,
-    sound_speed: Vec<T>,
-    uparam: Vec<T>,
+    pub gradient: Aligned<T>,
+    pub stress: Aligned<T>,
+    pub uvar: Aligned<T>,
+    pub off: Aligned<T>,
+    sound_speed: Aligned<T>,
+    uparam: Aligned<T>,
     density: T,
 }
 
@@ -402,7 +403,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
     /// The properties are wrong: the status code.
     pub fn new(n: usize, properties: &[T; HYPERELASTIC_PROPERTIES], fibre_in_uvar: bool) -> Result<Self, i32> {
         let (array, layout) =
-            (|components: usize, length: usize| vec![T::default(); components * length], &card::HYPERELASTIC);
+            (|components: usize, length: usize| Aligned::new(T::default(), components * length), &card::HYPERELASTIC);
         let mut uparam = array(1, layout.parameters());
         let option = [T::from_f64(if fibre_in_uvar { 2.0 } else { 0.0 })];
         let values = [&properties[..], &option].concat();
@@ -412,7 +413,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             gradient: array(9, Self::LENGTH),
             stress: array(6, Self::LENGTH),
             uvar: array(layout.variables, n),
-            off: vec![T::from_f64(1.0); n],
+            off: Aligned::new(T::from_f64(1.0), n),
             sound_speed: array(1, n),
             uparam,
             density: T::from_f64(1.0),

@@ -1,5 +1,6 @@
 //! The C entries as their hosts call them, behind safe functions. The program's unsafe code is here.
 
+pub mod aligned;
 pub mod blocks;
 pub mod evaluation;
 pub mod hosts;

@@ -1,21 +1,28 @@
-//! What takes too long for every run, or wants a machine without other work: `.ci/long` runs these, in release mode.
+//! What takes too long for every run, or wants a machine without other work: `.ci/long` runs these.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
 
 use serde_json::Value;
 
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 use toron_program::bench::scene::Scene;
 use toron_program::fabric::scene::Scene as Panel;
 
-/// The program as users have it.
+/// The program as users build it: with the tests' dependencies some of its code would be another.
+static PROGRAM: LazyLock<PathBuf> = LazyLock::new(|| {
+    let build = Path::new(BUILD).join("program");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true").env_remove("CARGO_ENCODED_RUSTFLAGS");
+    cargo.args(["build", "--release", "--locked", "--package=toron-program", "--manifest-path"]);
+    run(cargo.arg(Path::new(ROOT).join("Cargo.toml")), "cargo");
+    build.join("release/toron")
+});
+
 fn program() -> Command {
-    if cfg!(debug_assertions) {
-        panic!("figures of speed are those of the release build: run `.ci/long`");
-    }
-    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let mut program = Command::new(&*PROGRAM);
     program.current_dir(ROOT);
     program
 }
