@@ -1,4 +1,4 @@
-//! The struck panel coloured by its energies: from above, from below, and a cut through the blow.
+//! The struck panel, shaded and coloured by its energies: cut through the blow, from below, and the blow itself.
 
 use std::path::Path;
 
@@ -6,18 +6,18 @@ use plotters::prelude::*;
 
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
-use crate::common::units::{time, unit};
+use crate::common::units::{number, time, unit};
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::Scale;
+use crate::picture::colour_scale::{Colours, Scale};
 use crate::picture::page::{self, Area, Drawn};
+use crate::picture::raster::Raster;
 use crate::picture::ruler;
-use crate::picture::style::{GREY, HEADING, INK, TEXT, TITLE, fine, stroke, text};
+use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, text};
 use crate::picture::view::View;
-use crate::weave::cut::{self, Piece};
 use crate::weave::model::Model;
+use crate::weave::projection::{self, Eye};
 use crate::weave::surface::{self, Visible};
-use crate::weave::{above, picture};
 use toron::law::parameters::ENERGY_DENSITY;
 
 const WIDTH: i32 = 1280;
@@ -26,40 +26,48 @@ const LEFT: i32 = 24;
 const BETWEEN: i32 = 20;
 const TITLE_TOP: i32 = 16;
 const TIME_TOP: i32 = 50;
-/// Of a mode: the middle of its scale of colours, how far its name indents that, and its width.
-const SCALE_MIDDLE: i32 = 88;
-const SCALE_INDENT: i32 = 106;
+/// Of a view: the middle of its scale of colours, what is seen, and the view itself; a ruler below it, and air.
+const SCALE_MIDDLE: i32 = 10;
+const NAME_TOP: i32 = 42;
+const VIEW_TOP: i32 = 66;
+const RULER_BELOW: i32 = 20;
+const ROW_BELOW: i32 = 44;
+const FIRST_ROW: i32 = 84;
+/// Of a mode: how far its name indents the scale of colours, and its width.
+const SCALE_INDENT: i32 = 152;
 const SCALE_WIDTH: i32 = 140;
-/// The views from above and from below: names over them, squares, a ruler under them.
-const VIEWS_TOP: i32 = 120;
-const NAME: i32 = 26;
-const LARGEST_VIEW: i32 = 604;
-const RULER_BELOW: i32 = 18;
-/// The cuts: the heading, a scale of colours over each, and air.
-const CUT_HEADING: i32 = 46;
-const CUT_SCALE: i32 = 30;
-const CUT_NAME: i32 = 26;
-const CUT_BELOW: i32 = 14;
-const FOOT: i32 = 36;
-/// The cut shows so many of the sphere's radii to either side, and as much of the sphere's height over its lowest point.
-const CUT_RADII: f64 = 3.0;
-const SPHERE_SHOWN: f64 = 0.45;
-const SPHERE: RGBColor = RGBColor(236, 236, 236);
-/// How much a slope changes the brightness. What is level has the colour of the scale.
-const CONTRAST: f64 = 1.1;
-const DARKEST: f64 = 0.65;
+/// The width of the view from below; those of the blow stand one under another beside it.
+const BELOW_WIDTH: i32 = 640;
+/// How the views are turned about z and raised, in degrees.
+const CUT: [f64; 2] = [16.0, 30.0];
+const BELOW: [f64; 2] = [20.0, -38.0];
+const BLOW: [f64; 2] = [6.0, 14.0];
+/// The blow is shown to so many of the sphere's radii along the cut and behind it, and as much of the sphere's height over its lowest
+/// point.
+const BLOW_RADII: [f64; 2] = [1.4, 0.8];
+const SPHERE_SHOWN: f64 = 0.4;
+/// Nothing is shown that is farther below the sphere's centre than so many of its radii.
+const FLYING: f64 = 1.5;
+const SPHERE: RGBColor = RGBColor(214, 219, 227);
+const SPHERE_CUT: RGBColor = RGBColor(234, 237, 242);
+/// Brightness of what gets no light, and what the light adds.
+const AMBIENT: f64 = 0.48;
+const DIFFUSE: f64 = 0.64;
+/// The scale ends where this part of the elements that carry something lies below.
+const SHOWN: f64 = 0.98;
 /// The views show where a density has this part of its largest, with some air; or the whole panel, where that is not much more.
 const SMALL: f64 = 0.01;
 const AIR: f64 = 1.25;
 const NEARLY_WHOLE: f64 = 0.7;
-const MODES: [&str; 3] = ["Elongation", "Compaction", "Distortion"];
+const LEAST_RADII: f64 = 3.0;
+const MODES: [&str; 3] = ["Elongation W_el", "Compaction W_tc", "Distortion W_td"];
 
 /// What is shown: the modes or, where there is none, the work of the linear law. Of two laws the first view has both.
 fn modes(case: &Case) -> Vec<&'static str> {
     match &case.zones {
         Zones::One(material) if matches!(material.law, Law::LinearElastic { .. }) => vec!["Work"],
         Zones::One(_) => MODES.to_vec(),
-        Zones::Two(..) => vec!["Elongation*", MODES[1], MODES[2]],
+        Zones::Two(..) => vec!["Elongation W_el*", MODES[1], MODES[2]],
     }
 }
 
@@ -89,76 +97,87 @@ struct Drawing<'a> {
     scene: &'a Scene,
     case: &'a Case,
     snapshot: &'a Snapshot,
-    /// As the modes are numbered.
-    modes: Vec<Scale<'a>>,
-    /// Whether the panel is a quarter.
-    quarter: bool,
-    /// Of what the views show, and whether that is the whole panel.
-    bounds: [[f64; 2]; 2],
-    is_whole: bool,
+    /// The first over the whole width, the second below it, the others beside that one.
+    views: Vec<Seen<'a>>,
+}
+
+/// A part of the sphere's surface, cut as the panel is: corners and normal.
+type Face = ([[f64; 3]; 4], [f64; 3]);
+
+/// A part of the panel from some direction.
+struct Seen<'a> {
+    mode: usize,
+    scale: Scale<'a>,
+    name: String,
+    eye: Eye,
     sides: Vec<Visible>,
-    pieces: Vec<Piece>,
-    /// What the cut shows, by x and z.
-    cut: View,
+    images: &'static [[f64; 2]],
+    sphere: Vec<Face>,
+    /// By what the eye has rightwards and upwards.
+    low: [f64; 2],
+    high: [f64; 2],
 }
 
 impl<'a> Drawing<'a> {
     fn new(scene: &'a Scene, case: &'a Case, panel: &Model, snapshot: &'a Snapshot, unit: &'a str) -> Self {
-        let mode = |(mode, name)| Scale {
-            name,
-            indent: SCALE_INDENT,
-            width: SCALE_WIDTH,
-            largest: snapshot.largest(|densities| density(mode, densities)),
-            unit,
-            root: true,
-        };
-        let modes: Vec<Scale> = modes(case).into_iter().enumerate().map(mode).collect();
-        let [low, high] = picture::bounds(panel, f64::INFINITY);
+        let modes = modes(case);
+        let middles: Vec<[f64; 2]> = (0..panel.elements.len()).map(|element| middle(panel, element)).collect();
         let quarter = !panel.on_x.is_empty();
-        let bounds = if quarter { [high.map(|x| -x), high] } else { [low, high] };
-        let (bounds, is_whole) = middle(bounds, reach(panel, case, snapshot, &modes));
-        let intact = |element: usize| snapshot.intact[element];
-        let pieces = cut::pieces(panel, &snapshot.positions);
-        let pieces: Vec<Piece> = pieces.into_iter().filter(|piece| intact(piece.element)).collect();
-        let cut = cut_view(&pieces, [bounds[0][0], bounds[1][0]], case, snapshot);
-        let sides = surface::visible(panel, &snapshot.positions, intact);
-        Drawing { scene, case, snapshot, modes, quarter, bounds, is_whole, sides, pieces, cut }
+        let size = middles.iter().map(farthest).fold(0.0, f64::max);
+        let reach = reach(&middles, size, case, snapshot, modes.len());
+        let blow = BLOW_RADII.map(|radii| radii * case.sphere.radius);
+        // What flies ahead of the sphere is out of the views.
+        let lowest = snapshot.projectile.map_or(f64::NEG_INFINITY, |(height, radius)| height - FLYING * radius);
+        let seen = |mode: usize, name: &str, [turned, raised]: [f64; 2], reach: [f64; 2], cut: bool| {
+            let near = |[x, y]: [f64; 2]| x.abs() <= reach[0] && y.abs() <= reach[1] && (!cut || quarter || y >= 0.0);
+            let shown: Vec<bool> = middles.iter().zip(&snapshot.intact).map(|(&at, &is)| is && near(at)).collect();
+            let mut sides = surface::visible(panel, &snapshot.positions, |element| shown[element]);
+            sides.retain(|side| side.corners.iter().all(|corner| corner[2] > lowest));
+            let images: &[[f64; 2]] = match (quarter, cut) {
+                (false, _) => &[[1.0, 1.0]],
+                (true, true) => &[[1.0, 1.0], [-1.0, 1.0]],
+                (true, false) => &[[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]],
+            };
+            // The whole sphere is shown where it is small beside the panel.
+            let top = if reach == blow || size < LEAST_RADII * case.sphere.radius { SPHERE_SHOWN } else { 2.0 };
+            let sphere = snapshot.projectile.filter(|_| cut);
+            let sphere = sphere.map_or(Vec::new(), |(height, radius)| half_sphere(height, radius, top));
+            let (scale, most) = scale(mode, modes[mode], snapshot, &shown, unit);
+            let name = if most > scale.largest {
+                format!("{name}; the largest is {}", number(most))
+            } else {
+                name.to_string()
+            };
+            Seen::new(mode, scale, name, Eye::new(turned, raised), sides, images, sphere)
+        };
+        let part = if reach.is_finite() { "the middle of the panel, " } else { "" };
+        let mut views = vec![
+            seen(0, &format!("{part}cut along the warp"), CUT, [reach; 2], true),
+            seen(0, &format!("{part}from below"), BELOW, [reach; 2], false),
+        ];
+        // The linear law has no more to show at the blow than its work.
+        let close = if modes.len() == 1 { 0..1 } else { 1..modes.len() };
+        views.extend(close.map(|mode| seen(mode, "at the blow, cut along the warp", BLOW, blow, true)));
+        Drawing { scene, case, snapshot, views }
     }
 
-    fn colour(&self, mode: usize, element: usize) -> RGBColor {
-        self.modes[mode].colour(density(mode, &self.snapshot.densities[element]))
-    }
-
-    /// Views in a row: the modes or, of a single one, its two sides.
-    fn per_row(&self) -> i32 {
-        (self.modes.len() as i32).max(2)
-    }
-
-    fn view_size(&self) -> i32 {
-        ((WIDTH - 2 * LEFT - (self.per_row() - 1) * BETWEEN) / self.per_row()).min(LARGEST_VIEW)
-    }
-
-    fn views_height(&self) -> i32 {
-        let rows = if self.modes.len() == 1 { 1 } else { 2 };
-        let [width, height] = [0, 1].map(|axis| self.bounds[1][axis] - self.bounds[0][axis]);
-        let height = (f64::from(self.view_size()) * height / width.max(height)).ceil() as i32;
-        rows * (NAME + height)
-    }
-
-    fn cuts_top(&self) -> i32 {
-        VIEWS_TOP + self.views_height() + RULER_BELOW + CUT_HEADING
-    }
-
-    fn cut_height(&self) -> i32 {
-        self.cut.size()[1].ceil() as i32
-    }
-
-    fn cut_row(&self) -> i32 {
-        CUT_SCALE + CUT_NAME + self.cut_height() + CUT_BELOW
+    /// The place and the width of each view, and the height of all.
+    fn layout(&self) -> (Vec<([i32; 2], i32)>, i32) {
+        let across = WIDTH - 2 * LEFT;
+        let row = |view: &Seen, width: i32| VIEW_TOP + view.height(width) + ROW_BELOW;
+        let second = FIRST_ROW + row(&self.views[0], across);
+        let mut places = vec![([LEFT, FIRST_ROW], across), ([LEFT, second], BELOW_WIDTH)];
+        let left = LEFT + BELOW_WIDTH + BETWEEN;
+        let (width, mut top) = (WIDTH - LEFT - left, second);
+        for view in &self.views[2..] {
+            places.push(([left, top], width));
+            top += row(view, width);
+        }
+        (places, top.max(second + row(&self.views[1], BELOW_WIDTH)))
     }
 
     fn height(&self) -> i32 {
-        self.cuts_top() + self.modes.len() as i32 * self.cut_row() + FOOT
+        self.layout().1
     }
 
     fn draw(&self, root: &Area) -> Drawn<()> {
@@ -166,132 +185,138 @@ impl<'a> Drawing<'a> {
         root.draw_text(&title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
         let units = &self.scene.units;
         let laws = if matches!(self.case.zones, Zones::Two(..)) { "; * work, where the law is linear" } else { "" };
-        let scales = "colours by the square root, up to the largest value of what stands";
-        let time = format!("at {}, energies per reference volume; {scales}{laws}", time(units, self.snapshot.time));
+        let scales = "energies per reference volume, colours by the square root";
+        let time = format!("at {}, {scales}{laws}", time(units, self.snapshot.time));
         root.draw_text(&time, &text(TEXT, &GREY), (fine(LEFT), fine(TIME_TOP)))?;
-        self.draw_views(root)?;
-        let length = units.names()[0];
-        let top = self.cuts_top();
-        let name = "Cut through the blow, along the warp";
-        root.draw_text(name, &text(HEADING, &INK), (fine(LEFT), fine(top - 14)))?;
-        for (i, scale) in self.modes.iter().enumerate() {
-            let top = top + i as i32 * self.cut_row();
-            scale.draw(root, [LEFT, top + CUT_SCALE])?;
-            self.draw_cut(root, top + CUT_SCALE + CUT_NAME, i)?;
-        }
-        ruler::draw(root, [LEFT, self.height() - FOOT], self.cut.scale, length)
+        let (places, _) = self.layout();
+        self.views.iter().zip(places).try_for_each(|(view, (place, width))| self.draw_view(root, view, place, width))
     }
 
-    fn draw_views(&self, root: &Area) -> Drawn<()> {
-        let size = self.view_size();
-        let step = size + BETWEEN;
-        let single = self.modes.len() == 1;
-        let part = if self.is_whole { "" } else { ", the middle of the panel" };
-        let [low, high] = self.bounds;
-        for (i, scale) in self.modes.iter().enumerate() {
-            let left = LEFT + i as i32 * step;
-            scale.draw(root, [left, SCALE_MIDDLE])?;
-            for (row, name) in ["from above", "from below"].into_iter().enumerate() {
-                let below = row == 1;
-                let (left, down) = if single { (left + row as i32 * step, 0) } else { (left, row as i32) };
-                let top = VIEWS_TOP + down * self.views_height() / 2;
-                root.draw_text(&format!("{name}{part}"), &text(TEXT, &GREY), (fine(left), fine(top + 4)))?;
-                // From below, y goes downwards.
-                let [low, high] = if below { [[low[0], -high[1]], [high[0], -low[1]]] } else { [low, high] };
-                let mut view = View::square([left, top + NAME], size, low, high);
-                view.corner[1] = f64::from(top + NAME) + view.size()[1];
-                self.draw_view(root, view, i, below)?;
-            }
+    fn draw_view(&self, root: &Area, seen: &Seen, [left, top]: [i32; 2], width: i32) -> Drawn<()> {
+        let scale = &seen.scale;
+        scale.draw(root, [left, top + SCALE_MIDDLE])?;
+        root.draw_text(&seen.name, &text(TEXT, &GREY), (fine(left), fine(top + NAME_TOP)))?;
+        let view = View::strip([left, top + VIEW_TOP], width, seen.low, seen.high);
+        let mut raster = Raster::new(view);
+        projection::draw(&mut raster, &seen.eye, &seen.sides, seen.images, |side, lit| {
+            let density = density(seen.mode, &self.snapshot.densities[side.element]);
+            brightened(scale.colour(density), lit.light)
+        });
+        for (corners, normal) in &seen.sphere {
+            // The plane of the cut has no shade of its own.
+            let colour =
+                if normal[1] < 0.0 { SPHERE_CUT } else { brightened(SPHERE, projection::light(&seen.eye, *normal)) };
+            raster.quadrangle(&corners.map(|corner| seen.eye.see(corner)), [colour.0, colour.1, colour.2]);
         }
-        let scale = View::square([0; 2], size, low, high).scale;
-        let top = VIEWS_TOP + self.views_height() + RULER_BELOW;
-        ruler::draw(root, [LEFT, top], scale, self.scene.units.names()[0])
-    }
-
-    fn draw_view(&self, root: &Area, view: View, mode: usize, below: bool) -> Drawn<()> {
-        let up = if below { -1.0 } else { 1.0 };
-        let signs: &[[f64; 2]] =
-            if self.quarter { &[[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] } else { &[[1.0, 1.0]] };
-        let images: Vec<[f64; 3]> = signs.iter().map(|[x, y]| [*x, *y * up, up]).collect();
-        above::draw(root, view, &self.sides, &images, |side, lit| {
-            above::brightened(self.colour(mode, side.element), (1.0 + CONTRAST * lit.light).max(DARKEST))
-        })?;
-        if let Some((_, radius)) = self.snapshot.projectile.filter(|_| !below) {
-            let radius = (view.scale * radius * f64::from(fine(1))) as i32;
-            root.draw(&Circle::new(view.place([0.0, 0.0]), radius, stroke(WHITE, 2)))?;
-            root.draw(&Circle::new(view.place([0.0, 0.0]), radius, stroke(INK, 1)))?;
-        }
-        Ok(())
-    }
-
-    fn draw_cut(&self, root: &Area, top: i32, mode: usize) -> Drawn<()> {
-        let mut view = self.cut;
-        view.corner[1] = f64::from(top) + view.size()[1];
-        if let Some((height, radius)) = self.snapshot.projectile {
-            draw_sphere(root, &view, height, radius)?;
-        }
-        let shade = |piece: &Piece| Some(self.colour(mode, piece.element));
-        if self.quarter {
-            let mirrored: Vec<Piece> = self.pieces.iter().map(mirrored).collect();
-            cut::draw(root, &view, &mirrored, shade)?;
-        }
-        cut::draw(root, &view, &self.pieces, shade)
+        raster.draw(root)?;
+        let below = top + VIEW_TOP + seen.height(width) + RULER_BELOW;
+        ruler::draw(root, [left, below], view.scale, self.scene.units.names()[0])
     }
 }
 
-/// How far from the centre the panel has an energy to show, or the sphere is.
-fn reach(panel: &Model, case: &Case, snapshot: &Snapshot, modes: &[Scale]) -> f64 {
-    let least = CUT_RADII * case.sphere.radius;
-    let standing = (0..panel.elements.len()).filter(|&element| snapshot.intact[element]);
+impl<'a> Seen<'a> {
+    fn new(
+        mode: usize,
+        scale: Scale<'a>,
+        name: String,
+        eye: Eye,
+        sides: Vec<Visible>,
+        images: &'static [[f64; 2]],
+        sphere: Vec<Face>,
+    ) -> Self {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mut add = |corner: [f64; 3]| {
+            let [x, y, _] = eye.see(corner);
+            bounds = [[bounds[0][0].min(x), bounds[0][1].min(y)], [bounds[1][0].max(x), bounds[1][1].max(y)]];
+        };
+        for corner in sides.iter().flat_map(|side| side.corners) {
+            images.iter().for_each(|[x, y]| add([x * corner[0], y * corner[1], corner[2]]));
+        }
+        sphere.iter().flat_map(|face| face.0).for_each(add);
+        // Where nothing stands there is still a picture.
+        let [low, high] = if bounds[0][0] < bounds[1][0] { bounds } else { [[0.0; 2], [1.0; 2]] };
+        Seen { mode, scale, name, eye, sides, images, sphere, low, high }
+    }
+
+    /// In a picture of this width.
+    fn height(&self, width: i32) -> i32 {
+        (f64::from(width) * (self.high[1] - self.low[1]) / (self.high[0] - self.low[0])).ceil() as i32
+    }
+}
+
+/// The colours of a mode, up to what few of the elements that are shown exceed, and the largest value of these.
+fn scale<'a>(mode: usize, name: &'static str, snapshot: &Snapshot, shown: &[bool], unit: &'a str) -> (Scale<'a>, f64) {
+    let seen = snapshot.densities.iter().zip(shown).filter(|(_, shown)| **shown);
+    let mut carried: Vec<f64> = seen.map(|(densities, _)| density(mode, densities)).collect();
+    let most = carried.iter().copied().fold(0.0, f64::max);
+    carried.retain(|&density| density > SMALL * most);
+    carried.sort_by(f64::total_cmp);
+    let end = carried.get((SHOWN * carried.len() as f64) as usize).map_or(most, |&density| two_digits(density));
+    let (largest, colours) = (end.min(most), Colours::GreyToRed);
+    (Scale { name, indent: SCALE_INDENT, width: SCALE_WIDTH, largest, unit, colours, root: true }, most)
+}
+
+/// A colour in this light.
+fn brightened(colour: RGBColor, light: f64) -> RGBColor {
+    projection::brightened(colour, AMBIENT + DIFFUSE * light.max(0.0))
+}
+
+/// Rounded upwards.
+fn two_digits(value: f64) -> f64 {
+    let step = 10_f64.powi(value.log10().floor() as i32 - 1);
+    if step > 0.0 && step.is_finite() { (value / step).ceil() * step } else { value }
+}
+
+/// An element's middle at rest.
+fn middle(panel: &Model, element: usize) -> [f64; 2] {
+    let corners = &panel.elements[element];
+    [0, 1].map(|axis| corners.iter().map(|&node| panel.nodes[node as usize][axis]).sum::<f64>() / corners.len() as f64)
+}
+
+fn farthest([x, y]: &[f64; 2]) -> f64 {
+    x.abs().max(y.abs())
+}
+
+/// How far from the centre the panel has an energy to show, or the sphere is; infinite where that is nearly the whole panel.
+fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, modes: usize) -> f64 {
+    let least = LEAST_RADII * case.sphere.radius;
+    let most: Vec<f64> = (0..modes).map(|mode| snapshot.largest(|densities| density(mode, densities))).collect();
     let shows = |element: usize| {
         let densities = &snapshot.densities[element];
-        modes.iter().enumerate().any(|(mode, scale)| density(mode, densities) > SMALL * scale.largest)
+        most.iter().enumerate().any(|(mode, most)| density(mode, densities) > SMALL * most)
     };
-    standing.filter(|&element| shows(element)).fold(least, |reach, element| {
-        let [x, y, _] = panel.nodes[panel.elements[element][0] as usize];
-        reach.max(AIR * x.abs()).max(AIR * y.abs())
-    })
+    let standing = (0..middles.len()).filter(|&element| snapshot.intact[element]);
+    let reach = standing.filter(|&i| shows(i)).fold(least, |reach, i| reach.max(AIR * farthest(&middles[i])));
+    if reach > NEARLY_WHOLE * size { f64::INFINITY } else { reach }
 }
 
-/// What of the panel's bounds lies within this reach, and whether that is all.
-fn middle(bounds: [[f64; 2]; 2], reach: f64) -> ([[f64; 2]; 2], bool) {
-    let [low, high] = bounds;
-    let farthest = low.iter().chain(&high).fold(0.0, |farthest: f64, x| farthest.max(x.abs()));
-    if reach > NEARLY_WHOLE * farthest {
-        return (bounds, true);
+/// The half of a sphere at y ≥ 0 and the plane that cuts it, up to this part of its radius over the lowest point.
+fn half_sphere(height: f64, radius: f64, top: f64) -> Vec<Face> {
+    const STEPS: usize = 90;
+    let end = (1.0 - top).clamp(-1.0, 1.0).acos();
+    // From the lowest point upwards, and around z from the cut's right to its left.
+    let polar = |i: f64| end * i / STEPS as f64;
+    let around = |j: f64| std::f64::consts::PI * j / STEPS as f64;
+    let normal = |i: f64, j: f64| {
+        let ((s, c), (sin, cos)) = (polar(i).sin_cos(), around(j).sin_cos());
+        [s * cos, s * sin, -c]
+    };
+    let point = |i: usize, j: usize| {
+        let [x, y, z] = normal(i as f64, j as f64);
+        [radius * x, radius * y, height + radius * z]
+    };
+    let mut faces = Vec::new();
+    for i in 0..STEPS {
+        for j in 0..STEPS {
+            let corners = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+            faces.push((corners, normal(i as f64 + 0.5, j as f64 + 0.5)));
+        }
+        faces.push(([point(i, 0), point(i + 1, 0), point(i + 1, STEPS), point(i, STEPS)], [0.0, -1.0, 0.0]));
     }
-    ([low.map(|x| x.max(-reach)), high.map(|x| x.min(reach))], false)
-}
-
-fn mirrored(piece: &Piece) -> Piece {
-    Piece { corners: piece.corners.map(|[x, z]| [-x, z]), ..*piece }
-}
-
-/// What the cut shows: the panel beside the sphere, as deep as it is there, and the lower part of the sphere.
-fn cut_view(pieces: &[Piece], [left, right]: [f64; 2], case: &Case, snapshot: &Snapshot) -> View {
-    let reach = CUT_RADII * case.sphere.radius;
-    let [left, right] = [left.max(-reach), right.min(reach)];
-    let corners = pieces.iter().flat_map(|piece| piece.corners);
-    let seen = corners.filter(|[x, _]| (left..=right).contains(x));
-    let start = (f64::INFINITY, f64::NEG_INFINITY);
-    let (mut low, mut high) = seen.fold(start, |(low, high), [_, z]| (low.min(z), high.max(z)));
-    if let Some((height, radius)) = snapshot.projectile {
-        low = low.min(height - radius);
-        high = high.max(height - radius + SPHERE_SHOWN * radius);
+    // The lid, in strips along the cut.
+    for i in 0..STEPS / 2 {
+        let strip = [i, i + 1, STEPS - i - 1, STEPS - i].map(|j| point(STEPS, j));
+        faces.push((strip, [0.0, 0.0, 1.0]));
     }
-    View::strip([LEFT, 0], WIDTH - 2 * LEFT, [left, low], [right, high])
-}
-
-/// The part of the sphere's outline that is in the view, filled.
-fn draw_sphere(root: &Area, view: &View, height: f64, radius: f64) -> Drawn<()> {
-    const STEPS: usize = 180;
-    let highest = ((view.high[1] - height) / radius).clamp(-1.0, 1.0);
-    // From the lowest point, both ways to where the view ends.
-    let angle = (-highest).acos();
-    let outline = (0..=STEPS).map(|step| angle * (2.0 * step as f64 / STEPS as f64 - 1.0));
-    let points = outline.map(|a| [radius * a.sin(), height - radius * a.cos()]);
-    let points: Vec<(i32, i32)> = points.map(|point| view.place(point)).collect();
-    root.draw(&Polygon::new(points.clone(), SPHERE.filled()))?;
-    root.draw(&PathElement::new(points, stroke(GREY, 1)))?;
-    Ok(())
+    faces
 }

@@ -12,7 +12,7 @@ use crate::common::units::{time, unit};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
-use crate::picture::colour_scale::Scale;
+use crate::picture::colour_scale::{Colours, Scale};
 use crate::picture::page::{self, Area, Drawn};
 use crate::picture::ruler;
 use crate::picture::style::{GREY, INK, TEXT, TITLE, fine, stroke, text};
@@ -157,7 +157,15 @@ impl<'a> Drawing<'a> {
         // The linear law has no modes.
         let density = |w: &[f64; 5]| if mode == 0 { w[0] + w[4] } else { w[mode] };
         let largest = self.snapshot.largest(density);
-        let scale = Scale { name, indent: SCALE_INDENT, width: SCALE_WIDTH, largest, unit, root: false };
+        let scale = Scale {
+            name,
+            indent: SCALE_INDENT,
+            width: SCALE_WIDTH,
+            largest,
+            unit,
+            colours: Colours::Viridis,
+            root: false,
+        };
         scale.draw(area, [LEFT, SCALE_MIDDLE])?;
         let shade = |element: usize| scale.colour(density(&self.snapshot.densities[element]));
         self.draw_side(area, &shade)?;

@@ -12,10 +12,39 @@ const STEPS: i32 = 40;
 const AIR: i32 = 12;
 const TICK: i32 = 4;
 
-/// A colour of viridis between nothing and the largest value, one of those that the strip shows.
-fn colour(share: f64) -> RGBColor {
-    let last = f64::from(STEPS - 1);
-    ViridisRGB.get_color((share.clamp(0.0, 1.0) * last).round() / last)
+/// The colours from nothing to the largest value.
+#[derive(Clone, Copy, Debug)]
+pub enum Colours {
+    Viridis,
+    /// What carries little is grey, what carries much goes from yellow to a dark red; each is darker than the one before.
+    GreyToRed,
+}
+
+const GREY_TO_RED: [[f64; 3]; 6] = [
+    [214.0, 214.0, 214.0],
+    [206.0, 203.0, 196.0],
+    [250.0, 200.0, 70.0],
+    [240.0, 125.0, 40.0],
+    [205.0, 45.0, 50.0],
+    [110.0, 8.0, 60.0],
+];
+
+impl Colours {
+    /// One of those that the strip shows.
+    fn at(self, share: f64) -> RGBColor {
+        let last = f64::from(STEPS - 1);
+        let share = (share.clamp(0.0, 1.0) * last).round() / last;
+        match self {
+            Colours::Viridis => ViridisRGB.get_color(share),
+            Colours::GreyToRed => {
+                let place = share * (GREY_TO_RED.len() - 1) as f64;
+                let lower = (place as usize).min(GREY_TO_RED.len() - 2);
+                let [low, high] = [GREY_TO_RED[lower], GREY_TO_RED[lower + 1]];
+                let mix = |i: usize| (low[i] + (place - lower as f64) * (high[i] - low[i])).round() as u8;
+                RGBColor(mix(0), mix(1), mix(2))
+            }
+        }
+    }
 }
 
 /// What the strip tells: a quantity's name, how far that indents the strip, the largest value and its unit.
@@ -25,6 +54,7 @@ pub struct Scale<'a> {
     pub width: i32,
     pub largest: f64,
     pub unit: &'a str,
+    pub colours: Colours,
     /// Whether colours go by the square root of the values, so that small ones can be told apart.
     pub root: bool,
 }
@@ -32,7 +62,7 @@ pub struct Scale<'a> {
 impl Scale<'_> {
     pub fn colour(&self, value: f64) -> RGBColor {
         let share = if self.largest > 0.0 { value / self.largest } else { 0.0 };
-        colour(if self.root { share.max(0.0).sqrt() } else { share })
+        self.colours.at(if self.root { share.max(0.0).sqrt() } else { share })
     }
 
     /// Draws name, strip and numbers around this height; those of a root stand below it.
@@ -46,7 +76,7 @@ impl Scale<'_> {
             let x = |i: i32| fine(left) + fine(self.width) * i / STEPS;
             // To the end, each over the last: between neighbours the ground would shine through.
             let corners = [(x(step), top), (x(STEPS), bottom)];
-            area.draw(&Rectangle::new(corners, colour(f64::from(step) / f64::from(STEPS - 1)).filled()))?;
+            area.draw(&Rectangle::new(corners, self.colours.at(f64::from(step) / f64::from(STEPS - 1)).filled()))?;
         }
         let start = if self.root { "" } else { "0 to " };
         let label = format!("{start}{} {}", number(self.largest), self.unit);

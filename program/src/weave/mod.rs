@@ -4,7 +4,6 @@
 //! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,
 //! weft yarns along y, z goes through the thickness.
 
-pub mod above;
 pub mod command;
 pub mod cut;
 pub mod distance;
@@ -17,6 +16,7 @@ pub mod panel;
 pub mod pattern;
 pub mod picture;
 pub mod preset;
+pub mod projection;
 pub mod reader;
 pub mod report;
 pub mod section;

@@ -5,10 +5,10 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::above::{self, Lit};
 use super::cut;
 use super::geometry::Family;
 use super::model::Model;
+use super::projection::{self, FACING, Lit};
 use super::reader::Scene;
 use super::surface::{self, Visible};
 use crate::common::error::Error;
@@ -69,7 +69,8 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     let family: Vec<Family> = model.yarns.iter().flat_map(|yarn| yarn.elements.clone().map(|_| yarn.family)).collect();
     let shade = |side: &Visible, lit: Lit| {
         let depth = 0.5 * (1.0 - lit.height / highest);
-        above::brightened(colour(family[side.element]), 1.0 + CONTRAST * lit.light - DEPTH * depth)
+        let brightness = 1.0 + CONTRAST * (lit.light - FACING) - DEPTH * depth;
+        projection::brightened(colour(family[side.element]), brightness)
     };
     page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
@@ -82,7 +83,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
         let rulers_top = VIEW_TOP + VIEW + RULER_BELOW;
         for (left, name, view) in [(LEFT, of_part, panel), (right, "Its middle", middle)] {
             draw_heading(root, name, left, HEADING_TOP)?;
-            above::draw(root, view, &sides, &[[1.0; 3]], shade)?;
+            projection::draw_above(root, view, &sides, shade)?;
             ruler::draw(root, [left, rulers_top], view.scale, unit)?;
         }
         draw_heading(root, "Cut through the axis of a warp yarn", LEFT, VIEW_TOP + VIEW + CUT_HEADING)?;

@@ -19,9 +19,8 @@ const SIDES: [([usize; 4], [isize; 3]); 6] = [
 pub struct Visible {
     pub element: usize,
     pub corners: [[f64; 3]; 4],
-    /// Outwards, of length 1; now, and at rest.
+    /// Outwards, of length 1.
     pub normal: Vector3<f64>,
-    pub normal_at_rest: Vector3<f64>,
 }
 
 /// The sides of the intact elements that are seen with the nodes at these positions; with them the yarns' ends, which stand
@@ -39,10 +38,8 @@ pub fn visible(model: &Model, positions: &[[f64; 3]], intact: impl Fn(usize) -> 
                 matches!(next, [Some(layer), Some(column), Some(row)] if intact(element([layer, column, row])))
             };
             for (side, _) in SIDES.into_iter().filter(|(_, step)| !hidden(*step)) {
-                let nodes = side.map(|corner| model.elements[number][corner] as usize);
-                let corners = nodes.map(|node| positions[node]);
-                let normal_at_rest = normal(&nodes.map(|node| model.nodes[node]));
-                found.push(Visible { element: number, corners, normal: normal(&corners), normal_at_rest });
+                let corners = side.map(|corner| positions[model.elements[number][corner] as usize]);
+                found.push(Visible { element: number, corners, normal: normal(&corners) });
             }
         }
     }

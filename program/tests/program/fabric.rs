@@ -6,6 +6,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use crate::library::{ROOT, folder};
+use crate::weave::Picture;
 
 /// A quarter of a disc of five by five yarns, struck for this many microseconds; further keys go into the scene's table.
 fn scene(end: f64, keys: &str) -> String {
@@ -181,6 +182,13 @@ fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     let whole = folder("fabric-whole");
     let text = scene(12.0, keys);
     assert!(program(&whole, &text, 2).output().expect("it starts").status.success());
+    // On a light ground yarns that carry are yellow to red, the others grey; the four scales cover less than 0.5 %.
+    let picture = Picture::read(&whole.join("scene-panel-2.png"));
+    let light = picture.share(|[red, green, blue]| red.min(green).min(blue) > 250);
+    let carrying = picture.share(|[red, _, blue]| red > blue + 60);
+    let grey =
+        picture.share(|[red, green, blue]| red.max(green).max(blue) < red.min(green).min(blue) + 16 && red < 235);
+    assert!(light > 0.3 && carrying > 0.01 && grey > 0.1, "{light} {carrying} {grey}");
     let stopped = folder("fabric-stopped");
     let text = text + "checkpoints = 5\n";
     let checkpoint = stopped.join("scene.checkpoint");

@@ -1,28 +1,45 @@
-//! `toron weave` on its example.
+//! `toron weave` on its example; `documents.rs` has what it prints.
 
 use std::path::Path;
 use std::process::Command;
 
-use crate::library::{ROOT, folder};
+use tiny_skia::Pixmap;
+
+use crate::library::{ROOT, folder, run};
 
 #[test]
 fn the_example_is_meshed_and_drawn() {
     let output = folder("weave");
     let arguments = ["weave", "examples/fabric_impact/weave.toml", "-o"];
-    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
-    let answer = program.args(arguments).arg(&output).current_dir(ROOT).output().expect("it starts");
-    let text = String::from_utf8(answer.stdout).expect("UTF-8");
-    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
-    let document =
-        std::fs::read_to_string(Path::new(ROOT).join("docs/guides/fabric.md")).expect("docs/guides/fabric.md");
-    let (figures, _) = text.split_once("\nFiles in ").expect("the files are named last");
-    assert!(document.contains(figures), "docs/guides/fabric.md shows other figures than\n{figures}");
+    run(Command::new(env!("CARGO_BIN_EXE_toron")).args(arguments).arg(&output).current_dir(ROOT), "");
     let mesh = std::fs::read_to_string(output.join("weave.vtu")).expect("a mesh");
     assert!(mesh.contains("NumberOfPoints=\"173424\" NumberOfCells=\"98136\""));
-    for picture in ["weave.svg", "weave.png"] {
-        assert!(output.join(picture).metadata().expect("a picture").len() > 10_000);
-    }
+    assert!(output.join("weave.svg").metadata().expect("a picture").len() > 10_000);
+    // Two squares of 604 and a cut, of a sheet of 1280: warp is blue, weft orange, and they cover about as much.
+    let picture = Picture::read(&output.join("weave.png"));
+    assert_eq!(picture.0.width(), 1920);
+    let white = picture.share(|[red, green, blue]| red.min(green).min(blue) == 255);
+    let warp = picture.share(|[red, _, blue]| blue > red + 40);
+    let weft = picture.share(|[red, _, blue]| red > blue + 40);
+    assert!((0.35..0.5).contains(&white), "{white}");
+    assert!((0.24..0.33).contains(&warp) && (0.23..0.32).contains(&weft), "{warp} {weft}");
     if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
         std::fs::copy(output.join("weave.png"), Path::new(ROOT).join("docs/images/weave.png")).expect("a copy");
+    }
+}
+
+/// A picture's dots.
+pub struct Picture(Pixmap);
+
+impl Picture {
+    pub fn read(file: &Path) -> Picture {
+        Picture(Pixmap::load_png(file).unwrap_or_else(|error| panic!("{}: {error}", file.display())))
+    }
+
+    /// The part of the dots whose red, green and blue are such.
+    pub fn share(&self, such: impl Fn([i32; 3]) -> bool) -> f64 {
+        let dots = self.0.pixels();
+        let colour = |dot: &tiny_skia::PremultipliedColorU8| [dot.red(), dot.green(), dot.blue()].map(i32::from);
+        dots.iter().filter(|dot| such(colour(dot))).count() as f64 / dots.len() as f64
     }
 }
