@@ -491,9 +491,9 @@ fn cell(page: &str, heading: &str, row: &str, column: &str) -> String {
     let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect::<Vec<_>>();
     let mut lines = section.lines().skip_while(|line| !line.starts_with('|'));
     let place = cells(lines.next().expect("a table")).iter().position(|title| title == column);
-    let row = lines.take_while(|line| line.starts_with('|')).map(cells).find(|cells| cells[0] == row);
-    let (place, row) = (place.unwrap_or_else(|| panic!("no {column}")), row.unwrap_or_else(|| panic!("no {row}")));
-    row[place].clone()
+    let found = lines.take_while(|line| line.starts_with('|')).map(cells).find(|cells| cells[0] == row);
+    let place = place.unwrap_or_else(|| panic!("{page}, {heading}: no column {column}"));
+    found.unwrap_or_else(|| panic!("{page}, {heading}: no row {row}"))[place].clone()
 }
 
 /// The README's figures of the panel are of one panel, and those of the results, to its digits.
@@ -607,4 +607,18 @@ fn the_tutorial_does_what_it_says() {
 #[ignore = "takes a minute"]
 fn the_tutorial_strikes_as_it_says() {
     follow_the_tutorial("tutorial-whole", true);
+}
+
+/// The README's two ratios are those of the report.
+#[test]
+fn the_readme_s_speed_is_that_of_the_report() {
+    let report = std::fs::read_to_string(Path::new(ROOT).join("benches/results/speed.json")).expect("a report");
+    let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+    let readme = read("../README.md");
+    for (name, digits) in [("fastest Fortran loop / f64 block", 2), ("scalar Fortran / f64 block", 0)] {
+        let ratios = report["ratios"].as_array().expect("ratios").iter();
+        let row = ratios.clone().find(|row| row["name"].as_str().is_some_and(|found| found.starts_with(name)));
+        let ratio = row.expect(name)["times"]["median"].as_f64().expect("a number");
+        assert!(readme.contains(&format!(" {ratio:.digits$} times")), "{name}: {ratio}");
+    }
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
+use crate::documents::code_words;
 use crate::library::{ROOT, folder};
 
 /// Of a quarter, a warp yarn on the axis and the two weft yarns that it crosses, struck for a microsecond.
@@ -71,6 +72,13 @@ fn a_blow_writes_all_files() {
             assert!(exists(&format!("{picture}.png")));
         }
         assert!(!exists(&format!("{case}-panel-3.png")));
+    }
+
+    let known = code_words("guides/fabric.md");
+    for table in [&summary, &read("yarns.csv")] {
+        for column in table.lines().next().expect("a heading").split(',') {
+            assert!(known.contains(column), "docs/guides/fabric.md does not know {column}");
+        }
     }
 
     let elements = summary.lines().nth(1).and_then(|line| line.split(',').nth(3)).expect("elements");

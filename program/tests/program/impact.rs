@@ -88,18 +88,15 @@ fn a_slow_projectile_is_held() {
     assert_balanced(&result);
 }
 
-/// The linear law breaks; so few elements hold 120 m/s, but not 160.
+/// The linear law breaks; so few elements hold 120 m/s, but not 160: 102.7 m/s are left, and a striking speed of 1 % more or less
+/// moves that by 1.
 #[test]
 fn the_linear_law_breaks() {
     let mut case = tiny("table_4_5.toml", "linear-120", 1);
     case.speed = 160.0;
     let result = run(&case);
     assert_eq!(result.end, End::Left);
-    assert!(
-        result.residual_speed().is_some_and(|speed| speed > 20.0 && speed < 150.0),
-        "{:?}",
-        result.residual_speed()
-    );
+    assert_between(result.residual_speed().expect("it is through"), 101.0, 104.4);
     assert_balanced(&result);
 }
 
@@ -576,11 +573,10 @@ fn the_program_writes_what_came_of_a_scene() {
     let grid = read("a-0001.vtu");
     assert!(grid.contains("NumberOfPoints=\"99\" NumberOfCells=\"64\""), "{}", &grid[..300]);
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
-    let page = std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/reference/impact-files.md"))
-        .expect("a page");
+    let page = crate::documents::code_words("reference/impact-files.md");
     for file in ["b.csv", "summary.csv"] {
         for column in read(file).lines().next().expect("a heading").split(',') {
-            let known = page.contains(&format!("`{column}`")) || ["width_2", "width_3"].contains(&column);
+            let known = page.contains(column) || ["width_2", "width_3"].contains(&column);
             assert!(known, "docs/reference/impact-files.md does not know {column}");
         }
     }
