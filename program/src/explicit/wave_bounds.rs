@@ -146,7 +146,7 @@ mod tests {
             }
         }
         let law = Law::new(preset.table, &values, rotation, Criterion::LargestPrincipal).expect("valid");
-        Material { law, values, density: Some(preset.density), label: String::new() }
+        Material { law, values, density: Some(preset.density), label: String::new(), own: String::new() }
     }
 
     /// A and B at a deformation gradient with this stress.

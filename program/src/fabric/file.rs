@@ -6,7 +6,7 @@ use toml::Spanned;
 use crate::common::toml_file::{Numbers, Unused, over};
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, LawName, unused_material};
+use crate::material::of_law::{FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, unused_material};
 use crate::weave::file::WeaveFile;
 
 #[derive(Deserialize)]
@@ -70,6 +70,11 @@ pub enum Rim {
 impl CaseFile {
     pub fn law(&self) -> LawName {
         self.law.unwrap_or(LawName::Hyperelastic)
+    }
+
+    /// The materials' tables, by their law.
+    pub fn materials(&self) -> [(&'static str, &Option<Spanned<MaterialFile>>); 2] {
+        [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)]
     }
 
     pub fn failure(&self) -> FailureName {

@@ -16,7 +16,7 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::impact::scene::Precision;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
-use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn};
 use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
@@ -57,11 +57,15 @@ impl Scene {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
         let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
+        let materials = std::iter::once(base).chain(&tables).flat_map(CaseFile::materials);
+        let own_yarn = own_yarn(materials);
+        let own_yarn = own_yarn.as_deref();
         let mut cases = Vec::new();
         if file.case.is_empty() {
             source.refuse_unused(base.unused(&[base]))?;
             let span = file.scene.span();
-            let reader = Reader { source: &source, units: &units, woven: woven.clone(), file: base, own: base, span };
+            let reader =
+                Reader { source: &source, units: &units, woven: woven.clone(), file: base, own: base, own_yarn, span };
             cases.push(reader.case("scene".to_string())?);
         } else {
             source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
@@ -77,7 +81,7 @@ impl Scene {
                 Some(weave) => Arc::new(source.woven_of_case(weave, file.weave.get_ref(), &units)?),
                 None => woven.clone(),
             };
-            let reader = Reader { source: &source, units: &units, woven, file: table, own, span };
+            let reader = Reader { source: &source, units: &units, woven, file: table, own, own_yarn, span };
             cases.push(reader.case(name)?);
         }
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
@@ -92,6 +96,8 @@ struct Reader<'a> {
     file: &'a CaseFile,
     /// The case's own table, without the scene's.
     own: &'a CaseFile,
+    /// A yarn that some table of the scene names, other than the default ones.
+    own_yarn: Option<&'a str>,
     /// The place that errors name for keys that are missing.
     span: Range<usize>,
 }
@@ -184,7 +190,13 @@ impl Reader<'_> {
             let given = own.as_ref().and_then(|table| table.get_ref().given(name)).map(Spanned::span);
             given.or(self.own.failure.as_ref().map(Spanned::span))
         };
-        let choice = Choice { law, failure: self.file.failure(), place: &place, span: self.span.clone() };
+        let choice = Choice {
+            law,
+            failure: self.file.failure(),
+            own_yarn: self.own_yarn,
+            place: &place,
+            span: self.span.clone(),
+        };
         self.source.material_of_law(&choice, table, self.units)
     }
 }

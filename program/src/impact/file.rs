@@ -8,7 +8,7 @@ use toml::Spanned;
 use super::scene::{Abscissa, Outputs, Precision};
 use crate::common::toml_file::{Numbers, Unused, over};
 use crate::material::file::MaterialFile;
-use crate::material::of_law::{FailureName, HYPERELASTIC, LawName, unused_material};
+use crate::material::of_law::{FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, unused_material};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -72,6 +72,11 @@ pub struct CaseFile {
 impl CaseFile {
     pub fn law(&self) -> LawName {
         self.law.unwrap_or(LawName::Hyperelastic)
+    }
+
+    /// The materials' tables, by their law.
+    pub fn materials(&self) -> [(&'static str, &Option<Spanned<MaterialFile>>); 2] {
+        [(HYPERELASTIC, &self.hyperelastic), (LINEAR_ELASTIC, &self.linear_elastic)]
     }
 
     pub fn failure(&self) -> FailureName {

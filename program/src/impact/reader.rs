@@ -13,7 +13,7 @@ use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
-use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn};
 use toron::host::units::UnitSystem;
 
 /// An element takes some 700 bytes: more do not fit most memories.
@@ -48,11 +48,14 @@ impl Scene {
             return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
         }
         let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
+        let materials = std::iter::once(base).chain(&tables).flat_map(CaseFile::materials);
+        let own_yarn = own_yarn(materials);
+        let own_yarn = own_yarn.as_deref();
         let mut cases: Vec<Case> = Vec::new();
         if file.case.is_empty() {
             source.refuse_unused(base.unused(&[base]))?;
             let span = file.scene.span();
-            let reader = Reader { source: &source, units: &units, file: base, own: base, span };
+            let reader = Reader { source: &source, units: &units, file: base, own: base, own_yarn, span };
             cases.push(reader.case("scene".to_string())?);
         } else {
             source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
@@ -63,7 +66,8 @@ impl Scene {
             };
             let name = source.name_of_case(case.get_ref().name.as_ref(), case.span(), taken)?;
             source.refuse_unused(case.get_ref().unused(&[table]))?;
-            let reader = Reader { source: &source, units: &units, file: table, own: case.get_ref(), span: case.span() };
+            let (own, span) = (case.get_ref(), case.span());
+            let reader = Reader { source: &source, units: &units, file: table, own, own_yarn, span };
             cases.push(reader.case(name)?);
         }
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
@@ -96,6 +100,8 @@ struct Reader<'a> {
     file: &'a CaseFile,
     /// The case's own table, without the scene's.
     own: &'a CaseFile,
+    /// A yarn that some table of the scene names, other than the default ones.
+    own_yarn: Option<&'a str>,
     /// The place that errors name for keys that are missing.
     span: Range<usize>,
 }
@@ -233,7 +239,13 @@ impl Reader<'_> {
     fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
         let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
-        let choice = Choice { law, failure: self.file.failure(), place: &place, span: self.span.clone() };
+        let choice = Choice {
+            law,
+            failure: self.file.failure(),
+            own_yarn: self.own_yarn,
+            place: &place,
+            span: self.span.clone(),
+        };
         self.source.material_of_law(&choice, table, self.units)
     }
 }

@@ -79,9 +79,10 @@ impl<'a, T: Number> Run<'a, T> {
             |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
         let mesh = case.yarn.mesh();
         let per_layer = mesh.elements_per_layer;
-        let (materials, length) = match &case.zones {
-            Zones::One(material) => (std::slice::from_ref(&**material), case.yarn.length),
-            Zones::Two(materials, length) => (&materials[..], *length),
+        let materials = case.zones.materials();
+        let length = match case.zones {
+            Zones::One(_) => case.yarn.length,
+            Zones::Two(_, length) => length,
         };
         let near = case.yarn.layers_to(length);
         let media = materials.iter().map(medium).collect::<Result<Vec<_>, _>>()?;

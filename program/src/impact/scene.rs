@@ -57,9 +57,13 @@ pub enum Zones {
 impl Zones {
     /// The material at mid-span.
     pub fn inner(&self) -> &Material {
+        &self.materials()[0]
+    }
+
+    pub fn materials(&self) -> &[Material] {
         match self {
-            Zones::One(material) => material,
-            Zones::Two(materials, _) => &materials[0],
+            Zones::One(material) => std::slice::from_ref(&**material),
+            Zones::Two(materials, _) => &materials[..],
         }
     }
 }

@@ -49,6 +49,22 @@ impl MaterialFile {
         self.properties.iter().find(|(key, _)| key.get_ref() == name).map(|(_, value)| value)
     }
 
+    /// Whose yarn it is: the preset, or the law where it names one without a preset.
+    pub fn yarn(&self) -> Option<&str> {
+        let preset = self.preset.as_ref().map(|name| name.get_ref().as_str());
+        preset.or(self.law.as_ref().map(|law| law.get_ref().text()))
+    }
+
+    /// What is other than the preset has it. A fibre is a place rather than a yarn's property.
+    fn own(&self) -> String {
+        let density = self.density.as_ref().map(|value| ("density", *value.get_ref()));
+        let properties = self.properties.iter().map(|(name, value)| (name.get_ref().as_str(), *value.get_ref()));
+        let text =
+            |value: f64| if (1e-3..1e6).contains(&value.abs()) { value.to_string() } else { format!("{value:e}") };
+        let values = density.into_iter().chain(properties).map(|(name, value)| format!("{name} = {}", text(value)));
+        values.collect::<Vec<_>>().join("; ")
+    }
+
     /// The table that names a preset and nothing else.
     pub fn of_preset(name: &str, span: Range<usize>) -> MaterialFile {
         MaterialFile { preset: Some(Spanned::new(span, name.to_string())), ..MaterialFile::default() }
@@ -96,7 +112,7 @@ impl Source<'_> {
             None => preset.as_ref().and_then(|preset| preset.density_in(units)),
         };
         let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
-        Ok(Material { law, values, density, label })
+        Ok(Material { law, values, density, label, own: file.own() })
     }
 
     fn preset(&self, name: &Spanned<String>) -> Result<Preset, Error> {

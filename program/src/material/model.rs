@@ -28,6 +28,8 @@ pub struct Material {
     pub density: Option<f64>,
     /// The preset's name, or the law's.
     pub label: String,
+    /// What is other than the preset has it, as in `k_ld = 126; density = 1.44e-3`.
+    pub own: String,
 }
 
 /// The history of a point: what it keeps from one increment to the next.
@@ -75,6 +77,12 @@ impl Law {
     }
 }
 
+/// The names of materials that follow one another, the first up to a place.
+pub fn names(materials: &[Material], to: &str) -> String {
+    let names: Vec<String> = materials.iter().map(Material::name).collect();
+    names.join(&format!(" to {to}; then "))
+}
+
 impl Material {
     /// The law's table of properties.
     pub fn table(&self) -> &'static [Property] {
@@ -90,6 +98,11 @@ impl Material {
             Law::Hyperelastic(_) => &state::HYPERELASTIC,
             Law::LinearElastic { .. } => &state::LINEAR_ELASTIC,
         }
+    }
+
+    /// The label, and what is other than the preset has it.
+    pub fn name(&self) -> String {
+        if self.own.is_empty() { self.label.clone() } else { format!("{} ({})", self.label, self.own) }
     }
 
     pub fn law_name(&self) -> &'static str {

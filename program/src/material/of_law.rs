@@ -46,6 +46,21 @@ pub enum FailureName {
     Multiaxial,
 }
 
+impl LawName {
+    /// The yarn of a law's table that names none.
+    fn default_yarn(table: &str) -> &'static str {
+        if table == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" }
+    }
+}
+
+/// A yarn of one's own that a scene's tables name, each with its law's name; none where all are the default ones.
+pub fn own_yarn<'a>(
+    tables: impl IntoIterator<Item = (&'static str, &'a Option<Spanned<MaterialFile>>)>,
+) -> Option<String> {
+    let named = tables.into_iter().filter_map(|(law, table)| Some((law, table.as_ref()?.get_ref().yarn()?)));
+    named.into_iter().find(|(law, yarn)| *yarn != LawName::default_yarn(law)).map(|(_, yarn)| yarn.to_string())
+}
+
 /// A material of this table that is of no case's law.
 pub fn unused_material(
     hyperelastic: &Option<Spanned<MaterialFile>>,
@@ -63,6 +78,8 @@ pub struct Choice<'a> {
     /// [`HYPERELASTIC`] or [`LINEAR_ELASTIC`].
     pub law: &'static str,
     pub failure: FailureName,
+    /// As [`own_yarn`] finds it: beside it none is taken by default.
+    pub own_yarn: Option<&'a str>,
     /// Where the case itself says something of a property, or of its failure: that is the line to change.
     pub place: &'a dyn Fn(&str) -> Option<Range<usize>>,
     /// The place that errors name for keys that are missing.
@@ -126,7 +143,16 @@ impl Source<'_> {
         units: &UnitSystem,
     ) -> Result<Material, Error> {
         let law = choice.law;
-        let preset = if law == HYPERELASTIC { "kevlar-km2-600" } else { "kevlar-km2-600-linear" };
+        let preset = LawName::default_yarn(law);
+        let names_none = table.as_ref().is_none_or(|table| table.get_ref().yarn().is_none());
+        if let Some(own) = choice.own_yarn.filter(|_| names_none) {
+            let span = table.as_ref().map_or(choice.span.clone(), Spanned::span);
+            let message = format!(
+                "{law} names no yarn, and the scene has one of its own, {own}; allowed: {law}.preset or {law}.law \
+                 (the default is {law}.preset = \"{preset}\")"
+            );
+            return Err(self.error(span, &message));
+        }
         let default = MaterialFile::of_preset(preset, choice.span.clone());
         let (file, span) = match table {
             Some(table) => (table.get_ref().over(&default), table.span()),
