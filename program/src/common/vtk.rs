@@ -43,10 +43,32 @@ pub fn array<V: Display>(
     components: usize,
     values: impl Iterator<Item = V>,
 ) {
-    let _ = writeln!(
-        text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
-    );
+    let attributes = format!("NumberOfComponents=\"{components}\"");
+    write_array(text, name, kind, &attributes, values);
+}
+
+/// Values in single precision whose components have names.
+pub fn components<const N: usize>(
+    text: &mut String,
+    name: &str,
+    names: [&str; N],
+    values: impl Iterator<Item = [f64; N]>,
+) {
+    let mut attributes = format!("NumberOfComponents=\"{N}\"");
+    for (i, name) in names.iter().enumerate() {
+        let _ = write!(attributes, " ComponentName{i}=\"{name}\"");
+    }
+    write_array(text, name, "Float32", &attributes, values.flatten().map(|value| value as f32));
+}
+
+fn write_array<V: Display>(
+    text: &mut String,
+    name: &str,
+    kind: &str,
+    attributes: &str,
+    values: impl Iterator<Item = V>,
+) {
+    let _ = writeln!(text, "<DataArray type=\"{kind}\" Name=\"{name}\" {attributes} format=\"ascii\">");
     for (i, value) in values.enumerate() {
         let separator = if (i + 1) % 24 == 0 { '\n' } else { ' ' };
         let _ = write!(text, "{value}{separator}");

@@ -186,23 +186,8 @@ impl<T: Number> ElementBlock<T> {
     ) {
         run_widest(Deform { shapes: &self.shapes, displacement, scratch });
         let start = Instant::now();
-        match &medium.entry {
-            Entry::Hyperelastic(law) => {
-                let code = self.call_hyperelastic(law, medium, scratch, options);
-                sums.refused = sums.refused.or(refused(code));
-            }
-            Entry::LinearElastic { law, frame, criterion, .. } => {
-                let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
-                scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
-                sums.refused = sums.refused.or(refused(code));
-            }
-            Entry::Solid(solid) => {
-                let Shapes { n, stride, .. } = self.shapes;
-                let Scratch { deformation_gradient, stress, wave_speed, status, .. } = scratch;
-                let to = solid::Block { stress, state: &mut self.state, wave_speed, status };
-                solid.evaluate_block(medium.density, deformation_gradient, n, stride, to);
-            }
-        }
+        let code = self.call_law(medium, scratch, options);
+        sums.refused = sums.refused.or(refused(code));
         sums.law += start.elapsed();
         // Elements that cannot be evaluated are deleted before their forces are assembled; those that have failed or collapsed
         // exert their last stress.
@@ -222,6 +207,25 @@ impl<T: Number> ElementBlock<T> {
         if options.energy_balance {
             let intact = (0..self.shapes.n).filter(|&i| self.is_intact(i));
             sums.hourglass += intact.map(|i| self.shapes.hourglass_energy(i, &scratch.modal)).sum::<f64>();
+        }
+    }
+
+    /// From the deformation gradients to stresses and wave speeds; updates the history. Returns the entry's code.
+    fn call_law(&mut self, medium: &Medium<T>, scratch: &mut Scratch<T>, options: StepOptions) -> i32 {
+        match &medium.entry {
+            Entry::Hyperelastic(law) => self.call_hyperelastic(law, medium, scratch, options),
+            Entry::LinearElastic { law, frame, criterion, .. } => {
+                let code = self.call_linear_elastic(law, *frame, *criterion, scratch);
+                scratch.wave_speed.fill(T::from_f64(medium.wave_speed));
+                code
+            }
+            Entry::Solid(solid) => {
+                let Shapes { n, stride, .. } = self.shapes;
+                let Scratch { deformation_gradient, stress, wave_speed, status, .. } = scratch;
+                let to = solid::Block { stress, state: &mut self.state, wave_speed, status };
+                solid.evaluate_block(medium.density, deformation_gradient, n, stride, to);
+                status::OK
+            }
         }
     }
 
@@ -340,6 +344,30 @@ impl<T: Number> ElementBlock<T> {
 
     fn variable(&self, row: usize, i: usize) -> f64 {
         self.state[row * self.shapes.stride + i].into()
+    }
+
+    /// The law's Cauchy stress 11 22 33 12 23 31 of each element, without viscosity and hourglass control: evaluated again where
+    /// the nodes are now, since the host does not keep it. The history stays as it is.
+    ///
+    /// # Errors
+    /// The law's code where it refuses its call.
+    pub fn stress(&self, medium: &Medium<T>, displacement: &[[T; 3]]) -> Result<Vec<[f64; 6]>, i32> {
+        let mut scratch = Scratch::default();
+        run_widest(Deform { shapes: &self.shapes, displacement, scratch: &mut scratch });
+        let options = StepOptions { law_outputs: false, energy_balance: false, step: 0.0, shortest: 0.0 };
+        let code = self.clone().call_law(medium, &mut scratch, options);
+        let Shapes { n, stride, .. } = self.shapes;
+        let component = |row: usize, i: usize| -> f64 { scratch.stress[row * stride + i].into() };
+        let of = |i: usize| std::array::from_fn(|row| component(row, i));
+        refused(code).map_or_else(|| Ok((0..n).map(of).collect()), Err)
+    }
+
+    /// The hyperelastic law's invariants; other laws have none, and 0 here.
+    pub fn invariants(&self, medium: &Medium<T>, i: usize) -> [f64; 4] {
+        match medium.entry {
+            Entry::Hyperelastic(_) => std::array::from_fn(|mode| self.variable(INVARIANTS + mode, i)),
+            Entry::LinearElastic { .. } | Entry::Solid(_) => [0.0; 4],
+        }
     }
 
     /// Energy densities, as [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.

@@ -270,6 +270,24 @@ impl<T: Number> Body<T> {
         block.energies(&media[block.medium], i)
     }
 
+    /// Cauchy stress 11 22 33 12 23 31 of each element, as [`ElementBlock::stress`] has it.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn stress(&self, media: &[Medium<T>]) -> Result<Vec<[f64; 6]>, i32> {
+        let mut stress = Vec::with_capacity(self.mesh.elements.len());
+        for block in &self.blocks {
+            stress.extend(block.stress(&media[block.medium], &self.displacement)?);
+        }
+        Ok(stress)
+    }
+
+    /// The invariants of an element.
+    pub fn invariants(&self, media: &[Medium<T>], number: usize) -> [f64; 4] {
+        let (block, i) = self.element(number);
+        block.invariants(&media[block.medium], i)
+    }
+
     /// Reference volume of an element.
     pub fn volume(&self, number: usize) -> f64 {
         let (block, i) = self.element(number);

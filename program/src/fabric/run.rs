@@ -300,7 +300,7 @@ impl<'a, T: Number> Run<'a, T> {
             if framed {
                 self.record.next_frame += frame;
                 self.record.frames.push(time);
-                observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
+                observer.frame(time, &vtu::unstructured_grid(&self.solver)?)?;
             }
             if let Some(end) = end {
                 return Ok(end);

@@ -137,7 +137,7 @@ impl<'a, T: Number> Run<'a, T> {
             }
             if framed {
                 next_frame += frame;
-                observer.frame(time, &vtu::unstructured_grid(&self.solver))?;
+                observer.frame(time, &vtu::unstructured_grid(&self.solver)?)?;
             }
             if let Some(end) = end {
                 break end;

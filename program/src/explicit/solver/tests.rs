@@ -168,3 +168,26 @@ fn an_element_that_could_not_be_evaluated_stays_deleted() {
     assert_eq!(restored.internal, stretched.internal, "it keeps the energy it had");
     assert!(solver.bodies[0].forces.iter().all(|&force| force == [0.0; 3]), "{:?}", solver.bodies[0].forces);
 }
+
+/// What ParaView is given is what moves the nodes: the law's own stress where they are, by either law.
+#[test]
+fn the_stress_of_an_element_is_the_law_s() {
+    let stretch = |[x, _, _]: [f64; 3]| driven([if x > 0.0 { 100.0 } else { 0.0 }, 0.0, 0.0]);
+    let mut solver = cube(stretch);
+    while solver.time < 1e-7 {
+        step(&mut solver);
+    }
+    solver.accelerate(true, 1.0).expect("the step is stable");
+    let (body, media) = (&solver.bodies[0], &solver.media);
+    let state = body.blocks[0].state.clone();
+    let stress = body.stress(media).expect("the law takes it");
+    assert!(state == body.blocks[0].state && stress.len() == 1);
+    // All but the fibre's length stays: P = k_el ln λ/λ, and the section's area is that at rest.
+    let stretch = 1.0 + 100.0 * solver.time / 1e-3;
+    let k_el = parameters::preset("kevlar-km2-600").expect("it exists").values[0];
+    let expected = k_el * stretch.ln() / stretch;
+    assert!((stress[0][0] / expected - 1.0).abs() < 1e-9, "{stress:?} {expected}");
+    assert!(stress[0][1..].iter().all(|value| value.abs() < 1e-9 * expected), "{stress:?}");
+    let invariants = body.invariants(media, 0);
+    assert!((invariants[0] - stretch.ln()).abs() < 1e-12 && invariants[1..].iter().all(|i| i.abs() < 1e-12));
+}
