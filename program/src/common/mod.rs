@@ -4,7 +4,9 @@
 pub mod console;
 pub mod data_table;
 pub mod error;
+pub mod interrupt;
 pub mod progress;
+pub mod run_directory;
 pub mod short_number;
 pub mod text_table;
 pub mod toml_error;

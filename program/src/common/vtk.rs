@@ -88,9 +88,13 @@ impl Frames {
         Frames { directory: directory.into(), name: name.to_string(), files: Vec::new() }
     }
 
-    /// Goes on behind the files of these times, which another run has written.
-    pub fn resume(&mut self, times: &[f64]) {
+    /// Goes on behind the files of these times, which another run has written; later ones are no longer named.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn resume(&mut self, times: &[f64]) -> Result<(), Error> {
         self.files = times.iter().enumerate().map(|(number, &time)| (time, self.name_of(number))).collect();
+        if times.is_empty() { Ok(()) } else { self.write_file(&format!("{}.pvd", self.name), &self.collection()) }
     }
 
     fn name_of(&self, number: usize) -> String {

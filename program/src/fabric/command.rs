@@ -1,44 +1,51 @@
 //! `toron fabric`: from the file of a scene to its histories and table.
 
-use std::io::ErrorKind;
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::measure::Sample;
-use super::run::{self, Observer, Outcome};
+use super::run::{self, End, Observer, Outcome};
 use super::scene::{Case, Scene};
 use super::summary::{self, Figures};
 use super::{model, output, panel_picture, plot, report};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
-use crate::common::progress;
-use crate::common::units::number;
+use crate::common::interrupt::Interrupt;
+use crate::common::progress::{self, Lines};
+use crate::common::run_directory::{RunDirectory, file_error, is_file};
+use crate::common::units::{SPEED, TIME, number, unit};
 use crate::common::vtk::Frames;
 use crate::weave::model::Model;
+use toron::host::units::UnitSystem;
 
 const TICKS: u64 = 1000;
+const SUMMARY: &str = "summary.csv";
+/// Between a case's name and the number of a picture.
+const PICTURES: &str = "-panel-";
 
 /// Runs the cases of a scene, one after another, and writes what came of them to the directory `output`. With `restart`, cases
 /// go on from their checkpoints there.
 ///
 /// # Errors
-/// The input, a file that cannot be written, or a case that has no result.
+/// The input, a file that cannot be written, a case that has no result, or somebody has asked the program to end.
 pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     let build = run::build();
     let scene = Scene::read(path)?;
     if restart || scene.cases.iter().any(|case| case.checkpoints > 0) {
         build?;
     }
-    if output.exists() && !output.is_dir() {
-        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
-    }
-    let place = |case: &Case| output.join(format!("{}.checkpoint", case.name));
+    RunDirectory::check(output)?;
     // Before hours are spent on the first one.
     let mut found = false;
     for case in &scene.cases {
         model::check(case)?;
-        if let Some(bytes) = if restart { read(&place(case))? } else { None } {
+        for file in Checkpoint::of(case, output).files() {
+            is_file(file)?;
+        }
+        if let Some(bytes) = if restart { Checkpoint::of(case, output).read()? } else { None } {
             run::check(case, &bytes)?;
             found = true;
         }
@@ -47,71 +54,175 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         let allowed = "allowed: the directory of the run that was stopped";
         return Err(Error::Input(format!("no case has a checkpoint in {}; {allowed}", output.display())));
     }
-    std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
+    let directory = RunDirectory::open(output)?;
+    directory.remove(SUMMARY)?;
+    let interrupt = Interrupt::listen()?;
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let panel = case.woven.model();
-        let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
-        let checkpoint = place(case);
-        let bytes = if restart { read(&checkpoint)? } else { None };
-        if restart {
-            let how = if bytes.is_some() { "goes on from its checkpoint" } else { "has none, from the beginning" };
-            print_error(&format!("case {}: {how}\n", case.name));
-        }
-        let frames = Frames::new(output, &case.name);
-        let mut observer = CaseObserver { name: &case.name, bar: &bar, frames, checkpoint };
-        let result = run::run(case, &panel, bytes.as_deref(), &mut observer);
-        bar.finish_and_clear();
-        let mut outcome = result?;
+        let mut outcome = run_case(&scene, case, &panel, output, &directory, restart, &interrupt)?;
         write_case(&scene, case, &panel, &outcome, output)?;
         failures.extend(outcome.failure.take().map(|error| error.to_string()));
+        let interrupted = outcome.end == End::Interrupted;
         let figures = Figures::of(&panel, &outcome);
+        if interrupted {
+            let (time, scene, output) = (number(figures.last.time), path.display(), output.display());
+            let again = format!("toron fabric {scene} -o {output} --restart");
+            failures.push(format!("case {} was interrupted after time {time}; it goes on with\n  {again}", case.name));
+        }
         results.push((case, outcome, figures));
         // After each, for who stops the program in a later one.
-        summary::write(&output.join("summary.csv"), &results)?;
+        summary::write(&output.join(SUMMARY), &results)?;
+        if interrupted {
+            break;
+        }
     }
     print(&report::report(&scene, &results, output));
     if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(failures.join("\n"))) }
 }
 
-/// A checkpoint, if there is one.
-fn read(file: &Path) -> Result<Option<Vec<u8>>, Error> {
-    match std::fs::read(file) {
-        Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(file_error(file, &error)),
+/// Runs a case, from its checkpoint on if it has one and goes on at all.
+fn run_case(
+    scene: &Scene,
+    case: &Case,
+    panel: &Model,
+    output: &Path,
+    directory: &RunDirectory,
+    restart: bool,
+    interrupt: &Interrupt,
+) -> Result<Outcome, Error> {
+    let checkpoint = Checkpoint::of(case, output);
+    let bytes = if restart { checkpoint.read()? } else { None };
+    if restart {
+        let how = if bytes.is_some() { "goes on from its checkpoint" } else { "has none, from the beginning" };
+        print_error(&format!("case {}: {how}\n", case.name));
+    }
+    let history = output.join(format!("{}.csv", case.name));
+    print_error(&format!(
+        "case {}: {} elements; the history grows in {}; Ctrl-C writes a checkpoint, from which --restart goes on\n",
+        case.name,
+        panel.elements.len(),
+        history.display()
+    ));
+    let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
+    let mut observer = CaseObserver {
+        name: &case.name,
+        units: &scene.units,
+        directory,
+        bar: &bar,
+        lines: Lines::from(0.0),
+        history: History { place: history, file: None },
+        frames: Frames::new(output, &case.name),
+        checkpoint,
+        interrupt,
+    };
+    if bytes.is_none() {
+        observer.begin(&[], 0)?;
+    }
+    let result = run::run(case, panel, bytes.as_deref(), &mut observer);
+    bar.finish_and_clear();
+    result
+}
+
+/// Where a case's checkpoint stands, and where the next one is written before it takes its place.
+struct Checkpoint {
+    place: PathBuf,
+    new: PathBuf,
+}
+
+impl Checkpoint {
+    fn of(case: &Case, output: &Path) -> Checkpoint {
+        let [place, new] =
+            ["checkpoint", "checkpoint-new"].map(|ending| output.join(format!("{}.{ending}", case.name)));
+        Checkpoint { place, new }
+    }
+
+    fn files(&self) -> [&Path; 2] {
+        [&self.place, &self.new]
+    }
+
+    /// Its bytes, if there is one.
+    fn read(&self) -> Result<Option<Vec<u8>>, Error> {
+        if !is_file(&self.place)? {
+            return Ok(None);
+        }
+        std::fs::read(&self.place).map(Some).map_err(|error| file_error(&self.place, &error))
+    }
+
+    /// In one go: who stops the program while it writes has the last checkpoint still.
+    fn write(&self, bytes: &[u8]) -> Result<(), Error> {
+        let written = std::fs::write(&self.new, bytes).and_then(|()| std::fs::rename(&self.new, &self.place));
+        written.map_err(|error| file_error(&self.place, &error))
     }
 }
 
 fn write_case(scene: &Scene, case: &Case, panel: &Model, outcome: &Outcome, output: &Path) -> Result<(), Error> {
     let file = |ending: &str| output.join(format!("{}{ending}", case.name));
-    let history = file(".csv");
-    std::fs::write(&history, output::history(outcome)).map_err(|error| file_error(&history, &error))?;
     plot::write(&file(".svg"), &file(".png"), scene, case, outcome)?;
     for (number, snapshot) in outcome.snapshots.iter().enumerate() {
-        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("-panel-{}.{ending}", number + 1)));
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
         panel_picture::write(&svg, &png, scene, case, panel, snapshot)?;
     }
     Ok(())
 }
 
-fn file_error(file: &Path, error: &dyn std::fmt::Display) -> Error {
-    Error::Input(format!("{}: {error}", file.display()))
+/// The history's file, which grows by a line with each sample.
+struct History {
+    place: PathBuf,
+    file: Option<File>,
 }
 
-/// Moves the bar, and writes ParaView's files and the checkpoints as they come.
+impl History {
+    /// Begins it with these samples.
+    fn begin(&mut self, samples: &[Sample]) -> Result<(), Error> {
+        let file = File::create(&self.place).map_err(|error| file_error(&self.place, &error))?;
+        self.file = Some(file);
+        let lines: String = samples.iter().map(output::line).collect();
+        self.add(&(output::titles() + &lines))
+    }
+
+    /// The file has no buffer: what is added is there for who looks, and when the program is killed.
+    fn add(&mut self, text: &str) -> Result<(), Error> {
+        let Some(file) = &mut self.file else { return Ok(()) };
+        file.write_all(text.as_bytes()).map_err(|error| file_error(&self.place, &error))
+    }
+}
+
+/// Moves the bar, and writes the history, ParaView's files and the checkpoints as they come.
 struct CaseObserver<'a> {
     name: &'a str,
+    units: &'a UnitSystem,
+    directory: &'a RunDirectory,
     bar: &'a ProgressBar,
+    /// Where there is no terminal for a bar.
+    lines: Lines,
+    history: History,
     frames: Frames,
-    checkpoint: PathBuf,
+    checkpoint: Checkpoint,
+    interrupt: &'a Interrupt,
+}
+
+impl CaseObserver<'_> {
+    /// Removes what another run has left, but for so many frames, and begins the history.
+    fn begin(&mut self, samples: &[Sample], frames: usize) -> Result<(), Error> {
+        self.directory.remove_files_of(self.name, PICTURES, frames)?;
+        self.history.begin(samples)
+    }
 }
 
 impl Observer for CaseObserver<'_> {
-    fn progress(&mut self, fraction: f64, sample: &Sample, imbalance: f64) {
+    fn sample(&mut self, fraction: f64, sample: &Sample, imbalance: f64) -> Result<(), Error> {
+        self.history.add(&output::line(sample))?;
+        let (name, speed) = (self.name, number(sample.speed));
         self.bar.set_position((fraction * TICKS as f64) as u64);
-        let speed = number(sample.speed);
-        self.bar.set_message(format!("{}: speed {speed}, energy off by {imbalance:.0e}", self.name));
+        self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance:.0e}"));
+        if self.bar.is_hidden() && self.lines.are_due(fraction) {
+            let (percent, time) = (100.0 * fraction, number(sample.time));
+            let [of_time, of_speed] = [TIME, SPEED].map(|dimension| unit(self.units, dimension));
+            let speed = format!("speed {speed} {of_speed}, energy off by {imbalance:.0e}");
+            print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
+        }
+        Ok(())
     }
 
     fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
@@ -119,13 +230,16 @@ impl Observer for CaseObserver<'_> {
     }
 
     fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        // In one go: who stops the program while it writes has the last checkpoint still.
-        let new = self.checkpoint.with_extension("checkpoint-new");
-        let written = std::fs::write(&new, bytes).and_then(|()| std::fs::rename(&new, &self.checkpoint));
-        written.map_err(|error| file_error(&self.checkpoint, &error))
+        self.checkpoint.write(bytes)
     }
 
-    fn resumed(&mut self, frames: &[f64]) {
-        self.frames.resume(frames);
+    fn resumed(&mut self, fraction: f64, samples: &[Sample], frames: &[f64]) -> Result<(), Error> {
+        self.lines = Lines::from(fraction);
+        self.begin(samples, frames.len())?;
+        self.frames.resume(frames)
+    }
+
+    fn interrupts(&self) -> bool {
+        self.interrupt.is_asked()
     }
 }

@@ -2,11 +2,11 @@
 
 use std::fmt::Write;
 
-use super::run::Outcome;
+use super::measure::Sample;
 use crate::explicit::medium::ENERGY_NAMES;
 
-/// A line for every sample.
-pub fn history(outcome: &Outcome) -> String {
+/// The titles of the columns.
+pub fn titles() -> String {
     let mut text = String::from(
         "time,speed,travel,force,deflection,front,projectile,kinetic,internal,hourglass,viscosity,friction,contact,total",
     );
@@ -17,39 +17,43 @@ pub fn history(outcome: &Outcome) -> String {
         let _ = write!(text, ",largest_{name}");
     }
     text.push_str(",failure_index,deleted,collapsed,torn_yarns,tilt,slip,least_volume_ratio,least_scaled_jacobian\n");
-    for sample in &outcome.samples {
-        let e = &sample.energies;
-        let numbers = [
-            sample.time,
-            sample.speed,
-            sample.travel,
-            sample.force,
-            sample.deflection,
-            sample.front,
-            e.projectile,
-            e.kinetic,
-            e.internal,
-            e.hourglass,
-            e.viscosity,
-            e.friction,
-            e.contact,
-            e.total(),
-        ];
-        let numbers = numbers.iter().chain(&sample.parts).chain(&sample.largest).chain([&sample.index]);
-        for number in numbers {
-            let _ = write!(text, "{number:.6e},");
-        }
-        let _ = writeln!(
-            text,
-            "{},{},{},{:.3},{:.6e},{:.4},{:.4}",
-            sample.deleted,
-            sample.collapsed,
-            sample.torn,
-            sample.tilt,
-            sample.slip,
-            sample.least_volume_ratio,
-            sample.least_scaled_jacobian
-        );
+    text
+}
+
+/// The line of a sample.
+pub fn line(sample: &Sample) -> String {
+    let mut text = String::new();
+    let e = &sample.energies;
+    let numbers = [
+        sample.time,
+        sample.speed,
+        sample.travel,
+        sample.force,
+        sample.deflection,
+        sample.front,
+        e.projectile,
+        e.kinetic,
+        e.internal,
+        e.hourglass,
+        e.viscosity,
+        e.friction,
+        e.contact,
+        e.total(),
+    ];
+    let numbers = numbers.iter().chain(&sample.parts).chain(&sample.largest).chain([&sample.index]);
+    for number in numbers {
+        let _ = write!(text, "{number:.6e},");
     }
+    let _ = writeln!(
+        text,
+        "{},{},{},{:.3},{:.6e},{:.4},{:.4}",
+        sample.deleted,
+        sample.collapsed,
+        sample.torn,
+        sample.tilt,
+        sample.slip,
+        sample.least_volume_ratio,
+        sample.least_scaled_jacobian
+    );
     text
 }

@@ -4,6 +4,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
 use super::measure::{Sample, measure};
 use super::model::{share, solver};
 use super::scene::Case;
@@ -32,6 +34,8 @@ pub enum End {
     Rebounded,
     /// It has gone through, and nothing has touched it for some time.
     Left,
+    /// Somebody has asked the program to end.
+    Interrupted,
     /// The run could not go on.
     Failed,
 }
@@ -66,10 +70,15 @@ fn imbalance(samples: &[Sample]) -> f64 {
     off.fold(0.0, crate::explicit::lanes::largest)
 }
 
-/// Receives the progress and the frames of a run.
+/// Receives what a run has to tell on its way.
 pub trait Observer {
     /// After each sample.
-    fn progress(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) {}
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn sample(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// The text of a VTU file, and its time.
     ///
@@ -87,8 +96,18 @@ pub trait Observer {
         Ok(())
     }
 
-    /// The run goes on behind frames of these times.
-    fn resumed(&mut self, _frames: &[f64]) {}
+    /// The run goes on at this part of its time, behind these samples and frames of these times.
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn resumed(&mut self, _fraction: f64, _samples: &[Sample], _frames: &[f64]) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Whether the run is to write its checkpoint and end.
+    fn interrupts(&self) -> bool {
+        false
+    }
 }
 
 impl Observer for () {}
@@ -127,22 +146,50 @@ pub fn build() -> Result<u32, Error> {
     BUILD.ok_or_else(|| Error::Input(message.to_string()))
 }
 
-/// What a checkpoint begins with: one of another scene or another build is not to be taken.
+/// What a checkpoint begins with: one of another build is not to be taken, nor one of another scene, but for what only the
+/// future depends on.
 fn identity(case: &Case) -> Result<String, Error> {
     let (version, build) = (env!("CARGO_PKG_VERSION"), build()?);
-    Ok(format!("toron {version} build {build:08x} {case:?}"))
+    let plan = Plan::default();
+    let Plan { end, sample, pictures, frames, checkpoints } = plan;
+    let past = Case { end, sample, pictures, frames, checkpoints, rebounds: false, ..case.clone() };
+    Ok(format!("toron {version} build {build:08x} {past:?}"))
+}
+
+/// What a case is going to do and to write, which a restart may change, but for the time between samples.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Plan {
+    end: f64,
+    sample: f64,
+    pictures: Vec<f64>,
+    frames: usize,
+    checkpoints: usize,
+}
+
+impl Plan {
+    fn of(case: &Case) -> Plan {
+        let Case { end, sample, pictures, frames, checkpoints, .. } = case.clone();
+        Plan { end, sample, pictures, frames, checkpoints }
+    }
+}
+
+/// Where a checkpoint stands in time, and the plan of the run that wrote it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Head {
+    time: f64,
+    plan: Plan,
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
-    let allowed = "allowed: one of the same scene and build, or none";
+    let allowed = "allowed: one of the same build and scene, but for end, until, pictures, frames and checkpoints";
     Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", case.name))
 }
 
-/// Checks a checkpoint; returns what follows its head.
+/// Checks a checkpoint; returns its head and what follows.
 ///
 /// # Errors
-/// It is not this case's, or damaged.
-pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
+/// It is not this case's, later than its end, or damaged.
+pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), Error> {
     let damaged = || refused(case, "damaged");
     let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(damaged)?;
     if crc32fast::hash(contents) != u32::from_le_bytes(*sum) {
@@ -154,14 +201,29 @@ pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<&'a [u8], Error> {
     if found != identity(case)? {
         return Err(refused(case, "of another scene or another build of the program"));
     }
+    let mut head = Head::default();
+    archive.keep(&mut head).map_err(|_| damaged())?;
+    if head.time > case.end * (1.0 + ROUNDING) {
+        let [end, time] = [case.end, head.time].map(number);
+        let message =
+            format!("end is {end} in case {}, whose checkpoint is of {time}; allowed: {time} or later", case.name);
+        return Err(Error::Input(message));
+    }
     match archive {
-        Archive::Reads(rest) => Ok(rest),
+        Archive::Reads(rest) => Ok((head, rest)),
         Archive::Writes(_) => Err(damaged()), // not reached
     }
 }
 
+/// The time between so many equal parts of another.
+fn interval(end: f64, count: usize) -> f64 {
+    end / count.max(1) as f64
+}
+
 struct Run<'a, T> {
     case: &'a Case,
+    /// The case's, but for the time between samples, which is the checkpoint's.
+    plan: Plan,
     panel: &'a Model,
     solver: Solver<T>,
     record: Record,
@@ -181,8 +243,8 @@ struct Record {
     next_frame: f64,
     next_checkpoint: f64,
     last_contact: f64,
-    /// The number of pictures that have been taken.
-    pictures: usize,
+    /// When pictures will be taken, in order.
+    pictures: Vec<f64>,
 }
 
 impl Record {
@@ -203,13 +265,20 @@ impl<'a, T: Number> Run<'a, T> {
         let start = solver.projectile.as_ref().map_or(0.0, |sphere| sphere.position);
         // The balance keeps the energies with which elements are deleted.
         solver.all_outputs = solver.media.iter().any(|medium| medium.fails);
-        Run { case, panel, solver, record: Record { start, ..Record::default() } }
+        let plan = Plan::of(case);
+        let mut pictures = plan.pictures.clone();
+        pictures.sort_by(f64::total_cmp);
+        let next_checkpoint = interval(plan.end, plan.checkpoints);
+        let record = Record { start, pictures, next_checkpoint, ..Record::default() };
+        Run { case, plan, panel, solver, record }
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
         let mut archive = Archive::Writes(Vec::new());
         let mut identity = identity(self.case)?;
-        let written = archive.keep(&mut identity).and_then(|()| self.record.archive(&mut archive));
+        let mut head = Head { time: self.solver.time, plan: self.plan.clone() };
+        let written = archive.keep(&mut identity).and_then(|()| archive.keep(&mut head));
+        let written = written.and_then(|()| self.record.archive(&mut archive));
         let written = written.and_then(|()| self.solver.archive(&mut archive));
         written.map_err(|error| self.error(&error.to_string()))?;
         match archive {
@@ -222,18 +291,42 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
-        let mut archive = Archive::Reads(check(self.case, checkpoint)?);
+        let (head, rest) = check(self.case, checkpoint)?;
+        let mut archive = Archive::Reads(rest);
         let read = self.record.archive(&mut archive).and_then(|()| self.solver.archive(&mut archive));
         if read.is_err() || !matches!(archive, Archive::Reads([])) {
             return Err(refused(self.case, "damaged"));
         }
+        self.plan.sample = head.plan.sample;
+        self.change_plan(&head.plan);
         Ok(())
+    }
+
+    /// Goes over from the plan of the run that wrote the checkpoint to this one's. Where they are the same nothing changes.
+    fn change_plan(&mut self, old: &Plan) {
+        let (new, time) = (&self.plan, self.solver.time);
+        let later = |interval: f64, round: fn(f64) -> f64| interval * round(time / interval);
+        if (new.end, new.frames) != (old.end, old.frames) {
+            // The frame of this time comes after the checkpoint.
+            self.record.next_frame = later(interval(new.end, new.frames), |count| (count - ROUNDING).ceil());
+        }
+        if (new.end, new.checkpoints) != (old.end, old.checkpoints) {
+            let next = |count: f64| (count + ROUNDING).floor() + 1.0;
+            self.record.next_checkpoint = later(interval(new.end, new.checkpoints), next);
+        }
+        if new.pictures != old.pictures {
+            let pending = |picture: &f64| *picture >= time || self.record.pictures.contains(picture);
+            let mut pictures: Vec<f64> = new.pictures.iter().copied().filter(pending).collect();
+            pictures.sort_by(f64::total_cmp);
+            self.record.pictures = pictures;
+        }
     }
 
     fn resume(mut self, checkpoint: Option<&[u8]>, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
         if let Some(checkpoint) = checkpoint {
             self.read(checkpoint)?;
-            observer.resumed(&self.record.frames);
+            let fraction = self.solver.time / self.plan.end;
+            observer.resumed(fraction, &self.record.samples, &self.record.frames)?;
         }
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
@@ -254,26 +347,26 @@ impl<'a, T: Number> Run<'a, T> {
     fn steps(&mut self, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let share = share(self.case);
         let threshold = self.case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
-        let every = |count: usize| self.case.end / count.max(1) as f64;
-        let (frame, between_checkpoints) = (every(self.case.frames), every(self.case.checkpoints));
-        let mut pictures = self.case.pictures.clone();
-        pictures.sort_by(f64::total_cmp);
-        if self.solver.time == 0.0 {
-            self.record.next_checkpoint = between_checkpoints;
-        }
+        let Plan { end: last, sample, frames, checkpoints, .. } = self.plan;
+        let (frame, between_checkpoints) = (interval(last, frames), interval(last, checkpoints));
         loop {
             let time = self.solver.time;
-            let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
-            let end = self.end(reached(self.case.end), time - self.record.last_contact);
-            if self.case.checkpoints > 0 && (reached(self.record.next_checkpoint) || end.is_some()) {
+            let reached = |instant: f64| time >= instant - ROUNDING * last;
+            let end = self.end(reached(last), time - self.record.last_contact);
+            if observer.interrupts() && end.is_none() && !self.record.samples.is_empty() {
+                let bytes = self.checkpoint()?;
+                observer.checkpoint(&bytes)?;
+                return Ok(End::Interrupted);
+            }
+            if checkpoints > 0 && (reached(self.record.next_checkpoint) || end.is_some()) {
                 self.record.next_checkpoint += between_checkpoints;
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
             let sampled = reached(self.record.next_sample) || end.is_some();
-            let drawn = pictures.get(self.record.pictures).is_some_and(|&picture| reached(picture));
-            let framed = self.case.frames > 0 && reached(self.record.next_frame);
-            let left = if reached(self.case.end) { self.case.end } else { self.case.end - time };
+            let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
+            let framed = frames > 0 && reached(self.record.next_frame);
+            let left = if reached(last) { last } else { last - time };
             self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
                 self.record.last_contact = time;
@@ -283,18 +376,18 @@ impl<'a, T: Number> Run<'a, T> {
                 self.record.failed = Some(time);
             }
             if sampled {
-                let sample = measure(self.panel, &self.solver, share, self.record.start, threshold);
-                self.record.samples.push(sample);
-                self.record.next_sample += self.case.sample;
+                let measured = measure(self.panel, &self.solver, share, self.record.start, threshold);
+                self.record.samples.push(measured);
+                self.record.next_sample += sample;
                 let imbalance = imbalance(&self.record.samples);
-                observer.progress(time / self.case.end, &sample, imbalance);
+                observer.sample(time / last, &measured, imbalance)?;
                 if imbalance.is_nan() || imbalance > LARGEST_IMBALANCE {
                     let moved = number(100.0 * imbalance);
                     return Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")));
                 }
             }
             if drawn {
-                self.record.pictures += 1;
+                self.record.pictures.remove(0);
                 self.record.snapshots.push(Snapshot::of(&self.solver, self.case.sphere.radius));
             }
             if framed {

@@ -68,6 +68,7 @@ pub fn ending(outcome: &Outcome) -> &'static str {
         End::Stopped => "sphere stopped",
         End::Rebounded => "sphere flies back",
         End::Left => "sphere went through",
+        End::Interrupted => "interrupted",
         End::Failed => "an error",
     }
 }
@@ -77,7 +78,7 @@ pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
         End::Left => Some(figures.last.speed),
-        End::Time | End::Failed | End::Rebounded => None,
+        End::Time | End::Failed | End::Interrupted | End::Rebounded => None,
     }
 }
 

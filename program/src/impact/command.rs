@@ -12,8 +12,14 @@ use super::{plot, report, summary, yarn_picture};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::progress;
+use crate::common::run_directory::RunDirectory;
 use crate::common::vtk::Frames;
 
+const SUMMARY: &str = "summary.csv";
+/// Between a case's name and the number of a picture.
+const PICTURES: &str = "-yarn-";
+/// The files of the plot of all cases.
+const COMPARISON: [&str; 2] = ["svg", "png"];
 /// Ticks of the progress bar for each case.
 const TICKS: u64 = 1000;
 
@@ -25,10 +31,14 @@ const TICKS: u64 = 1000;
 /// The input, a file that cannot be written, or the cases that have no result.
 pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
-    if output.exists() && !output.is_dir() {
-        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
+    let directory = RunDirectory::open(output)?;
+    let comparisons = COMPARISON.map(|ending| format!("residual-speed.{ending}"));
+    for name in comparisons.iter().map(String::as_str).chain([SUMMARY]) {
+        directory.remove(name)?;
     }
-    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    for case in &scene.cases {
+        directory.remove_files_of(&case.name, PICTURES, 0)?;
+    }
     let length = TICKS * scene.cases.len() as u64;
     let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let runs: Vec<_> = scene.cases.par_iter().map(|case| run_case(&scene, case, output, &bar)).collect();
@@ -49,10 +59,10 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
 /// What the cases that have a result have in common.
 fn write_comparison(scene: &Scene, results: &[(&Case, Outcome)], output: &Path) -> Result<(), Error> {
     if let Some(abscissa) = scene.abscissa {
-        let [svg, png] = ["residual-speed.svg", "residual-speed.png"].map(|name| output.join(name));
+        let [svg, png] = COMPARISON.map(|ending| output.join(format!("residual-speed.{ending}")));
         plot::write_comparison(&svg, &png, scene, abscissa, results)?;
     }
-    summary::write(&output.join("summary.csv"), results)?;
+    summary::write(&output.join(SUMMARY), results)?;
     print(&report::report(scene, results, output));
     Ok(())
 }
@@ -102,7 +112,7 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
     summary::write_history(&file(".csv"), result)?;
     plot::write_history(&file(".svg"), &file(".png"), scene, case, result)?;
     for (number, snapshot) in result.snapshots.iter().enumerate() {
-        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("-yarn-{}.{ending}", number + 1)));
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
         yarn_picture::write(&svg, &png, scene, case, result, snapshot)?;
     }
     Ok(())
