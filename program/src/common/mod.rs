@@ -14,4 +14,3 @@ pub mod toml_file;
 pub mod unit_expression;
 pub mod units;
 pub mod vtk;
-pub mod warning;

@@ -64,6 +64,46 @@ pub fn table(columns: Vec<Column>, widest: usize) -> String {
     text
 }
 
+/// The text in lines of at most so many letters, where its words allow it; lines after the first are indented.
+pub fn folded(text: &str, widest: usize) -> String {
+    let mut lines = String::new();
+    let mut width = 0;
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > widest {
+            lines.push_str("\n  ");
+            width = GAP.len();
+        } else if width > 0 {
+            lines.push(' ');
+            width += 1;
+        }
+        lines.push_str(word);
+        width += length;
+    }
+    lines
+}
+
+/// Texts that several names share: each once, with its names, in their order.
+pub fn grouped<'a, 'b>(named: impl IntoIterator<Item = (&'a str, &'b str)>) -> Vec<(&'b str, Vec<&'a str>)> {
+    let mut groups: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (name, text) in named {
+        match groups.iter_mut().find(|(known, _)| *known == text) {
+            Some((_, names)) => names.push(name),
+            None => groups.push((text, vec![name])),
+        }
+    }
+    groups
+}
+
+/// The yarns of each case, by the cases' names.
+pub fn yarns_of_cases(yarns: &[(&str, String)], widest: usize) -> String {
+    let groups = grouped(yarns.iter().map(|(case, yarns)| (*case, yarns.as_str())));
+    let line = |(yarns, cases): (&str, Vec<&str>)| {
+        format!("{}\n", folded(&format!("Yarns of {}: {yarns}", cases.join(", ")), widest))
+    };
+    groups.into_iter().map(line).collect()
+}
+
 /// Writes lines of titled cells as CSV; a line without a cell that others have gets [`NONE`] there.
 ///
 /// # Errors

@@ -14,6 +14,7 @@ pub mod element;
 pub mod energies;
 pub mod friction;
 pub mod instructions;
+pub mod judgement;
 pub mod lanes;
 pub mod medium;
 pub mod mesh;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
+use super::judgement::before;
 use super::measure::Sample;
 use super::run::{self, End, Observer, Outcome};
 use super::scene::{Case, Scene};
@@ -18,6 +19,7 @@ use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::common::vtk::Frames;
+use crate::explicit::judgement::warnings;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
 
@@ -64,7 +66,7 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         write_case(&scene, case, &panel, &outcome, output)?;
         failures.extend(outcome.failure.take().map(|error| error.to_string()));
         let interrupted = outcome.end == End::Interrupted;
-        let figures = Figures::of(&panel, &outcome);
+        let figures = Figures::of(&scene.units, case, &panel, &outcome);
         if interrupted {
             let (time, scene, output) = (number(figures.last.time), path.display(), output.display());
             let again = format!("toron fabric {scene} -o {output} --restart");
@@ -104,6 +106,7 @@ fn run_case(
         panel.elements.len(),
         history.display()
     ));
+    print_error(&warnings([(case.name.as_str(), &before(&scene.units, case, panel)[..])]));
     let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let mut observer = CaseObserver {
         name: &case.name,

@@ -3,6 +3,7 @@
 
 pub mod command;
 pub mod file;
+pub mod judgement;
 pub mod measure;
 pub mod model;
 pub mod output;

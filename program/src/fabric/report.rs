@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
-use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use super::summary::{Figures, ending, residual_speed};
-use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
+use super::summary::{Figures, ending, residual_speed, yarns};
+use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
-use crate::common::warning;
-use crate::explicit::lanes::largest;
+use crate::explicit::judgement::warnings;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -21,22 +19,10 @@ type Results<'a> = [(&'a Case, Outcome, Figures)];
 /// Title, table and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
-    let warnings: String =
-        results.iter().filter_map(|(case, outcome, figures)| hourglass_warning(case, outcome, figures)).collect();
-    format!("{}\n\n{table}{}{warnings}\n{}", scene.title, sliding(results), list_files(results, output))
-}
-
-/// A warning where hourglass modes hold too much energy up to the first failure.
-///
-/// The blow excites them before there is much internal energy that they could be held against: a wave must have come to the rim.
-fn hourglass_warning(case: &Case, outcome: &Outcome, figures: &Figures) -> Option<String> {
-    let end = outcome.failed.unwrap_or(f64::INFINITY);
-    figures.front_at_rim.filter(|&time| time <= end)?;
-    let samples = || outcome.samples.iter().take_while(|sample| sample.time <= end);
-    let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
-    let share = most(|sample| sample.energies.hourglass) / most(|sample| sample.energies.internal);
-    let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
-    warning::hourglass(&case.name, share, &remedy)
+    let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
+    let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), yarns(case))).collect();
+    let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), sliding(results));
+    format!("{}\n\n{table}\n{yarns}{sliding}{warnings}\n{}", scene.title, list_files(results, output))
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.
@@ -46,7 +32,11 @@ fn sliding(results: &Results) -> String {
     if cases.is_empty() {
         return String::new();
     }
-    format!("k_ld = 0 in {}: the middle of a section slides along its yarn; 5 to 20 MPa hold it.\n", cases.join(", "))
+    let text = format!(
+        "k_ld = 0 in {}: the middle of a section slides along its yarn; 5 to 20 MPa hold it.",
+        cases.join(", ")
+    );
+    folded(&text, WIDTH) + "\n"
 }
 
 /// The most important columns first.
@@ -67,11 +57,13 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column("residual", &speed, &|_, outcome, figures| or_dash(residual_speed(outcome, figures), number)),
         column("at end", &speed, &|_, outcome, figures| at_end(outcome, figures)),
         column("deflection", &length, &|_, _, figures| number(figures.deflection.0)),
+        column("energy", "off by", &|_, outcome, _| format!("{:.0e}", outcome.imbalance())),
+        column("hourglass", "%", &|_, _, figures| format!("{:.2}", 100.0 * figures.measures.hourglass)),
+        column("Jacobian", "scaled", &|_, _, figures| format!("{:.2}", figures.measures.least_scaled_jacobian)),
+        column("W_ld", "%", &|_, _, figures| format!("{:.1}", 100.0 * figures.measures.shear)),
         column("rim at", &time, &|_, _, figures| or_dash(figures.front_at_rim, number)),
         column("failed at", &time, &|_, outcome, _| or_dash(outcome.failed, number)),
         column("torn", "yarns", &|_, _, figures| figures.last.torn.to_string()),
-        column("energy", "off by", &|_, outcome, _| format!("{:.0e}", outcome.imbalance())),
-        column("hourglass", "%", &|_, _, figures| format!("{:.2}", 100.0 * figures.hourglass)),
         column("elements", "deleted", &|_, _, figures| figures.last.deleted.to_string()),
         column("run", "s", &|_, outcome, _| format!("{:.1}", outcome.wall.as_secs_f64())),
         column("zone cycle", "ns", &|_, _, figures| format!("{:.0}", figures.ns_per_zone_cycle)),

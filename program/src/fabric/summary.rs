@@ -3,14 +3,18 @@
 use std::path::Path;
 use std::time::Duration;
 
+use super::judgement::{Measures, judge};
 use super::measure::{Sample, smallest};
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
 use crate::common::units::number;
+use crate::explicit::judgement::{Finding, verdict};
 use crate::explicit::lanes::largest;
+use crate::material::model;
 use crate::weave::model::Model;
+use toron::host::units::UnitSystem;
 
 /// The front has reached the rim at this part of the way to it: the rim is held, and beside it there is no deflection to see.
 const AT_RIM: f64 = 0.95;
@@ -29,10 +33,13 @@ pub struct Figures {
     /// The largest energy densities of all times.
     pub densities: [f64; 5],
     pub ns_per_zone_cycle: f64,
+    /// Up to the first failure, and what is wrong with the run.
+    pub measures: Measures,
+    pub findings: Vec<Finding>,
 }
 
 impl Figures {
-    pub fn of(panel: &Model, outcome: &Outcome) -> Figures {
+    pub fn of(units: &UnitSystem, case: &Case, panel: &Model, outcome: &Outcome) -> Figures {
         let samples = &outcome.samples;
         let most = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, largest);
         let least = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(1.0, smallest);
@@ -40,15 +47,19 @@ impl Figures {
         let deepest = samples.iter().find(|sample| sample.deflection == deflection);
         let rim = AT_RIM * rim(panel);
         let internal = most(|sample| sample.energies.internal);
+        let front_at_rim = samples.iter().find(|sample| sample.front >= rim).map(|sample| sample.time);
+        let measures = Measures::of(outcome);
         let cycles = outcome.cost.steps as f64 * outcome.elements as f64;
         Figures {
             last: samples.last().copied().unwrap_or_default(),
             deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
-            front_at_rim: samples.iter().find(|sample| sample.front >= rim).map(|sample| sample.time),
+            front_at_rim,
             hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
             worst: [least(|sample| sample.least_volume_ratio), least(|sample| sample.least_scaled_jacobian)],
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
             ns_per_zone_cycle: outcome.cost.total().as_nanos() as f64 / cycles.max(1.0),
+            findings: judge(units, case, panel, outcome, &measures, front_at_rim),
+            measures,
         }
     }
 }
@@ -82,6 +93,15 @@ pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     }
 }
 
+/// The names of a case's materials, from the centre outwards.
+pub fn yarns(case: &Case) -> String {
+    let to = match case.zones {
+        Zones::One(_) => String::new(),
+        Zones::Two(_, radius) => number(radius),
+    };
+    model::names(case.zones.materials(), &to)
+}
+
 fn law(case: &Case) -> String {
     match &case.zones {
         Zones::One(material) => material.law_name().to_string(),
@@ -91,7 +111,7 @@ fn law(case: &Case) -> String {
 
 /// Titles and entries of a case's line.
 fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str, String)> {
-    let Figures { last, deflection: (deflection, deepest_at), .. } = figures;
+    let Figures { last, deflection: (deflection, deepest_at), measures, .. } = figures;
     let seconds = |time: Duration| time.as_secs_f64();
     let total = seconds(outcome.cost.total()).max(f64::MIN_POSITIVE);
     let share = |time: Duration| format!("{:.2}", seconds(time) / total);
@@ -105,6 +125,8 @@ fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str
         ("end", number(last.time)),
         ("residual_speed", or_dash(residual_speed(outcome, figures), number)),
         ("speed_at_end", number(last.speed)),
+        ("verdict", verdict(&figures.findings)),
+        ("material", yarns(case)),
         ("deflection_max", number(*deflection)),
         ("deflection_max_at", number(*deepest_at)),
         ("front_at_rim", or_dash(figures.front_at_rim, number)),
@@ -118,6 +140,10 @@ fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str
         ("slip_at_end", number(last.slip)),
         ("least_volume_ratio", number(figures.worst[0])),
         ("least_scaled_jacobian", number(figures.worst[1])),
+        ("hourglass_to_failure", format!("{:.4}", measures.hourglass)),
+        ("w_ld_to_failure", format!("{:.4}", measures.shear)),
+        ("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian)),
+        ("contact_to_failure", format!("{:.4}", measures.contact)),
     ];
     let names = ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"];
     cells.extend(names.into_iter().zip(figures.densities.map(number)));

@@ -62,7 +62,7 @@ fn write_comparison(scene: &Scene, results: &[(&Case, Outcome)], output: &Path) 
         let [svg, png] = COMPARISON.map(|ending| output.join(format!("residual-speed.{ending}")));
         plot::write_comparison(&svg, &png, scene, abscissa, results)?;
     }
-    summary::write(&output.join(SUMMARY), results)?;
+    summary::write(&output.join(SUMMARY), scene, results)?;
     print(&report::report(scene, results, output));
     Ok(())
 }

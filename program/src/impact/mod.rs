@@ -2,6 +2,7 @@
 
 pub mod command;
 pub mod file;
+pub mod judgement;
 pub mod outcome;
 pub mod plot;
 pub mod reader;

@@ -2,34 +2,32 @@
 
 use std::path::Path;
 
+use super::judgement::judge;
 use super::outcome::Outcome;
-use super::scene::{Case, Scene, Striker, Zones};
-use super::summary::outcome;
-use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table};
+use super::scene::{Case, Scene, Striker};
+use super::summary::{outcome, yarns};
+use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{SPEED, TIME, number, unit};
-use crate::common::warning;
+use crate::explicit::judgement::warnings;
 use crate::material::fibre_wave::FibreWave;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
 /// A case's name of more letters is cut in the table.
 const LONGEST_NAME: usize = 30;
-/// A contact that stores more than this part of the energy is a spring between projectile and yarn.
-const LARGEST_CONTACT: f64 = 0.05;
 
 type Results<'a> = [(&'a Case, Outcome)];
 
 /// Title, tables, warnings and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let waves = waves(scene, results);
-    let of_cases = results.iter().flat_map(|(case, result)| {
-        [hourglass_warning(case, result), contact_warning(case, result)].into_iter().flatten()
-    });
-    let warnings: String = unit_warnings(scene, &waves).into_iter().chain(of_cases).collect();
+    let yarns: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), yarns(case))).collect();
+    let findings: Vec<_> = results.iter().map(|(case, result)| (case, judge(&scene.units, case, result))).collect();
+    let warnings = warnings(findings.iter().map(|(case, findings)| (case.name.as_str(), &findings[..])));
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
-        wave_line(&waves),
+        yarns_of_cases(&yarns, WIDTH) + &wave_line(&waves),
         warnings,
         list_files(scene, results, output),
     ];
@@ -39,10 +37,7 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
 
 /// The waves of all the cases' materials, each once.
 fn waves(scene: &Scene, results: &Results) -> Vec<FibreWave> {
-    let materials = results.iter().flat_map(|(case, _)| match &case.zones {
-        Zones::One(material) => std::slice::from_ref(&**material),
-        Zones::Two(materials, _) => &materials[..],
-    });
+    let materials = results.iter().flat_map(|(case, _)| case.zones.materials());
     let mut waves: Vec<FibreWave> = Vec::new();
     for wave in materials.filter_map(|material| FibreWave::of(material, &scene.units)) {
         if !waves.contains(&wave) {
@@ -69,39 +64,6 @@ fn wave_line(waves: &[FibreWave]) -> String {
     };
     let parts: Vec<String> = formulas.into_iter().map(speeds).collect();
     if parts.is_empty() { String::new() } else { format!("Wave along the fibre: {}\n", parts.join(", ")) }
-}
-
-/// Warnings of likely wrong units, once for all cases with the same wave.
-fn unit_warnings(scene: &Scene, waves: &[FibreWave]) -> Vec<String> {
-    let unit_warnings = waves.iter().filter_map(|wave| wave.unit_warning(&scene.units));
-    unit_warnings.map(|unit_warning| format!("warning: {}\n", unit_warning.replace('\n', "\n  "))).collect()
-}
-
-/// A warning where the contact stores too much energy.
-pub fn contact_warning(case: &Case, result: &Outcome) -> Option<String> {
-    let Striker::Cylinder { cylinder, .. } = case.striker else { return None };
-    let share = result.contact_share();
-    (share > LARGEST_CONTACT).then(|| {
-        format!(
-            "warning: case {}: the contact stored {:.1} % of the energy, more than {:.0} %:\n  \
-             take a larger contact-stiffness than {:e}\n",
-            case.name,
-            100.0 * share,
-            100.0 * LARGEST_CONTACT,
-            cylinder.stiffness
-        )
-    })
-}
-
-/// A warning where hourglass modes hold too much energy.
-///
-/// Before a wave has been at the clamp and back, the yarn has hardly any internal energy that they could be held against.
-pub fn hourglass_warning(case: &Case, result: &Outcome) -> Option<String> {
-    let share = result.hourglass_share();
-    let measured_to = result.broken.map_or(result.last().time, |(time, _)| time);
-    let at_clamp = case.yarn.length / result.smith.fastest;
-    let remedy = format!("a finer mesh, or another hourglass than {}", case.control.hourglass);
-    warning::hourglass(&case.name, share, &remedy).filter(|_| measured_to >= 2.0 * at_clamp)
 }
 
 /// Builds a column of the cases that belong to a table.

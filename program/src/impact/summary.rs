@@ -2,12 +2,16 @@
 
 use std::path::Path;
 
+use super::judgement::judge;
 use super::outcome::{End, Outcome};
-use super::scene::{Case, Outputs, Precision, Striker, Zones};
+use super::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
 use crate::common::units::number;
+use crate::explicit::judgement::verdict;
+use crate::material::model;
 use crate::material::smith::Smith;
+use toron::host::units::UnitSystem;
 
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {
@@ -18,6 +22,15 @@ pub fn outcome(result: &Outcome) -> &'static str {
         (End::Time, Some(_)) => "broken, not over",
         (End::Time, None) => "unbroken, not over",
     }
+}
+
+/// The names of a case's materials, from mid-span outwards.
+pub fn yarns(case: &Case) -> String {
+    let to = match case.zones {
+        Zones::One(_) => String::new(),
+        Zones::Two(_, length) => number(length),
+    };
+    model::names(case.zones.materials(), &to)
 }
 
 fn law(case: &Case) -> String {
@@ -38,11 +51,13 @@ fn law(case: &Case) -> String {
 }
 
 /// Titles and entries of a case's line.
-fn cells(case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
+fn cells(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
     let length = case.yarn.length;
     let mut cells = vec![
         ("case", case.name.clone()),
         ("law", law(case)),
+        ("material", yarns(case)),
+        ("verdict", verdict(&judge(units, case, result))),
         ("elements", result.mesh.elements.len().to_string()),
         ("speed", number(case.speed)),
         ("longitudinal_speed", or_dash(result.front_speed(length, |sample| sample.longitudinal), number)),
@@ -114,8 +129,8 @@ fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, Str
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(file: &Path, results: &[(&Case, Outcome)]) -> Result<(), Error> {
-    let lines: Vec<_> = results.iter().map(|(case, result)| cells(case, result)).collect();
+pub fn write(file: &Path, scene: &Scene, results: &[(&Case, Outcome)]) -> Result<(), Error> {
+    let lines: Vec<_> = results.iter().map(|(case, result)| cells(&scene.units, case, result)).collect();
     write_csv(file, &lines)
 }
 

@@ -15,6 +15,7 @@ use super::section::{Section, Thread};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source};
 use crate::common::units::LENGTH;
+use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 
 const MOST_ALONG: usize = 64;
@@ -42,8 +43,8 @@ pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
     pub woven: Woven,
-    /// Of the yarns, where the scene names a material.
-    pub density: Option<f64>,
+    /// Of the yarns, where the scene names one.
+    pub material: Option<Material>,
 }
 
 impl Scene {
@@ -69,7 +70,7 @@ impl Scene {
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
             woven: source.woven(&file.weave, &units)?,
-            density: material.and_then(|material| material.density),
+            material,
             units,
         })
     }

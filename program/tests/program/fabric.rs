@@ -276,6 +276,8 @@ fn what_nothing_holds_against_sliding_is_said() {
     };
     let ends = [1.0, 16.0].map(stiff);
     assert_eq!(ends, [false, true], "not before a wave has come to the rim");
+    let early = report("early", "hourglass = 1e3");
+    assert!(early.contains("warning: case scene: it ended, or an element failed, after 0.1"), "{early}");
     assert!(!report("held", "hyperelastic.properties = { k_ld = 10.0 }").contains("k_ld = 0 in"));
     assert!(!report("linear", "law = \"linear-elastic\"").contains("k_ld = 0 in"));
 }
@@ -303,6 +305,33 @@ fn a_panel_whose_rim_is_free_is_taken_along() {
     };
     let (fixed, free) = (speed("rim-fixed", "fixed"), speed("rim-free", "free"));
     assert!(fixed < free - 1.0 && free < 40.0, "{fixed} {free}");
+}
+
+/// A scene that is wrong without an error is called so, in the terminal and in the summary.
+#[test]
+fn a_wrong_scene_does_not_look_right() {
+    let sound = "hyperelastic.properties = { k_ld = 126.0 }";
+    let keys = format!(
+        "{sound}\n[[case]]\nname = \"sound\"\n[[case]]\nname = \"heavy\"\nspeed = 4.0\nhyperelastic.density = 1.3514\n\
+         [[case]]\nname = \"needle\"\nradius = 0.05\n"
+    );
+    let (answer, output) = strike("wrong", &scene(6.0, &keys), 2);
+    assert!(answer.status.success());
+    let [report, log] = [&answer.stdout, &answer.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    let wave =
+        "warning: case heavy: kevlar-km2-600 (density = 1.3514; k_ld = 126): the wave along the fibre has 0.2468 km/s";
+    let mesh = "warning: case needle: the sphere's radius of 0.05000 mm is less than 4 edges of the elements' faces";
+    for warning in [wave, "warning: case heavy: the panel weighs 177.", mesh] {
+        // Before hours are spent, and at the end.
+        assert!(report.contains(warning) && log.contains(warning), "{report}\n{log}");
+    }
+    assert!(
+        report.contains("warning: case needle: hourglass energy is ") && !report.contains("case sound:"),
+        "{report}"
+    );
+    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("a file");
+    let verdicts = [",sound,", ",units; transient,", ",mesh; hourglass; jacobian,"];
+    assert!(summary.lines().skip(1).zip(verdicts).all(|(line, verdict)| line.contains(verdict)), "{summary}");
 }
 
 /// The default yarn of the other law beside one's own is most likely an oversight.

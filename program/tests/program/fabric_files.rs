@@ -65,6 +65,11 @@ fn a_blow_writes_all_files() {
     let summary = read("summary.csv");
     assert!(summary.starts_with("case,law,precision,elements,speed,ending,end,residual_speed,"), "{summary}");
     assert_eq!(summary.lines().count(), 3);
+    assert!(report.contains("hourglass  Jacobian  W_ld"), "{report}");
+    let yarns = ["Yarns of yarns: kevlar-km2-600 (k_ld = 126)\n", "Yarns of linear: kevlar-km2-600-linear\n"];
+    assert!(yarns.iter().all(|line| report.contains(line)), "{report}");
+    let materials = [",kevlar-km2-600 (k_ld = 126),", ",kevlar-km2-600-linear,"];
+    assert!(summary.lines().skip(1).zip(materials).all(|(line, material)| line.contains(material)), "{summary}");
     for case in ["yarns", "linear"] {
         assert!(read(&format!("{case}.csv")).lines().count() > 5);
         for picture in [case.to_string(), format!("{case}-panel-1"), format!("{case}-panel-2")] {
@@ -83,9 +88,29 @@ fn a_blow_writes_all_files() {
 
     let elements = summary.lines().nth(1).and_then(|line| line.split(',').nth(3)).expect("elements");
     let grid = read("yarns-0002.vtu");
-    for part in [&format!("NumberOfCells=\"{elements}\""), "\"displacement\"", "\"velocity\"", "\"w_el\"", "\"yarn\""] {
+    for part in [
+        &format!("NumberOfCells=\"{elements}\""),
+        "\"displacement\"",
+        "\"velocity\"",
+        "\"w_el\"",
+        "\"yarn\"",
+        "\"cauchy\"",
+    ] {
         assert!(grid.contains(part), "{part}");
     }
+    // W_el = ½ k_el I_el² where the fibre is drawn, and its failure index has no limit here.
+    let array = |name: &str| -> Vec<f64> {
+        let (_, rest) = grid.split_once(&format!("Name=\"{name}\"")).unwrap_or_else(|| panic!("{name}"));
+        let values = rest.split_once('\n').and_then(|(_, rest)| rest.split_once("</DataArray>")).expect("values").0;
+        values.split_whitespace().map(|value| value.parse().expect("a number")).collect()
+    };
+    let (w_el, i_el, cauchy) = (array("w_el"), array("i_el"), array("cauchy"));
+    assert!(cauchy.len() == 6 * w_el.len() && cauchy.iter().any(|stress| stress.abs() > 1.0));
+    for (w, i) in w_el.iter().zip(&i_el) {
+        let expected = if *i > 0.0 { 0.5 * 82341.0 * i * i } else { 0.0 };
+        assert!((w - expected).abs() <= 1e-5 * expected, "{w} {expected}");
+    }
+    assert!(w_el.iter().any(|&w| w > 1e-3) && array("failure_index").iter().all(|&index| index == 0.0));
     assert_eq!(read("yarns.pvd").matches("<DataSet ").count(), 3);
     assert!(!exists("linear.pvd"));
 }
@@ -112,4 +137,19 @@ fn wrong_keys_are_named() {
         let error = String::from_utf8(answer.stderr).expect("UTF-8");
         assert!(!answer.status.success() && error.contains(message), "{error}");
     }
+}
+
+/// What an earlier run of the scene has left goes when a case begins, and nothing else.
+#[test]
+fn nothing_of_an_earlier_run_stays() {
+    let output = folder("fabric-stale");
+    let stale = ["yarns-panel-3.png", "yarns-0003.vtu", "linear-0000.vtu", "linear.pvd"];
+    let others = ["other.csv", "yarns.toml", "yarns-more.csv"];
+    for name in stale.iter().chain(&others) {
+        std::fs::write(output.join(name), "").expect("a file");
+    }
+    let (answer, _) = run("fabric-stale", SCENE);
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let found = |names: &[&str]| names.iter().filter(|name| output.join(name).exists()).count();
+    assert_eq!((found(&stale), found(&others)), (0, 3));
 }

@@ -16,8 +16,9 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
+use toron_program::explicit::judgement::Finding;
+use toron_program::impact::judgement::{contact, hourglass};
 use toron_program::impact::outcome::{End, Outcome, Sample};
-use toron_program::impact::report::{contact_warning, hourglass_warning};
 use toron_program::impact::run;
 use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
 use toron_program::material::model::Law;
@@ -295,19 +296,19 @@ fn much_hourglass_energy_is_warned_of() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
     case.end = 0.004;
     let mut result = run(&case);
-    assert_eq!(hourglass_warning(&case, &result), None, "{}", result.hourglass_share());
+    assert_eq!(hourglass(&case, &result), None, "{}", result.hourglass_share());
     let largest = result.last().energies.internal;
     result.samples.last_mut().expect("there are samples").energies.hourglass = 0.14 * largest;
-    let warning = hourglass_warning(&case, &result).expect("it is more than a tenth");
+    let warning = hourglass(&case, &result).expect("it is more than a tenth");
     assert_eq!(
-        warning,
-        "warning: case mf-120: hourglass energy is 14.0 % of the largest internal energy, more than 10 %:\n  \
-         take a finer mesh, or another hourglass than 0.1\n"
+        warning.text,
+        "hourglass energy is 14.0 % of the largest internal energy, more than 10 %:\n  \
+         take a finer mesh, or another hourglass than 0.1"
     );
     // There and back, 25.4 mm at 7806 m/s are 3.25 µs.
     result.samples.retain(|sample| sample.time < 0.0032);
     result.samples.last_mut().expect("some are left").energies.hourglass = largest;
-    assert_eq!(hourglass_warning(&case, &result), None);
+    assert_eq!(hourglass(&case, &result), None);
 }
 
 /// A contact that stores more than a twentieth of the energy is warned of.
@@ -316,13 +317,13 @@ fn a_soft_contact_is_warned_of() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
     case.end = 0.004;
     let mut result = run(&case);
-    assert_eq!(contact_warning(&case, &result), None, "{}", result.contact_share());
+    assert_eq!(contact(&case, &result), None, "{}", result.contact_share());
     let energy = result.samples[0].energies.total();
     result.samples.last_mut().expect("there are samples").energies.contact = 0.06 * energy;
     assert_eq!(
-        contact_warning(&case, &result).expect("it is more than a twentieth"),
-        "warning: case mf-120: the contact stored 6.0 % of the energy, more than 5 %:\n  \
-         take a larger contact-stiffness than 1e6\n"
+        contact(&case, &result).map(|Finding { text, .. }| text).expect("it is more than a twentieth"),
+        "the contact stored 6.0 % of the energy, more than 5 %:\n  \
+         take a larger contact-stiffness than 1e6"
     );
 }
 
@@ -412,6 +413,16 @@ fn errors_say_what_is_wrong() {
         "scene.toml:11: speed is 120; allowed: up to 4.480, which stretches the yarn by 0.5;\n\
          the wave along the fibre has 0.007806 km/s, and fibres have 1 to 20:\n\
          density or k_el is most likely not in the units of the file, mm-g-ms"
+    );
+    let own =
+        "law = \"hyperelastic\", density = 1.44e-3, properties = { k_el = 9e4, k_tc = 1e3, p = 2.2, k_td = 650.0 }";
+    assert_eq!(
+        scene(&format!(
+            "layers = 100\nhyperelastic = {{ {own} }}\n[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nlaw = \"linear-elastic\""
+        )),
+        "scene.toml:17: linear-elastic names no yarn, and the scene has one of its own, hyperelastic; \
+         allowed: linear-elastic.preset or linear-elastic.law \
+         (the default is linear-elastic.preset = \"kevlar-km2-600-linear\")"
     );
     let linear = "linear-elastic = { properties = { sigma_lim = 0.0 } }";
     assert_eq!(
@@ -560,9 +571,21 @@ fn the_program_writes_what_came_of_a_scene() {
     std::fs::write(directory.join("scene.toml"), text).expect("the scene can be written");
     let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_toron"));
     program.args(["impact", "scene.toml", "-o", "out"]).current_dir(&directory);
+    // A picture and a frame of an earlier run, and what is not of this scene.
+    std::fs::create_dir_all(directory.join("out")).expect("a directory");
+    for stale in ["a-yarn-7.png", "a-0009.vtu", "other.csv"] {
+        std::fs::write(directory.join("out").join(stale), "").expect("a file");
+    }
     let output = program.output().expect("the program starts");
+    let left = |name: &str| directory.join("out").join(name).exists();
+    assert!(!left("a-yarn-7.png") && !left("a-0009.vtu") && left("other.csv"));
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(
+        said.contains("\nYarns of a, b,\n  c-of-a-name") || said.contains("\nYarns of a, b, c-of-a-name"),
+        "{said}"
+    );
+    assert!(said.contains(": kevlar-km2-600\n"), "{said}");
     let heading = "case  how it ended        at end  elements  energy  run\n                           mm/ms   deleted  off by    s\n";
     assert!(said.contains(heading), "{said}");
     assert!(said.contains("\na     unbroken, not over") && said.contains("\nb     unbroken, not over"), "{said}");
@@ -579,6 +602,13 @@ fn the_program_writes_what_came_of_a_scene() {
             let known = page.contains(column) || ["width_2", "width_3"].contains(&column);
             assert!(known, "docs/reference/impact-files.md does not know {column}");
         }
+    }
+    let summary = read("summary.csv");
+    assert!(
+        summary.starts_with("case,law,material,verdict,") && summary.contains("\na,hyperelastic,kevlar-km2-600,sound,")
+    );
+    for part in ["\"i_tc\"", "\"failure_index\"", "\"cauchy\" NumberOfComponents=\"6\" ComponentName0=\"11\""] {
+        assert!(grid.contains(part), "{part}");
     }
     let history = read("b.csv");
     assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");

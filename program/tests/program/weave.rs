@@ -43,3 +43,22 @@ impl Picture {
         dots.iter().filter(|dot| such(colour(dot))).count() as f64 / dots.len() as f64
     }
 }
+
+/// In a system of millimetres and tonnes a density in g/mm³ is a thousand times too large.
+#[test]
+fn a_panel_that_no_fabric_weighs_is_warned_of() {
+    let output = folder("weave-units");
+    let scene = output.join("scene.toml");
+    let text = "units = \"mm-tonne-s\"\n[weave]\npreset = \"kevlar-s706\"\n[weave.panel]\nshape = \"circle\"\nradius = 2.0\n\
+                [material]\npreset = \"kevlar-km2-600\"\ndensity = 1.3514e-6\n";
+    std::fs::write(&scene, text).expect("a file");
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    let answer = program.arg("weave").arg(&scene).arg("-o").arg(&output).output().expect("it starts");
+    let text = String::from_utf8(answer.stdout).expect("UTF-8");
+    for warning in [
+        "\nwarning: the wave along the fibre has 0.2468 km/s, and fibres have 1 to 20:\n  density or k_el is most likely not",
+        "\nwarning: the panel weighs 177.",
+    ] {
+        assert!(answer.status.success() && text.contains(warning), "{text}");
+    }
+}

@@ -1,0 +1,125 @@
+//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/fabric.md` has the thresholds.
+
+use crate::common::text_table::{folded, grouped};
+use crate::material::fibre_wave::FibreWave;
+use crate::material::model::Material;
+use toron::host::units::UnitSystem;
+
+/// The largest part of the internal energy that hourglass modes may hold.
+const LARGEST_HOURGLASS: f64 = 0.1;
+/// A contact that stores more than this part of the energy is a spring between what strikes and what is struck.
+const LARGEST_CONTACT: f64 = 0.05;
+/// The total energy may move by this part of itself; a run in which it moves by five times that ends with an error.
+const LARGEST_IMBALANCE: f64 = 0.01;
+/// Columns for the names of the cases that a warning is of.
+const WIDTH: usize = 98;
+
+/// The verdict of a run with which nothing is wrong.
+pub const SOUND: &str = "sound";
+
+/// Something that is wrong with a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// A word for tables.
+    pub name: &'static str,
+    /// What it is, by which bound, and what to change; lines after the first are indented.
+    pub text: String,
+}
+
+impl Finding {
+    pub fn new(name: &'static str, text: String) -> Finding {
+        Finding { name, text: text.replace('\n', "\n  ") }
+    }
+}
+
+/// The words of all findings, each once.
+pub fn verdict(findings: &[Finding]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for finding in findings {
+        if !names.contains(&finding.name) {
+            names.push(finding.name);
+        }
+    }
+    if names.is_empty() { SOUND.to_string() } else { names.join("; ") }
+}
+
+/// Warnings of what was found in each case; what is wrong with several in the same way stands there once.
+pub fn warnings<'a>(findings: impl IntoIterator<Item = (&'a str, &'a [Finding])>) -> String {
+    let named = findings.into_iter().flat_map(|(case, findings)| findings.iter().map(move |f| (case, f.text.as_str())));
+    let warning = |(text, cases): (&str, Vec<&str>)| match &cases[..] {
+        [case] => format!("warning: case {case}: {text}\n"),
+        cases => format!("{}:\n  {text}\n", folded(&format!("warning: cases {}", cases.join(", ")), WIDTH)),
+    };
+    grouped(named).into_iter().map(warning).collect()
+}
+
+/// Where hourglass modes hold too large a part of the largest internal energy; `remedy` says what to take instead.
+pub fn hourglass(share: f64, remedy: &str) -> Option<Finding> {
+    let exceeds = share.is_nan() || share > LARGEST_HOURGLASS;
+    exceeds.then(|| {
+        let [share, most] = [share, LARGEST_HOURGLASS].map(|share| 100.0 * share);
+        let text = format!(
+            "hourglass energy is {share:.1} % of the largest internal energy, more than {most:.0} %:\ntake {remedy}"
+        );
+        Finding::new("hourglass", text)
+    })
+}
+
+/// Where the contact stores too large a part of the energy.
+pub fn contact(share: f64, stiffness: f64) -> Option<Finding> {
+    let exceeds = share.is_nan() || share > LARGEST_CONTACT;
+    exceeds.then(|| {
+        let [share, most] = [share, LARGEST_CONTACT].map(|share| 100.0 * share);
+        let text = format!(
+            "the contact stored {share:.1} % of the energy, more than {most:.0} %:\n\
+             take a larger contact-stiffness than {stiffness:e}"
+        );
+        Finding::new("contact", text)
+    })
+}
+
+/// Where the total energy has moved too far.
+pub fn balance(imbalance: f64) -> Option<Finding> {
+    let exceeds = imbalance.is_nan() || imbalance > LARGEST_IMBALANCE;
+    exceeds.then(|| {
+        let [off, most] = [imbalance, LARGEST_IMBALANCE].map(|part| 100.0 * part);
+        let text = format!(
+            "the total energy is {off:.1} % from what it was, more than {most:.0} %:\n\
+             take a finer mesh, or look in the history for what jumps with it: elements deleted, contact"
+        );
+        Finding::new("balance", text)
+    })
+}
+
+/// Materials in which the wave along the fibre has a speed that no fibre has.
+pub fn units(materials: &[Material], units: &UnitSystem) -> Vec<Finding> {
+    let finding = |material: &Material| {
+        let warning = FibreWave::of(material, units)?.unit_warning(units)?;
+        Some(Finding::new("units", format!("{}: {warning}", material.name())))
+    };
+    materials.iter().filter_map(finding).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_finding_that_cases_share_is_said_once() {
+        let [one, other] = ["one\nand more", "other"].map(|text| Finding::new("word", text.to_string()));
+        let (both, single) = ([one, other.clone()], [other]);
+        let text = warnings([("a", &both[..]), ("b", &single), ("c", &[])]);
+        assert_eq!(text, "warning: case a: one\n  and more\nwarning: cases a, b:\n  other\n");
+        assert_eq!((verdict(&both).as_str(), verdict(&[]).as_str()), ("word", "sound"));
+    }
+
+    #[test]
+    fn bounds_and_what_is_no_number_are_found() {
+        let found = |of: fn(f64) -> Option<Finding>, most: f64| {
+            [0.99 * most, 1.01 * most, f64::NAN].map(|value| of(value).is_some())
+        };
+        assert_eq!(found(|share| hourglass(share, "less"), 0.1), [false, true, true]);
+        assert_eq!(found(|share| contact(share, 1.0), 0.05), [false, true, true]);
+        assert_eq!(found(balance, 0.01), [false, true, true]);
+    }
+}

@@ -1,0 +1,282 @@
+//! Whether a strike can be believed: the finished run is held against bounds, and each verdict says what to change.
+//! `docs/fabric.md` has the bounds and why they are where they are.
+//!
+//! A run is judged up to the first failure: afterwards torn shreds whip about, which carry nothing.
+
+use nalgebra::Vector3;
+
+use super::measure::{Sample, smallest};
+use super::run::Outcome;
+use super::scene::Case;
+use crate::common::units::{LENGTH, number, unit};
+use crate::explicit::judgement::{self, Finding};
+use crate::explicit::lanes::largest;
+use crate::weave::figures::Figures as WeaveFigures;
+use crate::weave::model::Model;
+use crate::weave::report::areal_density_warning;
+use toron::host::units::UnitSystem;
+
+/// The sphere's radius has to hold so many edges of the elements' faces.
+const EDGES: f64 = 4.0;
+/// No corner of an element may be further inside out.
+const LEAST_JACOBIAN: f64 = -0.5;
+/// Longitudinal shear may hold this part of what the laws store.
+const LARGEST_SHEAR: f64 = 0.5;
+/// Over a yarn's height: how far the sphere may get ahead of the panel.
+const DEEPEST: f64 = 0.5;
+
+/// What is measured up to the first failure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// The largest hourglass energy over the largest internal energy.
+    pub hourglass: f64,
+    /// The largest energy of longitudinal shear over the largest that the laws store.
+    pub shear: f64,
+    pub least_scaled_jacobian: f64,
+    /// The largest energy in the contact over that of the sphere at first.
+    pub contact: f64,
+    /// How far the sphere is ahead of the panel at most.
+    pub ahead: f64,
+    /// Elements that have collapsed.
+    pub collapsed: usize,
+    /// Of the sphere.
+    pub travel: f64,
+}
+
+impl Measures {
+    pub fn of(outcome: &Outcome) -> Measures {
+        let end = outcome.failed.unwrap_or(f64::INFINITY);
+        let samples = || outcome.samples.iter().take_while(|sample| sample.time <= end);
+        let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
+        let share = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
+        let internal = most(|sample| sample.energies.internal);
+        let start = outcome.samples.first().map_or(0.0, |sample| sample.energies.total());
+        Measures {
+            hourglass: share(most(|sample| sample.energies.hourglass), internal),
+            shear: share(most(|sample| sample.parts[3]), most(|sample| sample.parts.iter().sum())),
+            least_scaled_jacobian: samples().map(|sample| sample.least_scaled_jacobian).fold(1.0, smallest),
+            contact: share(most(|sample| sample.energies.contact), start),
+            ahead: most(|sample| sample.travel - sample.deflection),
+            collapsed: samples().map(|sample| sample.collapsed).max().unwrap_or(0),
+            travel: most(|sample| sample.travel),
+        }
+    }
+}
+
+/// What is wrong before the first step.
+pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
+    let mut findings = judgement::units(case.zones.materials(), units);
+    let density = case.zones.inner().density.unwrap_or_default();
+    let by_area = WeaveFigures::of(panel, &case.woven.geometry).volume_by_area;
+    let areal_density = areal_density_warning(by_area, density, units);
+    findings.extend(areal_density.map(|text| Finding::new("units", text)));
+    findings.extend(coarse(units, case, panel));
+    findings
+}
+
+/// What is wrong with a run that has ended; `front_at_rim` is when the transverse wave came to the rim.
+pub fn judge(
+    units: &UnitSystem,
+    case: &Case,
+    panel: &Model,
+    outcome: &Outcome,
+    measures: &Measures,
+    front_at_rim: Option<f64>,
+) -> Vec<Finding> {
+    let mut findings = before(units, case, panel);
+    let ended = outcome.failed.unwrap_or(f64::INFINITY);
+    let spread = measures.travel >= case.sphere.radius || front_at_rim.is_some_and(|time| time <= ended);
+    if spread {
+        let remedy = format!("a finer mesh, a larger k_ld, or another hourglass than {}", case.control.hourglass);
+        findings.extend(judgement::hourglass(measures.hourglass, &remedy));
+        findings.extend(shear(case, measures));
+    } else {
+        findings.extend(transient(units, case, measures));
+    }
+    findings.extend(distorted(measures));
+    findings.extend(collapsed(case, measures));
+    findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
+    findings.extend(sunk(units, case, measures));
+    findings.extend(judgement::balance(outcome.imbalance()));
+    findings
+}
+
+/// A sphere that the mesh cannot tell from a needle: it meets nodes, few of them.
+fn coarse(units: &UnitSystem, case: &Case, panel: &Model) -> Option<Finding> {
+    let node = |number: u32| Vector3::from(panel.nodes[number as usize]);
+    let edges = panel
+        .faces
+        .iter()
+        .flat_map(|face| (0..4).map(|i| (node(face.nodes[i]) - node(face.nodes[(i + 1) % 4])).norm()));
+    let longest = edges.fold(0.0, largest);
+    let radius = case.sphere.radius;
+    (EDGES * longest > radius).then(|| {
+        let unit = unit(units, LENGTH);
+        let text = format!(
+            "the sphere's radius of {} {unit} is less than {EDGES} edges of the elements' faces, {} {unit} long:\n\
+             take a finer mesh, with more elements along and columns",
+            number(radius),
+            number(longest)
+        );
+        Finding::new("mesh", text)
+    })
+}
+
+/// A run that has ended, or broken, while the blow still shakes the mesh where the sphere has hit it.
+///
+/// There is hardly any internal energy then that hourglass modes and shear could be held against: in sound runs they have half of
+/// it and more at first.
+fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
+    let much = judgement::hourglass(measures.hourglass, "").is_some() || shear(case, measures).is_some();
+    much.then(|| {
+        let [hourglass, shear] = [measures.hourglass, measures.shear].map(|share| 100.0 * share);
+        let unit = unit(units, LENGTH);
+        let text = format!(
+            "it ended, or an element failed, after {} {unit} of the sphere's way, less than its radius, and before the\n\
+             transverse wave was at the rim: too early to judge hourglass energy, {hourglass:.0} % of the internal energy, and\n\
+             W_ld, {shear:.0} % of it: take a later end, or a finer mesh",
+            number(measures.travel)
+        );
+        Finding::new("transient", text)
+    })
+}
+
+/// Sections that do little but slide along their yarns.
+fn shear(case: &Case, measures: &Measures) -> Option<Finding> {
+    let exceeds = measures.shear.is_nan() || measures.shear > LARGEST_SHEAR;
+    exceeds.then(|| {
+        let k_ld = case.zones.materials().iter().filter_map(|material| material.property("k_ld")).fold(0.0, largest);
+        let text = format!(
+            "W_ld of longitudinal shear is {:.0} % of what the laws store, more than {:.0} %:\n\
+             take a finer mesh, or another k_ld than {}",
+            100.0 * measures.shear,
+            100.0 * LARGEST_SHEAR,
+            number(k_ld)
+        );
+        Finding::new("shear", text)
+    })
+}
+
+/// Elements whose corners are inside out.
+fn distorted(measures: &Measures) -> Option<Finding> {
+    let least = measures.least_scaled_jacobian;
+    let below = least.is_nan() || least < LEAST_JACOBIAN;
+    below.then(|| {
+        let text = format!(
+            "an element's corner is inside out, with a scaled Jacobian of {least:.2}, less than {LEAST_JACOBIAN}:\n\
+             take a finer mesh, a larger k_ld or contact-stiffness, or a failure if the yarns would break"
+        );
+        Finding::new("jacobian", text)
+    })
+}
+
+/// Elements that are deleted while all yarns are whole.
+fn collapsed(case: &Case, measures: &Measures) -> Option<Finding> {
+    (measures.collapsed > 0).then(|| {
+        let text = format!(
+            "{} elements have collapsed before any failed:\n\
+             take a finer mesh, a larger k_ld, or another hourglass than {}",
+            measures.collapsed, case.control.hourglass
+        );
+        Finding::new("collapsed", text)
+    })
+}
+
+/// A sphere that goes into the yarns instead of taking them along.
+fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
+    let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+    let exceeds = measures.ahead.is_nan() || measures.ahead > DEEPEST * height;
+    exceeds.then(|| {
+        let (ahead, unit) = (number(measures.ahead), unit(units, LENGTH));
+        let text = format!(
+            "the sphere is up to {ahead} {unit} ahead of the panel, more than {DEEPEST} of a yarn's height, before a yarn fails:\n\
+             take a larger contact-stiffness than {:e}, or a finer mesh",
+            case.sphere.stiffness
+        );
+        Finding::new("penetration", text)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explicit::judgement::verdict;
+    use crate::fabric::run::End;
+    use crate::fabric::scene::Scene;
+
+    /// A run of the coarse example, but for its size.
+    const SOUND: Measures = Measures {
+        hourglass: 0.0076,
+        shear: 0.032,
+        least_scaled_jacobian: -0.193,
+        contact: 0.0123,
+        ahead: 0.0038,
+        collapsed: 0,
+        travel: 5.404,
+    };
+
+    /// The verdict of a panel that a sphere of this radius strikes; the density as a factor, how far the energy is off.
+    fn verdict_of(measures: Measures, radius: f64, density: f64, off: f64, front_at_rim: Option<f64>) -> String {
+        let density = 1.3514e-3 * density;
+        let text = format!(
+            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+             [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
+             [scene]\nspeed = 1.0\nmass = 1.0\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
+             hyperelastic.density = {density}\n"
+        );
+        let scene = Scene::parse("patch.toml", &text).expect("a scene");
+        let (case, panel) = (&scene.cases[0], scene.cases[0].woven.model());
+        let sample = |total: f64| {
+            let mut sample = Sample::default();
+            sample.energies.projectile = total;
+            sample
+        };
+        let outcome = Outcome {
+            samples: vec![sample(1.0), sample(1.0 - off)],
+            snapshots: Vec::new(),
+            end: End::Time,
+            failed: None,
+            failure: None,
+            elements: 1,
+            cost: Default::default(),
+            searches: 0,
+            wall: Default::default(),
+        };
+        verdict(&judge(&scene.units, case, &panel, &outcome, &measures, front_at_rim))
+    }
+
+    #[test]
+    fn each_bound_has_its_verdict() {
+        let of = |measures: Measures| verdict_of(measures, 2.778, 1.0, 1e-5, None);
+        assert_eq!(of(SOUND), "sound");
+        for (measures, verdict) in [
+            (Measures { hourglass: 0.11, ..SOUND }, "hourglass"),
+            (Measures { hourglass: f64::NAN, ..SOUND }, "hourglass"),
+            (Measures { shear: 0.51, ..SOUND }, "shear"),
+            (Measures { least_scaled_jacobian: -0.51, ..SOUND }, "jacobian"),
+            (Measures { least_scaled_jacobian: f64::NAN, ..SOUND }, "jacobian"),
+            (Measures { contact: 0.051, ..SOUND }, "contact"),
+            (Measures { ahead: 0.058, ..SOUND }, "penetration"),
+            (Measures { collapsed: 1, ..SOUND }, "collapsed"),
+            (
+                Measures { hourglass: 1.5, least_scaled_jacobian: -0.997, shear: 0.9, ..SOUND },
+                "hourglass; shear; jacobian",
+            ),
+        ] {
+            assert_eq!(of(measures), verdict, "{measures:?}");
+        }
+        assert_eq!(verdict_of(SOUND, 2.778, 1.0, 0.011, None), "balance");
+        assert_eq!(verdict_of(SOUND, 0.7, 1.0, 1e-5, None), "mesh");
+        // Of the wave, and of the panel's weight.
+        assert_eq!(verdict_of(SOUND, 2.778, 1000.0, 1e-5, None), "units");
+        assert_eq!(verdict_of(SOUND, 2.778, 1e-3, 1e-5, None), "units");
+    }
+
+    #[test]
+    fn the_blow_s_own_waves_are_no_measure_and_are_not_passed_over() {
+        let early = |hourglass: f64| Measures { hourglass, shear: 0.6, travel: 1.0, ..SOUND };
+        assert_eq!(verdict_of(early(0.2), 2.778, 1.0, 1e-5, None), "transient");
+        assert_eq!(verdict_of(early(0.2), 2.778, 1.0, 1e-5, Some(0.1)), "hourglass; shear");
+        assert_eq!(verdict_of(Measures { travel: 1.0, ..SOUND }, 2.778, 1.0, 1e-5, None), "sound");
+    }
+}
