@@ -1,4 +1,4 @@
-//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/fabric.md` has the thresholds.
+//! What a run is judged by, in both scenes: what is wrong with it, and what to change. `docs/guides/fabric.md` has the thresholds.
 
 use crate::common::text_table::{folded, grouped};
 use crate::material::fibre_wave::FibreWave;

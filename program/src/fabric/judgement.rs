@@ -1,5 +1,5 @@
 //! Whether a strike can be believed: the finished run is held against bounds, and each verdict says what to change.
-//! `docs/fabric.md` has the bounds and why they are where they are.
+//! `docs/guides/fabric.md` has the bounds and why they are where they are.
 //!
 //! A run is judged up to the first failure: afterwards torn shreds whip about, which carry nothing.
 

@@ -1,4 +1,4 @@
-//! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/impact.md` has the bounds.
+//! What is wrong with a run, as far as the yarn's scenes have it, and what to change; `docs/guides/impact.md` has the bounds.
 
 use super::outcome::Outcome;
 use super::scene::{Case, Striker};
