@@ -95,12 +95,14 @@ pub fn grouped<'a, 'b>(named: impl IntoIterator<Item = (&'a str, &'b str)>) -> V
     groups
 }
 
-/// The yarns of each case, by the cases' names.
+/// The yarns of the cases of these names, which are named where they differ.
 pub fn yarns_of_cases(yarns: &[(&str, String)], widest: usize) -> String {
     let groups = grouped(yarns.iter().map(|(case, yarns)| (*case, yarns.as_str())));
-    let line = |(yarns, cases): (&str, Vec<&str>)| {
-        format!("{}\n", folded(&format!("Yarns of {}: {yarns}", cases.join(", ")), widest))
-    };
+    if let [(yarns, _)] = groups[..] {
+        return folded(&format!("Yarns: {yarns}"), widest) + "\n";
+    }
+    let line =
+        |(yarns, cases): (&str, Vec<&str>)| folded(&format!("Yarns of {}: {yarns}", cases.join(", ")), widest) + "\n";
     groups.into_iter().map(line).collect()
 }
 
@@ -130,4 +132,25 @@ pub fn files(directory: &Path, files: &[(bool, &str, &str)]) -> String {
     let written = files.iter().filter(|(written, ..)| *written);
     let lines = written.map(|(_, names, meaning)| format!("  {names:<28}{meaning}\n"));
     format!("Files in {}:\n{}", directory.display(), lines.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_folded_at_words() {
+        assert_eq!(folded("one two three", 13), "one two three");
+        assert_eq!(folded("one two three", 12), "one two\n  three");
+        assert_eq!(folded("seventeen letters", 3), "seventeen\n  letters");
+    }
+
+    #[test]
+    fn cases_are_named_where_their_yarns_differ() {
+        let of = |yarns: [&str; 3]| {
+            yarns_of_cases(&["a", "b", "c"].into_iter().zip(yarns.map(str::to_string)).collect::<Vec<_>>(), 80)
+        };
+        assert_eq!(of(["one"; 3]), "Yarns: one\n");
+        assert_eq!(of(["one", "two", "one"]), "Yarns of a, c: one\nYarns of b: two\n");
+    }
 }

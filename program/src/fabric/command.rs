@@ -59,6 +59,7 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     let directory = RunDirectory::open(output)?;
     directory.remove(SUMMARY)?;
     let interrupt = Interrupt::listen()?;
+    print_error("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
     let (mut results, mut failures) = (Vec::new(), Vec::new());
     for case in &scene.cases {
         let panel = case.woven.model();
@@ -100,12 +101,8 @@ fn run_case(
         print_error(&format!("case {}: {how}\n", case.name));
     }
     let history = output.join(format!("{}.csv", case.name));
-    print_error(&format!(
-        "case {}: {} elements; the history grows in {}; Ctrl-C writes a checkpoint, from which --restart goes on\n",
-        case.name,
-        panel.elements.len(),
-        history.display()
-    ));
+    let elements = panel.elements.len();
+    print_error(&format!("case {}: {elements} elements, its history grows in {}\n", case.name, history.display()));
     print_error(&warnings([(case.name.as_str(), &before(&scene.units, case, panel)[..])]));
     let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let mut observer = CaseObserver {

@@ -340,7 +340,7 @@ fn a_default_yarn_beside_one_s_own_is_refused() {
     let own = "hyperelastic = { law = \"hyperelastic\", density = 1.44e-3, \
                properties = { k_el = 9e4, k_tc = 1e3, p = 2.2, k_td = 650.0, k_ld = 20.0 } }";
     let cases = "[[case]]\nname = \"own\"\n[[case]]\nname = \"other\"\nlaw = \"linear-elastic\"";
-    let (answer, output) = strike("own-yarn", &scene(0.5, &format!("{own}\n{cases}")), 1);
+    let (answer, output) = strike("default-yarn", &scene(0.5, &format!("{own}\n{cases}")), 1);
     let error = String::from_utf8_lossy(&answer.stderr).into_owned();
     let wanted =
         "scene.toml:21: linear-elastic names no yarn, and the scene has one of its own, hyperelastic; allowed: ";
