@@ -78,9 +78,10 @@ fn run_loads(program: Option<&Path>, scene: &Scene, model: &Model, output: &Path
     let done = Mutex::new(vec![0.0; scene.loads.len()]);
     let start = Instant::now();
     let one = |(number, &load): (usize, &Load)| {
-        let mut lines = 0;
+        let mut lines: u32 = 0;
         let mut progress = |part: f64| {
-            // Where there is no terminal for the bar, there are lines.
+            // Where there is no terminal for the bar, there are lines. A load that is taken again begins anew.
+            lines = lines.min((part * LINES) as u32);
             if bar.is_hidden() && part >= f64::from(lines + 1) / LINES {
                 lines = (part * LINES) as u32;
                 let seconds = start.elapsed().as_secs();
@@ -115,15 +116,12 @@ fn run_load(
     let outcome = match program {
         None => explicit_run::run(scene, model, load, progress)?,
         Some(program) => {
-            let task = run::task(scene, model, load);
-            let deck = run::deck(&task);
-            output::write(&file("inp"), &deck)?;
             let threads = match scene.arrangement {
                 Arrangement::Cell(_) => 1,
                 Arrangement::Box(_) => std::thread::available_parallelism().map_or(1, usize::from),
             };
             let job = Job { program, output, name: load.name(), threads };
-            run::run(&job, &task, &deck, progress)?
+            run::run(&job, run::task(scene, model, load), progress)?
         }
     };
     output::write(&file("csv"), &output::table(scene, &outcome))?;

@@ -34,6 +34,7 @@ pub const MIDDLE: &str = "MIDDLE";
 pub const SPRUNG: &str = "SPRUNG";
 
 /// What a deck is made for.
+#[derive(Clone, Copy)]
 pub struct Task<'a> {
     pub model: &'a Model,
     pub fibre: &'a Fibre,

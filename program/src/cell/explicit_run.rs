@@ -52,7 +52,15 @@ pub fn run(scene: &Scene, model: &Model, load: Load, progress: &mut dyn FnMut(f6
         return Err(Error::Evaluation(failure.unwrap_or_default()));
     }
     let shape = section.shape(scene.fibre.e_2);
-    Ok(Outcome { load, increments, shape, shares: Some(section.shares()), failure, elapsed: started.elapsed() })
+    Ok(Outcome {
+        load,
+        increments,
+        shape,
+        shares: Some(section.shares()),
+        refined: None,
+        failure,
+        elapsed: started.elapsed(),
+    })
 }
 
 /// The model as bodies.

@@ -22,6 +22,17 @@ pub fn report(scene: &Scene, model: &Model, outcomes: &[Outcome], output: &Path)
     areas(&mut text, scene, model);
     energies(&mut text, scene, outcomes);
     for outcome in outcomes {
+        if let Some(increments) = outcome.refined {
+            let _ = writeln!(
+                text,
+                "{}: with {} increments the fibres stored more than the walls had done work, which is no equilibrium:\n  \
+                 run again with {increments}; increments = {increments} in [loads] begins with them",
+                outcome.load.name(),
+                scene.increments
+            );
+        }
+    }
+    for outcome in outcomes {
         if let Some(shares) = outcome.shares {
             losses(&mut text, outcome.load, shares);
             continue;

@@ -1,7 +1,7 @@
 //! A load on the section: deck, CalculiX, energies and the deformed section at the end.
 
 use std::collections::HashMap;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::deck::{self, STRESS_UNIT, Task, front};
 use super::energies::{self, Increment};
@@ -16,6 +16,10 @@ const ROUNDING: f64 = 1e-6;
 /// The fibres' energy over the supports' work, from the load's middle on; before, what the polygons' corners store counts. Where it
 /// is more, CalculiX has taken for equilibrium what is none. The trapezoidal rule over the increments is within a percent.
 const MOST_ENERGY: f64 = 1.02;
+
+/// How often a load is taken again with twice as many increments where that happens: to eight times as many. In larger
+/// increments the contact finds an equilibrium that is none sooner.
+const REFINEMENTS: usize = 3;
 
 /// A quadrilateral of a fibre, deformed: its corners in diameters, and the von Mises stress in the scene's unit.
 pub type Patch = ([[f64; 2]; 4], f64);
@@ -52,6 +56,8 @@ pub struct Outcome {
     pub shape: Shape,
     /// Where the walls' work has gone; of the explicit host.
     pub shares: Option<Shares>,
+    /// The increments with which it was taken again, where the fibres stored more than the walls' work with those of the scene.
+    pub refined: Option<usize>,
     /// Why the load was not taken to its end.
     pub failure: Option<String>,
     pub elapsed: Duration,
@@ -63,20 +69,37 @@ pub fn task<'a>(scene: &'a Scene, model: &'a Model, load: Load) -> Task<'a> {
     Task { model, fibre, friction, load, last_stretch: scene.last_stretch(load), increments }
 }
 
-/// Runs a load.
+/// Runs a load, and again with more increments as long as the fibres store more than the walls have done work.
 ///
 /// # Errors
 /// CalculiX cannot be started, or leaves nothing of what it was asked for.
-pub fn run(job: &Job, task: &Task, text: &str, progress: &mut dyn FnMut(f64)) -> Result<Outcome, Error> {
+pub fn run(job: &Job, task: Task, progress: &mut dyn FnMut(f64)) -> Result<Outcome, Error> {
+    let (mut task, asked, started) = (task, task.increments, Instant::now());
+    loop {
+        let (outcome, unbalanced) = once(job, &task, progress)?;
+        let refined = (task.increments > asked).then_some(task.increments);
+        if !unbalanced || task.increments >= asked << REFINEMENTS {
+            return Ok(Outcome { refined, elapsed: started.elapsed(), ..outcome });
+        }
+        task.increments *= 2;
+    }
+}
+
+/// Runs a load once; whether the fibres store more than the walls have done work.
+fn once(job: &Job, task: &Task, progress: &mut dyn FnMut(f64)) -> Result<(Outcome, bool), Error> {
     let name = task.load.name();
-    let printed = job.run(text, progress)?;
+    let printed = job.run(&deck::text(task), progress)?;
     let in_load = |message: String| Error::Evaluation(format!("load {name}: {message}"));
     let (mut increments, missing) = energies::increments(task, &printed.tables);
     let unbalanced = first_unbalanced(&increments, task.last_stretch);
     increments.truncate(unbalanced.unwrap_or(increments.len()));
-    let unbalanced =
-        unbalanced.map(|_| "its fibres store more than the walls have done work: no equilibrium".to_string());
-    let why = unbalanced.or(missing).or_else(|| printed.failure.clone());
+    let too_much = unbalanced.map(|_| {
+        format!(
+            "with {} increments to the load's end its fibres store more than the walls have done work: no equilibrium",
+            task.increments
+        )
+    });
+    let why = too_much.or(missing).or_else(|| printed.failure.clone());
     let Some(last) = increments.last() else {
         let why = why.unwrap_or_else(|| "CalculiX has printed no energies".to_string());
         return Err(in_load(format!("not one increment converges: {why}")));
@@ -92,7 +115,9 @@ pub fn run(job: &Job, task: &Task, text: &str, progress: &mut dyn FnMut(f64)) ->
         )
     });
     let shape = shape(task, &printed);
-    Ok(Outcome { load: task.load, increments, shape, shares: None, failure, elapsed: printed.elapsed })
+    let outcome =
+        Outcome { load: task.load, increments, shape, shares: None, refined: None, failure, elapsed: printed.elapsed };
+    Ok((outcome, unbalanced.is_some()))
 }
 
 /// The first increment, from the load's middle on, in which the fibres store more than the supports have done work.
@@ -136,11 +161,6 @@ fn shape(task: &Task, printed: &Printed) -> Shape {
 fn von_mises([xx, yy, zz, xy, yz, zx]: &[f64; 6]) -> f64 {
     let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
     (0.5 * normal + 3.0 * (xy * xy + yz * yz + zx * zx)).sqrt()
-}
-
-/// The deck of a task, for those who want to run it themselves.
-pub fn deck(task: &Task) -> String {
-    deck::text(task)
 }
 
 #[cfg(test)]

@@ -92,17 +92,20 @@ pub struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Runs a deck to whatever end it comes, in the folder `NAME.ccx`, which is then removed. What CalculiX says goes to
-    /// `NAME.log`, which stays where the run fails. `progress` is told the part of the load that has been taken.
+    /// Runs a deck, which it leaves as `NAME.inp`, to whatever end it comes, in the folder `NAME.ccx`, which is then removed. What
+    /// CalculiX says goes to `NAME.log`, which stays where the run fails. `progress` is told the part of the load that has been taken.
     ///
     /// # Errors
     /// The program cannot be started, or its files cannot be written or read.
     pub fn run(&self, deck: &str, progress: &mut dyn FnMut(f64)) -> Result<Printed, Error> {
-        let [folder, log] = ["ccx", "log"].map(|ending| self.output.join(format!("{}.{ending}", self.name)));
+        let [folder, log, kept] =
+            ["ccx", "log", "inp"].map(|ending| self.output.join(format!("{}.{ending}", self.name)));
         let file_error = |error: std::io::Error| Error::Input(format!("{}: {error}", folder.display()));
         let scratch = Scratch::new(folder.clone()).map_err(file_error)?;
         let file = |ending: &str| scratch.0.join(format!("{JOB}.{ending}"));
-        std::fs::write(file("inp"), deck).map_err(file_error)?;
+        for copy in [&file("inp"), &kept] {
+            std::fs::write(copy, deck).map_err(|error| Error::Input(format!("{}: {error}", copy.display())))?;
+        }
         let said = File::create(&log).map_err(file_error)?;
         let mut command = Command::new(self.program);
         command.arg(JOB).current_dir(&scratch.0).env("OMP_NUM_THREADS", self.threads.to_string()).stdin(Stdio::null());

@@ -52,7 +52,7 @@ fn on_model(scene: &Scene, model: &Model, load: Load) -> Outcome {
     let task = run::task(scene, model, load);
     let output = crate::library::folder(&format!("cell-{}", NUMBER.fetch_add(1, Ordering::Relaxed)));
     let job = Job { program: &SOLVER, output: &output, name: load.name(), threads: 1 };
-    let outcome = run::run(&job, &task, &run::deck(&task), &mut |_| {}).expect("CalculiX runs");
+    let outcome = run::run(&job, task, &mut |_| {}).expect("CalculiX runs");
     assert_eq!(outcome.failure, None);
     outcome
 }
@@ -202,6 +202,28 @@ fn a_random_packing_needs_no_calculix() {
     for (file, there) in [("compaction.png", true), ("fit.toml", true), ("compaction.inp", false)] {
         assert_eq!(folder.join("out").join(file).exists(), there, "{file}");
     }
+}
+
+/// With 12 increments CalculiX takes for an equilibrium of this mesh what stores more than the walls' work; with 24 it does not.
+#[test]
+fn a_load_that_needs_more_increments_gets_them() {
+    let folder = crate::library::folder("cell-refined");
+    let _ = std::fs::remove_dir_all(folder.join("out"));
+    let text = std::fs::read_to_string(example("cell.toml")).expect("the example");
+    let coarse = text.replace("elements = 8", "elements = 3").replace("increments = 24", "increments = 12");
+    let coarse = coarse.replace("largest = 0.12", "largest = 0.08");
+    let coarse = coarse.replace(", \"along-rows\", \"across-rows\"]", "]");
+    std::fs::write(folder.join("cell.toml"), coarse).expect("a file");
+    let output =
+        toron(&folder, &["cell", "cell.toml", "-o", "out"]).env("TORON_CCX", &*SOLVER).output().expect("it runs");
+    let report = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let said = "compaction: with 12 increments the fibres stored more than the walls had done work";
+    assert!(report.contains(said) && report.contains("increments = 24 in [loads]"), "{report}");
+    let table = std::fs::read_to_string(folder.join("out/compaction.csv")).expect("a table");
+    assert!(table.lines().count() >= 25 && table.contains("\n-0.08000000,"), "{table}");
+    let deck = std::fs::read_to_string(folder.join("out/compaction.inp")).expect("the deck that was run");
+    assert!(deck.contains(&format!("{:.12}, 1.,", 1.0 / 24.0)), "not the deck of 24 increments");
 }
 
 #[test]
