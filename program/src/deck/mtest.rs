@@ -12,7 +12,7 @@ pub fn card(material: &Material) -> String {
         let unit = material.unit(property.dimension);
         let blank = if unit.is_empty() { "" } else { ", " };
         let line = format!("@MaterialProperty<constant> '{}' {};", property.name, short(value, WIDE));
-        let _ = writeln!(card, "{line:<50}// {}{blank}{unit}", property.meaning);
+        let _ = writeln!(card, "{line:<49} // {}{blank}{unit}", property.meaning);
     }
     card
 }

@@ -12,6 +12,11 @@ pub const CAPITAL: f32 = 0.73;
 pub const ASCENT: f32 = 0.76;
 pub const DESCENT: f32 = 0.24;
 
+/// The glyph of what a font lacks; this font's own is empty.
+const MISSING: GlyphId = GlyphId(0);
+/// Of the embedded font, as of its family.
+const UNITS_PER_EM: f32 = 2048.0;
+
 pub struct Font {
     face: Face<'static>,
 }
@@ -21,6 +26,11 @@ impl Font {
     /// The embedded font is unusable.
     pub fn new() -> Result<Self, ttf_parser::FaceParsingError> {
         Ok(Font { face: Face::parse(FILE, 0)? })
+    }
+
+    /// Whether it has this character, or draws it as nothing: else a box stands for it.
+    pub fn has(&self, c: char) -> bool {
+        c.is_control() || self.face.glyph_index(c).is_some()
     }
 
     /// The width of a text of this size.
@@ -34,7 +44,11 @@ impl Font {
     pub fn outline(&self, text: &str, size: f32) -> Option<Path> {
         let mut outline = Outline { path: PathBuilder::new(), left: 0 };
         for (glyph, advance) in self.glyphs(text) {
-            self.face.outline_glyph(glyph, &mut outline);
+            if glyph == MISSING {
+                outline.draw_box(advance as f32);
+            } else {
+                self.face.outline_glyph(glyph, &mut outline);
+            }
             outline.left += advance;
         }
         let scale = self.scale(size);
@@ -50,11 +64,17 @@ impl Font {
         let glyph = |c: char| self.face.glyph_index(if c.is_control() { ' ' } else { c }).unwrap_or_default();
         let glyphs: Vec<GlyphId> = text.chars().map(glyph).collect();
         let advance = move |i: usize| {
-            let own = i32::from(self.face.glyph_hor_advance(glyphs[i]).unwrap_or_default());
+            let own = if glyphs[i] == MISSING { self.box_width() } else { self.face.glyph_hor_advance(glyphs[i]) };
+            let own = i32::from(own.unwrap_or_default());
             let kerning = glyphs.get(i + 1).map_or(0, |&next| self.kerning(glyphs[i], next));
             (glyphs[i], own + i32::from(kerning))
         };
         (0..text.chars().count()).map(advance)
+    }
+
+    /// A box is as wide as a capital.
+    fn box_width(&self) -> Option<u16> {
+        self.face.glyph_hor_advance(self.face.glyph_index('H')?)
     }
 
     /// What a pair stands closer together than each by itself.
@@ -85,6 +105,21 @@ struct Outline {
 }
 
 impl Outline {
+    /// The frame in which a character stands that the font lacks: as high as a capital, its inside turned the other way round.
+    fn draw_box(&mut self, advance: f32) {
+        const SIDE: f32 = 0.1;
+        const PEN: f32 = 0.07;
+        let (left, right, top) = (SIDE * advance, (1.0 - SIDE) * advance, CAPITAL * UNITS_PER_EM);
+        let pen = PEN * UNITS_PER_EM;
+        let outer = [(left, 0.0), (right, 0.0), (right, top), (left, top)];
+        let inner = [(left + pen, pen), (left + pen, top - pen), (right - pen, top - pen), (right - pen, pen)];
+        for frame in [outer, inner] {
+            self.move_to(frame[0].0, frame[0].1);
+            frame[1..].iter().for_each(|&(x, y)| self.line_to(x, y));
+            self.close();
+        }
+    }
+
     fn right(&self, x: f32) -> f32 {
         x + self.left as f32
     }
@@ -140,6 +175,18 @@ mod tests {
         let bounds = font.outline("dpg", 100.0).expect("outlines").bounds();
         assert!((bounds.top() + 100.0 * ASCENT).abs() < 0.5 && bounds.bottom() <= 100.0 * DESCENT, "{bounds:?}");
         assert!(font.outline(" \n", 100.0).is_none());
+    }
+
+    #[test]
+    fn a_box_stands_for_what_the_font_lacks() {
+        let font = Font::new().expect("the font");
+        assert_eq!(f32::from(font.face.units_per_em()), UNITS_PER_EM);
+        assert!(font.has('a') && font.has('\n') && !font.has('纱'));
+        let (one, two) = (font.outline("纱", 100.0).expect("a box"), font.outline("纱线", 100.0).expect("boxes"));
+        let bounds = one.bounds();
+        assert!(bounds.bottom() == 0.0 && (bounds.top() + 100.0 * CAPITAL).abs() < 0.2, "{bounds:?}");
+        assert!(0.0 < bounds.left() && bounds.right() < font.width("纱", 100.0), "{bounds:?}");
+        assert!(two.bounds().right() > 1.8 * bounds.right(), "{:?}", two.bounds());
     }
 
     #[test]

@@ -6,6 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::sheet::Sheet;
+use crate::common::console::print_error;
 use crate::common::error::Error;
 
 pub type Area<'a> = DrawingArea<&'a mut Sheet, Shift>;
@@ -18,9 +19,22 @@ pub type Drawn<T> = Result<T, Box<dyn std::error::Error>>;
 pub fn write(svg: &Path, png: &Path, size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Result<(), Error> {
     let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     let sheet = draw(size, paint).map_err(|error| file_error(svg, &error))?;
+    if let Some(warning) = missing(svg, &sheet) {
+        print_error(&warning);
+    }
     std::fs::write(svg, sheet.svg()).map_err(|error| file_error(svg, &error))?;
     let pixels = sheet.png().map_err(|error| file_error(png, &error))?;
     std::fs::write(png, pixels).map_err(|error| file_error(png, &error))
+}
+
+/// A warning where the font lacks characters of the texts.
+fn missing(file: &Path, sheet: &Sheet) -> Option<String> {
+    let missing: Vec<String> = sheet.missing().iter().map(char::to_string).collect();
+    let file = file.display();
+    (!missing.is_empty()).then(|| {
+        let missing = missing.join(" ");
+        format!("warning: {file}: the font of the pictures lacks {missing}; boxes stand for them. It has Latin and Greek letters\n")
+    })
 }
 
 pub(super) fn draw(size: [u32; 2], paint: impl FnOnce(&Area) -> Drawn<()>) -> Drawn<Sheet> {

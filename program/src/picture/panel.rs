@@ -11,6 +11,8 @@ use super::style::{GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, te
 const MARGIN: i32 = 70;
 /// A line with more points than this is thinned.
 const MOST_POINTS: usize = 4000;
+/// Lines of which the least value is above this part of the largest would all lie at the top of an axis from 0.
+const FAR_FROM_0: f64 = 0.7;
 
 /// A line in a panel.
 pub struct Series {
@@ -102,8 +104,12 @@ impl Panel {
         self.draw_head(&head, power)?;
         let factor = 10f64.powi(-power);
         let (left, right) = bounds(&abscissa.values);
+        let x_power = power_of_thousand(left.abs().max(right.abs()));
+        let x_factor = 10f64.powi(-x_power);
+        let (left, right) = (left * x_factor, right * x_factor);
         let (x, y) = (|x: &f64| tick(*x, right - left), |y: &f64| tick(*y, (high - low) * factor));
-        let mut chart = chart(&body, left..right, low * factor..high * factor, &abscissa.label, [&x, &y])?;
+        let label = with_power(&abscissa.label, x_power);
+        let mut chart = chart(&body, left..right, low * factor..high * factor, &label, [&x, &y])?;
         let level = |y: f64| [(left, y * factor), (right, y * factor)];
         if low < 0.0 {
             chart.draw_series(LineSeries::new(level(0.0), stroke(GREY, 1)))?;
@@ -111,7 +117,7 @@ impl Panel {
         if let Some(limit) = self.limit {
             chart.draw_series(DashedLineSeries::new(level(limit), fine(7), fine(5), stroke(GREY, 2)))?;
         }
-        if let Some(x) = abscissa.failure {
+        if let Some(x) = abscissa.failure.map(|x| x * x_factor) {
             let line = [(x, low * factor), (x, high * factor)];
             chart.draw_series(DashedLineSeries::new(line, fine(3), fine(4), stroke(INK, 2)))?;
             let (x, y) = chart.backend_coord(&line[1]);
@@ -119,7 +125,7 @@ impl Panel {
         }
         let stride = abscissa.values.len().div_ceil(MOST_POINTS).max(1);
         for series in &self.series {
-            let points = abscissa.values.iter().zip(&series.values).map(|(&x, &y)| (x, y * factor));
+            let points = abscissa.values.iter().zip(&series.values).map(|(&x, &y)| (x * x_factor, y * factor));
             let last = points.clone().next_back();
             chart.draw_series(LineSeries::new(points.step_by(stride).chain(last), stroke(series.colour, 3)))?;
         }
@@ -128,12 +134,7 @@ impl Panel {
 
     /// Title with the unit, and below it the legend in one line, where it covers no data.
     fn draw_head(&self, head: &Area, power: i32) -> Drawn<()> {
-        let title = match (self.unit.as_str(), power) {
-            ("-", 0) => self.title.to_string(),
-            (unit, 0) => format!("{} ({unit})", self.title),
-            ("-", power) => format!("{} (10{})", self.title, superscript(power)),
-            (unit, power) => format!("{} (10{} {unit})", self.title, superscript(power)),
-        };
+        let title = with_power(&format!("{} ({})", self.title, self.unit), power);
         head.draw_text(&title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
         let style = text(TEXT, &INK);
         let mut x = fine(MARGIN);
@@ -146,16 +147,36 @@ impl Panel {
         Ok(())
     }
 
-    /// The range of all lines, 0 and the limit with some air, and the power of a thousand that keeps its labels short.
+    /// The range of all lines and the limit with some air, and of 0 unless they vary by far less than they are away from it; and
+    /// the power of a thousand that keeps its labels short.
     fn range(&self) -> ([f64; 2], i32) {
         let values = self.series.iter().flat_map(|series| &series.values).copied();
-        let values: Vec<f64> = values.chain([0.0]).chain(self.limit).collect();
+        let mut values: Vec<f64> = values.chain(self.limit).collect();
+        let (low, high) = bounds(&values);
+        if low <= FAR_FROM_0 * high || values.iter().all(|&value| value == low) {
+            values.push(0.0);
+        }
         let (low, high) = bounds(&values);
         let air = 0.08 * (high - low);
-        let range = [if low < 0.0 { low - air } else { low }, high + air];
+        let range = [if low == 0.0 { low } else { low - air }, high + air];
         let largest = range[0].abs().max(range[1].abs());
-        let power = if (1e-2..1e5).contains(&largest) { 0 } else { (largest.log10() / 3.0).floor() as i32 * 3 };
-        (range, power)
+        (range, power_of_thousand(largest))
+    }
+}
+
+/// The power of a thousand that keeps the labels of numbers up to this one short.
+fn power_of_thousand(largest: f64) -> i32 {
+    if largest == 0.0 || (1e-2..1e5).contains(&largest) { 0 } else { (largest.log10() / 3.0).floor() as i32 * 3 }
+}
+
+/// `time (s)` as `time (10⁻⁶ s)`; a number's unit, which is -, is left out.
+fn with_power(label: &str, power: i32) -> String {
+    let (name, unit) = label.strip_suffix(')').and_then(|rest| rest.rsplit_once(" (")).unwrap_or((label, "-"));
+    match (unit, power) {
+        ("-", 0) => name.to_string(),
+        (unit, 0) => format!("{name} ({unit})"),
+        ("-", power) => format!("{name} (10{})", superscript(power)),
+        (unit, power) => format!("{name} (10{} {unit})", superscript(power)),
     }
 }
 
@@ -177,10 +198,45 @@ pub fn bounds(values: &[f64]) -> (f64, f64) {
     if low < high { (low, high) } else { (low, low + 1.0) }
 }
 
-/// A label without the noise of rounding: as many decimals as ticks of this range need.
+/// A label without the noise of rounding: as many decimals as ticks of this range need, or a power of ten where they are many.
 pub fn tick(value: f64, range: f64) -> String {
-    let decimals = (2 - range.log10().floor() as i32).clamp(0, 9) as usize;
+    let power = range.log10().floor() as i32;
+    if !(-3..6).contains(&power) {
+        let digits = tick(value / 10f64.powi(power), range / 10f64.powi(power));
+        return if digits == "0" { digits } else { format!("{digits}·10{}", superscript(power)) };
+    }
+    let decimals = (2 - range.log10().floor() as i32).max(0) as usize;
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_string() } else { text.replace('-', "−") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_short_whatever_the_unit() {
+        assert_eq!(["0", "20", "−0.05"], [tick(0.0, 30.0), tick(20.0, 30.0), tick(-0.05, 0.2)]);
+        assert_eq!(["0", "1·10⁻⁵", "2.5·10⁻⁵"], [0.0, 1e-5, 2.5e-5].map(|x| tick(x, 3e-5)));
+        let power = power_of_thousand(3e-5);
+        assert_eq!(with_power("time (s)", power), "time (10⁻⁶ s)");
+        assert_eq!(with_power("time (ms)", power_of_thousand(0.03)), "time (ms)");
+        assert_eq!(["F11", "F11 (10³)"], [0, 3].map(|power| with_power("F11 (-)", power)));
+        assert_eq!([0, 0, 6], [0.0, 99_999.0, 2e6].map(power_of_thousand));
+    }
+
+    #[test]
+    fn an_axis_begins_at_0_unless_its_lines_are_far_from_it() {
+        let range = |values: &[f64], limit| {
+            let line = Series { name: String::new(), colour: INK, values: values.to_vec() };
+            Panel { title: "", unit: String::new(), series: vec![line], limit }.range().0
+        };
+        let [low, high] = range(&[0.6, 0.7], None);
+        assert!((low - 0.592).abs() < 1e-9 && (high - 0.708).abs() < 1e-9, "{low} to {high}");
+        assert_eq!(range(&[60.0, 120.0], None)[0], 0.0);
+        assert_eq!(range(&[0.6, 0.7], Some(0.1))[0], 0.0);
+        assert_eq!(range(&[2.0, 2.0], None)[0], 0.0);
+        assert!(range(&[-1.0, 2.0], None)[0] < -1.0);
+    }
 }

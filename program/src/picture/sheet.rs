@@ -1,5 +1,6 @@
 //! The backend that plotters draws on: every shape becomes an outline that goes into the SVG and, rendered, into the PNG.
 
+use std::collections::BTreeSet;
 use std::convert::Infallible;
 
 use plotters_backend::text_anchor::{HPos, VPos};
@@ -23,6 +24,8 @@ pub struct Sheet {
     font: Font,
     svg: Svg,
     pixels: Pixmap,
+    /// What texts had that the font lacks.
+    missing: BTreeSet<char>,
 }
 
 impl Sheet {
@@ -34,12 +37,17 @@ impl Sheet {
         let font = Font::new().map_err(|error| format!("the embedded font: {error}"))?;
         let [width, height] = size.map(|length| (length as f32 * PNG_SCALE) as u32);
         let pixels = Pixmap::new(width, height).ok_or("no memory for the picture")?;
-        Ok(Sheet { size, font, svg: Svg::new(size), pixels })
+        Ok(Sheet { size, font, svg: Svg::new(size), pixels, missing: BTreeSet::new() })
     }
 
     /// The text of the SVG file.
     pub fn svg(&self) -> String {
         self.svg.finish()
+    }
+
+    /// The characters for which boxes stand.
+    pub fn missing(&self) -> &BTreeSet<char> {
+        &self.missing
     }
 
     /// The bytes of the PNG file.
@@ -179,6 +187,7 @@ impl DrawingBackend for &mut Sheet {
             FontTransform::Rotate180 => 180.0,
             FontTransform::Rotate270 => 270.0,
         };
+        self.missing.extend(text.chars().filter(|&c| !self.font.has(c)));
         let (x, y) = units(place);
         let outline = anchored(&self.font, text, style, style.size() as f32 / FINE as f32);
         let outline = outline.and_then(|path| path.transform(Transform::from_rotate(turn).post_translate(x, y)));
