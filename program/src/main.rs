@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use toron_program::common::console::print_error;
+use clap::{CommandFactory, Parser, Subcommand};
+use clap_complete::Shell;
+use toron_program::common::console::{print, print_error};
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::{bench, cell, deck, eval, fabric, identify, impact, load_path, params, weave};
@@ -97,12 +98,24 @@ enum Command {
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
     },
+    /// Print the completions of this program's arguments for a shell.
+    Completions {
+        /// As in: toron completions bash > ~/.local/share/bash-completion/completions/toron
+        shell: Shell,
+    },
     /// Measure what a point costs on this machine; takes about half a minute.
     Bench {
         /// Where to write the figures as bench.json.
         #[arg(short, long)]
         output: Option<PathBuf>,
     },
+}
+
+/// Made in memory first: the generator panics where it cannot write, and a reader that has gone is no error.
+fn completions(shell: Shell) {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "toron", &mut script);
+    print(&String::from_utf8_lossy(&script));
 }
 
 fn main() -> ExitCode {
@@ -117,6 +130,10 @@ fn main() -> ExitCode {
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),
         Command::Weave { scene, output } => weave::command::run(&scene, &output),
+        Command::Completions { shell } => {
+            completions(shell);
+            Ok(())
+        }
         Command::Bench { output } => bench::command::run(output.as_deref()),
     };
     match answer {

@@ -288,6 +288,11 @@ fn a_preset_prints_as_a_card() {
         mtest.contains("@MaterialProperty<constant> 'k_el' 82.341;") && mtest.contains("stiffness, GPa\n"),
         "{mtest}"
     );
+    // However long a value is, a blank comes before its comment.
+    let long = card(&["--host", "mtest", "--units", "in-slinch-s"]);
+    for card in [&mtest, &long] {
+        assert!(card.lines().filter(|line| line.starts_with('@')).all(|line| !line.contains(";//")), "{card}");
+    }
 }
 
 /// Every field of ten columns has a blank before it, in any units, and says its number to five digits or names itself rounded.
@@ -351,4 +356,20 @@ fn wrong_arguments_of_a_card_are_named() {
     refused(&[&ccx[..], &["--mt", "41"]].concat(), "--mt is for --host ls-dyna only");
     refused(&[&ccx[..], &["--id", "2"]].concat(), "--id is for --host ls-dyna and openradioss only");
     refused(&["--host", "mtest", "--units", "furlong"], "--units furlong; allowed: length-mass-time");
+}
+
+#[test]
+fn every_shell_has_completions_of_every_command() {
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_toron")).args(["completions", shell]).output().expect("it runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let script = String::from_utf8_lossy(&output.stdout);
+        for word in ["toron", "fabric", "weave", "--preset"] {
+            let word = if shell == "fish" { word.trim_start_matches('-') } else { word };
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+        // The values of options, where the shell is told them.
+        let told = ["bash", "zsh", "fish"].contains(&shell);
+        assert_eq!(script.contains("abaqus-explicit"), told, "{shell}");
+    }
 }
