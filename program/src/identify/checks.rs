@@ -7,8 +7,13 @@ const ENOUGH: usize = 20;
 /// With fewer points it is taken for this at least, over the largest value; without noise, for that.
 const FEW: f64 = 0.1;
 const EXACT: f64 = 1e-6;
-/// A way back that is this much below the way out, over the largest value, is another way.
+/// A way back that is this much beside the way out, over the largest value, is another way.
 const HYSTERESIS: f64 = 0.03;
+/// A way out has so many points, and goes so far of all of them.
+const LEAST_WAY: usize = 3;
+const FAR_OUT: f64 = 0.3;
+/// A way back is no noise of the abscissae: it goes back by this part of the largest.
+const LEAST_BACK: f64 = 0.05;
 /// The standard deviation of normally distributed numbers over the median of their sizes.
 const NORMAL: f64 = 1.4826;
 
@@ -18,7 +23,7 @@ pub enum Flaw {
     Negative(usize),
     /// The point and the earlier one that it is far below.
     Falls(usize, usize),
-    /// The file turns back at this point and comes back below the way it went.
+    /// The file turns back before this point and comes back off the way it went.
     Unloads(usize),
 }
 
@@ -27,6 +32,24 @@ pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
     if let Some(point) = unloading(distances, values) {
         return Some(Flaw::Unloads(point));
     }
+    let flaw = of_order(distances, values, noise)?;
+    // The way out has none: what comes after it is to blame, wherever it lies beside it.
+    match turn(distances) {
+        Some(turn) if of_order(&distances[..turn], &values[..turn], noise).is_none() => Some(Flaw::Unloads(turn)),
+        _ => Some(flaw),
+    }
+}
+
+/// The first point with which a file that has gone out step by step goes back.
+fn turn(distances: &[f64]) -> Option<usize> {
+    let turn = 1 + distances.windows(2).position(|pair| pair[1] < pair[0])?;
+    let largest = distances.iter().copied().fold(0.0, f64::max);
+    // A file that is in another order, or whose abscissae are noisy, goes back at once.
+    (turn >= LEAST_WAY && distances[turn - 1] > FAR_OUT * largest).then_some(turn)
+}
+
+/// The first flaw of the points by their distance.
+fn of_order(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Flaw> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| distances[a].total_cmp(&distances[b]));
     let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
@@ -50,19 +73,18 @@ pub fn flaw(distances: &[f64], values: &[f64], noise: Option<f64>) -> Option<Fla
     (values.len() > 2 && slope(distances, values) < 0.0).then_some(Flaw::Falls(last, first))
 }
 
-/// Where a file that goes out and comes back, in its own order, comes back below: by more than a share of the largest value, in
-/// the mean. Points in any other order are no path.
+/// Where a file that goes out and comes back, in its own order, comes back beside the way it went: by more than a share of the
+/// largest value, in the mean. Points in any other order are no path.
 fn unloading(distances: &[f64], values: &[f64]) -> Option<usize> {
-    let turn = (0..distances.len()).max_by(|&a, &b| distances[a].total_cmp(&distances[b]))?;
-    let rises = distances[..=turn].windows(2).all(|pair| pair[0] <= pair[1]);
-    let falls = distances[turn..].windows(2).all(|pair| pair[0] >= pair[1]);
-    let back = turn + 1..distances.len();
-    if !(rises && falls && turn > 1 && back.len() > 1) {
+    let turn = turn(distances)?;
+    let falls = distances[turn..].windows(2).take_while(|pair| pair[1] <= pair[0]).count();
+    let back = turn..turn + 1 + falls;
+    let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    if distances[turn - 1] - distances[back.end - 1] < LEAST_BACK * largest(distances) || back.len() < 2 {
         return None;
     }
-    let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    let below = back.clone().map(|i| out(&distances[..=turn], &values[..=turn], distances[i]) - values[i]);
-    (below.sum::<f64>() > HYSTERESIS * largest * back.len() as f64).then_some(back.start)
+    let beside = back.clone().map(|i| out(&distances[..turn], &values[..turn], distances[i]) - values[i]);
+    (beside.sum::<f64>().abs() > HYSTERESIS * largest(values) * back.len() as f64).then_some(turn)
 }
 
 /// The value on the way out at a distance.
@@ -135,6 +157,11 @@ mod tests {
         y.extend(back.iter().map(|x| 0.6 * x.powf(2.2)));
         x.extend(&back);
         assert_eq!(flaw(&x, &y, None), Some(Flaw::Unloads(20)));
+        // Back above the way out, and out, half back and out again: the turn is named, not a point of the way out.
+        let above: Vec<f64> = y.iter().enumerate().map(|(i, y)| if i < 20 { *y } else { 3.0 * y + 0.05 }).collect();
+        assert_eq!(flaw(&x, &above, None), Some(Flaw::Unloads(20)));
+        let again = |of: &[f64]| [&of[..30], &of[10..20]].concat();
+        assert_eq!(flaw(&again(&x), &again(&above), None), Some(Flaw::Unloads(20)));
         // There and back on the same way is elastic.
         let elastic: Vec<f64> = x.iter().map(|x| x.powf(2.2)).collect();
         assert_eq!(flaw(&x, &elastic, None), None);

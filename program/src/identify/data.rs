@@ -34,6 +34,21 @@ pub struct DataSet {
     pub weight: f64,
     /// The parameters that this set may tell.
     pub fits: Vec<Parameter>,
+    /// The slack that the curve began with, where it was found and taken off.
+    pub toe: Option<Toe>,
+}
+
+/// The slack of a tensile test, as its own curve shows it; on the abscissa of the file, in the units of the fit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Toe {
+    /// From where the abscissae count, and its standard deviation.
+    pub zero: f64,
+    pub deviation: f64,
+    /// So many points up to here are left out.
+    pub end: f64,
+    pub left_out: usize,
+    /// By how much each prediction grows with the abscissa, at a k_el of 1.
+    pub slopes: Vec<f64>,
 }
 
 /// A column of the data, in the units of the fit.
@@ -148,6 +163,7 @@ impl DataSet {
             abscissa: axis(&self.abscissa),
             ordinate: axis(&self.ordinate),
             deviations: self.deviations.as_deref().map(pick),
+            toe: self.toe.as_ref().map(|toe| Toe { slopes: pick(&toe.slopes), ..toe.clone() }),
             ..self.clone()
         }
     }

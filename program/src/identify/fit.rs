@@ -182,6 +182,19 @@ impl<'a> State<'a> {
             self.sets[index] = Some(fit);
         }
         self.uncertainty.add(&indices, &solution, &weights, &parameters);
+        let mut first = 0;
+        for &index in &indices {
+            let set = &problem.sets[index];
+            if let Some(toe) = &set.toe {
+                let mut shift = DVector::zeros(weights.len());
+                for (i, slope) in toe.slopes.iter().enumerate() {
+                    shift[first + i] = -solution.values[Parameter::KEl.index()] * slope * toe.deviation;
+                }
+                let freedom = self.sets[index].as_ref().map_or(f64::INFINITY, |fit| fit.freedom - 1.0);
+                self.uncertainty.add_zero(index, Source { freedom }, &shift, &solution, &weights, &parameters);
+            }
+            first += set.len();
+        }
         for &parameter in &parameters {
             self.values[parameter.index()] = Some(solution.values[parameter.index()]);
         }

@@ -19,5 +19,6 @@ pub mod reader;
 pub mod region;
 pub mod report;
 pub mod response;
+pub mod toe;
 pub mod uncertainty;
 pub mod worth;

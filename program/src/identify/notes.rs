@@ -38,12 +38,9 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
             notes.push(format!("the data hardly tell {name}: its interval is as wide as its value"));
         }
     }
-    let patterned = |(set, fitted): &(&DataSet, &SetFit)| {
-        let seen = fitted.residuals.iter().any(|r| r.abs() > EXACT * set.largest());
-        seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i)))
-    };
+    let sets = problem.sets.iter().zip(&fit.sets);
     let patterned: Vec<&str> =
-        problem.sets.iter().zip(&fit.sets).filter(patterned).map(|(set, _)| set.name.as_str()).collect();
+        sets.filter(|(set, fitted)| patterned(set, fitted)).map(|(set, _)| set.name.as_str()).collect();
     if !patterned.is_empty() {
         notes.push(format!(
             "the residuals of {} are not noise: the law does not follow these data exactly, or they were smoothed; the intervals \
@@ -52,6 +49,12 @@ pub fn notes(problem: &Problem, fit: &Fit) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// Whether the law follows a set with an error that is no noise.
+pub fn patterned(set: &DataSet, fitted: &SetFit) -> bool {
+    let seen = fitted.residuals.iter().any(|r| r.abs() > EXACT * set.largest());
+    seen && has_pattern(&order(&fitted.residuals, |i| set.distance(i)))
 }
 
 /// A wave along the fibre that no fibre has: a density or a stiffness is in other units.
@@ -71,10 +74,13 @@ fn open_parameters(problem: &Problem, fit: &Fit) -> Vec<String> {
         notes.push(format!("the data say nothing of {}: these are the base preset's", names(&filled)));
     }
     if !missing.is_empty() {
-        let mut told_by: Vec<&str> = missing.iter().map(|p| p.told_by()).collect();
-        told_by.dedup();
-        let would = told_by.join("; ");
-        notes.push(format!("the data say nothing of {}, which the preset lacks. What would: {would}", names(&missing)));
+        let alike = missing.chunk_by(|a, b| a.told_by() == b.told_by());
+        let would: Vec<String> = alike.map(|alike| format!("{} by {}", names(alike), alike[0].told_by())).collect();
+        notes.push(format!(
+            "the data say nothing of {}, which the preset lacks. What would: {}",
+            names(&missing),
+            would.join("; ")
+        ));
     }
     notes
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use plotters::prelude::*;
 
-use super::data::{Axis, DataSet};
+use super::data::{Axis, DataSet, Loading};
 use super::file::Job;
 use super::fit::{Fit, SetFit};
 use super::parameter::Parameter;
@@ -41,8 +41,9 @@ fn draw(root: &Area, job: &Job, fit: &Fit, border: Option<&[[f64; 2]]>) -> Drawn
     let rows = body.split_evenly((job.problem.sets.len() + usize::from(border.is_some()), 1));
     for ((set, fitted), row) in job.problem.sets.iter().zip(&fit.sets).zip(&rows) {
         let (left, right) = row.split_horizontally(fine(WIDTH as i32 / 2));
-        draw_set(&left, set, fitted)?;
-        draw_residuals(&right, set, fitted)?;
+        let over = abscissa(set, fit);
+        draw_set(&left, set, fitted, &over)?;
+        draw_residuals(&right, set, fitted, &over)?;
     }
     if let (Some(border), Some(row)) = (border, rows.last()) {
         let (left, _) = row.split_horizontally(fine(WIDTH as i32 / 2));
@@ -92,15 +93,30 @@ fn named(axis: &Axis) -> String {
     if axis.unit == "-" { axis.name.clone() } else { format!("{} ({})", axis.name, axis.unit) }
 }
 
+/// What a set is drawn over: its abscissa; of failure points at compactions and distortions that both vary, what the fit makes of
+/// the two, since over one of them alone the fit is no line.
+fn abscissa(set: &DataSet, fit: &Fit) -> Axis {
+    let varies = |values: &[f64]| values.iter().any(|&value| value != values[0]);
+    match &set.loading {
+        Loading::Failure { compaction, distortion } if varies(compaction) && varies(distortion) => {
+            let [alpha, beta] = [Parameter::Alpha, Parameter::Beta]
+                .map(|parameter| fit.values[parameter.index()].or(parameter.property().default).unwrap_or_default());
+            let values = compaction.iter().zip(distortion).map(|(c, d)| alpha * c + beta * d).collect();
+            Axis { name: "−α I_tc + β I_td".to_string(), unit: "-".to_string(), values }
+        }
+        _ => set.abscissa.clone(),
+    }
+}
+
 /// Indices by the abscissa, for a line from left to right.
-fn sorted(set: &DataSet) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..set.len()).collect();
-    order.sort_by(|&a, &b| set.abscissa.values[a].total_cmp(&set.abscissa.values[b]));
+fn sorted(x: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..x.len()).collect();
+    order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
     order
 }
 
-fn draw_set(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
-    let (x, y) = (&set.abscissa.values, &set.ordinate.values);
+fn draw_set(area: &Area, set: &DataSet, fitted: &SetFit, over: &Axis) -> Drawn<()> {
+    let (x, y) = (&over.values, &set.ordinate.values);
     let fit = |i: usize| y[i] - fitted.residuals[i];
     let all: Vec<f64> = y.iter().copied().chain((0..set.len()).map(fit)).chain([0.0]).collect();
     let frame = Frame {
@@ -108,16 +124,16 @@ fn draw_set(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
         legend: &[(COLOURS[0], "measured"), (COLOURS[1], "fit")],
         x: bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>()),
         y: bounds(&all),
-        x_name: named(&set.abscissa),
+        x_name: named(over),
     };
     let mut chart = frame.draw(area)?;
     chart.draw_series((0..set.len()).map(|i| Circle::new((x[i], y[i]), fine(POINT), COLOURS[0].filled())))?;
-    chart.draw_series(LineSeries::new(sorted(set).into_iter().map(|i| (x[i], fit(i))), stroke(COLOURS[1], 2)))?;
+    chart.draw_series(LineSeries::new(sorted(x).into_iter().map(|i| (x[i], fit(i))), stroke(COLOURS[1], 2)))?;
     Ok(())
 }
 
-fn draw_residuals(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
-    let x = &set.abscissa.values;
+fn draw_residuals(area: &Area, set: &DataSet, fitted: &SetFit, over: &Axis) -> Drawn<()> {
+    let x = &over.values;
     let largest = set.largest();
     let shares: Vec<f64> = fitted.residuals.iter().map(|r| 100.0 * r / largest).collect();
     let size = shares.iter().fold(f64::MIN_POSITIVE, |size: f64, share| size.max(share.abs()));
@@ -127,7 +143,7 @@ fn draw_residuals(area: &Area, set: &DataSet, fitted: &SetFit) -> Drawn<()> {
         legend: &[],
         x: bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>()),
         y: (-size, size),
-        x_name: named(&set.abscissa),
+        x_name: named(over),
     };
     let mut chart = frame.draw(area)?;
     let ends = bounds(&x.iter().copied().chain([set.rest]).collect::<Vec<_>>());

@@ -8,17 +8,19 @@ use nalgebra::Matrix3;
 use toml::Spanned;
 
 use super::checks::{self, Flaw};
-use super::data::{Axis, DataSet, Loading};
+use super::data::{Axis, DataSet, Loading, Toe};
 use super::file::{DataFile, DeviationFile, LoadingName};
 use super::parameter::{PARAMETERS, Parameter};
 use super::path_file;
-use super::quantities::{COMPACTED, DISTORTED, FAILED_AT, Invariant, Simple};
+use super::quantities::{Abscissa, COMPACTED, DISTORTED, FAILED_AT, Invariant, Simple};
+use super::response::{Measured, Modes};
+use super::toe::{Curve, Found};
 use crate::common::data_table::DataTable;
 use crate::common::error::Error;
 use crate::common::toml_file::Source;
 use crate::common::units::unit;
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{Dimension, NUMBER};
+use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
 
 /// Weights beyond these leave nothing of the other sets, or of this one.
 const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;
@@ -123,26 +125,69 @@ impl Reader<'_> {
         let y = self.column(file, table, ordinate.name, ordinate.dimension)?;
         let length = self.given("length", &file.length, abscissa.dimension == crate::common::units::LENGTH, file)?;
         let area = self.given("area", &file.area, ordinate.dimension == crate::common::units::FORCE, file)?;
-        let rows = self.rows(file, table, &x.values)?;
+        let mut x = x;
+        let mut rows = self.rows(file, table, &x.values)?;
+        let mut deviations = self.deviations(file, table, &rows, ordinate.dimension)?;
+        let measured = (ordinate.measured)(area);
+        let state = |value: f64| loading.gradient((abscissa.stretch)(value, length));
+        let mut toe = None;
+        if loading == Simple::Elongation && file.zero.is_none() && ordinate.dimension != ENERGY_DENSITY {
+            let pick = |values: &[f64]| rows.iter().map(|&row| values[row] - abscissa.rest).collect::<Vec<f64>>();
+            let shape = |distance: f64| per_stiffness(state(abscissa.rest + distance), measured);
+            let ordinates: Vec<f64> = rows.iter().map(|&row| y.values[row]).collect();
+            let (distances, known) = (pick(&x.values), deviations.as_deref());
+            let found = Curve { x: &distances, y: &ordinates, deviations: known, shape }.toe();
+            if let Some(found) = found {
+                let keep: Vec<bool> = distances.iter().map(|&distance| distance >= found.end).collect();
+                let kept = |i: &usize| keep[*i];
+                deviations = deviations.map(|all| (0..rows.len()).filter(kept).map(|i| all[i]).collect());
+                let left_out = keep.iter().filter(|keep| !**keep).count();
+                rows = (0..rows.len()).filter(kept).map(|i| rows[i]).collect();
+                x.values.iter_mut().for_each(|value| *value -= found.zero);
+                let Found { zero, deviation, end } = found;
+                toe = Some(Toe { zero, deviation, end, left_out, slopes: Vec::new() });
+            }
+        }
         let mut states: Vec<Matrix3<f64>> = Vec::new();
         for &row in &rows {
             let stretch = (abscissa.stretch)(x.values[row], length);
             if !loading.allows(stretch) {
-                return Err(wrong(table, &x.column, row, abscissa.allowed));
+                return Err(wrong(table, &x.column, row, &self.allowed(file, abscissa, &x, row)));
             }
             states.push(loading.gradient(stretch));
         }
-        let deviations = self.deviations(file, table, &rows, ordinate.dimension)?;
-        let set = self.assemble(
-            Loading::Prescribed { states, measured: (ordinate.measured)(area) },
+        if let Some(toe) = &mut toe {
+            const STEP: f64 = 1e-6;
+            let slope = |&row: &usize| {
+                let at = [x.values[row] + STEP, x.values[row]].map(|value| per_stiffness(state(value), measured));
+                (at[0] - at[1]) / STEP
+            };
+            toe.slopes = rows.iter().map(slope).collect();
+        }
+        let mut set = self.assemble(
+            Loading::Prescribed { states, measured },
             [(abscissa.name, abscissa.dimension), (ordinate.name, ordinate.dimension)],
             abscissa.rest,
             [&x, &y],
             &rows,
             deviations,
         );
+        set.toe = toe;
         self.check(&set, table, &y.column, &rows)?;
         Ok(set)
+    }
+
+    /// What is allowed of an abscissa; of one before `zero`, how it is left out.
+    fn allowed(&self, file: &DataFile, abscissa: &Abscissa, x: &Values, row: usize) -> String {
+        match &file.zero {
+            Some(zero) if x.values[row] < abscissa.rest => format!(
+                "{}, less zero = {}: this one lies before it; leave such out by range = [{}, …], which counts from zero on",
+                abscissa.allowed,
+                zero.get_ref(),
+                abscissa.rest
+            ),
+            _ => abscissa.allowed.to_string(),
+        }
     }
 
     /// Strains at failure at some compactions and distortions.
@@ -198,6 +243,7 @@ impl Reader<'_> {
             deviations,
             weight: 1.0,
             fits: Vec::new(),
+            toe: None,
         })
     }
 
@@ -389,6 +435,7 @@ impl Reader<'_> {
             deviations,
             weight: 1.0,
             fits: Vec::new(),
+            toe: None,
         }
     }
 
@@ -410,7 +457,8 @@ impl Reader<'_> {
                 Err(wrong(table, column, rows[point], "a value >= 0: tension, or pressure where it is pressed"))
             }
             Some(Flaw::Unloads(point)) => {
-                let allowed = "loading only: from here on the curve comes back below the way it went; leave that out";
+                let allowed =
+                    "loading only: from here on the curve comes back, and off the way it went; leave that out";
                 Err(wrong(table, column, rows[point], allowed))
             }
             Some(Flaw::Falls(point, before)) => {
@@ -470,6 +518,14 @@ impl Reader<'_> {
         }
         Ok(parameter)
     }
+}
+
+/// What is measured of a state along the fibre at a k_el of 1; NaN where the law has no answer.
+fn per_stiffness(state: Matrix3<f64>, measured: Measured) -> f64 {
+    let mut one = [1.0; PARAMETERS];
+    one[Parameter::P.index()] = 2.0; // 1 is no exponent of the law
+    Modes::at(&state, [1.0, 0.0, 0.0], &one)
+        .map_or(f64::NAN, |modes| modes.response(measured, &one).gradient[Parameter::KEl.index()])
 }
 
 /// Whether files can be named by it.

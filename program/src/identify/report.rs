@@ -1,12 +1,12 @@
 //! The summary of a fit on the terminal.
 
-use super::data::Loading;
+use super::data::{DataSet, Loading, Toe};
 use super::file::Job;
 use super::fit::{Fit, Problem, SetFit};
 use super::notes;
 use super::parameter::{ALL, Parameter};
 use super::ranges::{self, PARTS};
-use super::uncertainty::Estimate;
+use super::uncertainty::{self, Estimate};
 use crate::common::units::{number, unit};
 use toron::law::parameters::NUMBER;
 
@@ -27,6 +27,7 @@ pub fn report(job: &Job, fit: &Fit) -> String {
     }
     for (set, fitted) in job.problem.sets.iter().zip(&fit.sets) {
         text += &line(&set.name, &quality(set.ordinate.unit.as_str(), set.largest(), fitted));
+        text += &set.toe.as_ref().map_or(String::new(), |toe| line("", &slack(set, toe)));
     }
     text += &by_range(&job.problem, fit);
     for note in notes::notes(&job.problem, fit) {
@@ -38,7 +39,7 @@ pub fn report(job: &Job, fit: &Fit) -> String {
 /// A name and a text in lines that a terminal holds.
 pub fn line(name: &str, text: &str) -> String {
     let mut lines = vec![String::new()];
-    for word in text.split(' ') {
+    for word in text.split_whitespace() {
         let last = lines.len() - 1;
         if NAMES + lines[last].chars().count() + word.chars().count() > WIDTH {
             lines.push(String::new());
@@ -58,7 +59,8 @@ fn value(job: &Job, fit: &Fit, parameter: Parameter) -> String {
         unit => format!(" {unit}"),
     };
     if let Some(estimate) = fit.estimates.iter().find(|estimate| estimate.parameter == parameter) {
-        return format!("{}{unit}, {}{}", digits(estimate.value), interval(estimate), origin(job, fit, parameter));
+        let (value, interval, origin) = (digits(estimate.value), interval(estimate), origin(job, fit, parameter));
+        return format!("{value}{unit}, {interval}{origin}{}", doubt(job, fit, parameter));
     }
     let (value, origin) = match (fit.values[index], job.preset.values[index], job.problem.fallback[index]) {
         (Some(value), Some(_), _) => (value, ", given".to_string()),
@@ -98,6 +100,31 @@ fn origin(job: &Job, fit: &Fit, parameter: Parameter) -> String {
         (Some(_), Parameter::EpsLim) => ", from the fibre".to_string(),
         _ => String::new(),
     }
+}
+
+/// What the interval does not cover, where the law does not follow the data that tell a parameter.
+fn doubt(job: &Job, fit: &Fit, parameter: Parameter) -> &'static str {
+    let told_by = fit.groups.iter().filter(|group| group.parameters.contains(&parameter)).flat_map(|group| &group.sets);
+    let patterned = |&set: &usize| notes::patterned(&job.problem.sets[set], &fit.sets[set]);
+    if told_by.copied().any(|set| patterned(&set)) {
+        "; no noise: the value may be farther off than the interval says, see the note"
+    } else {
+        ""
+    }
+}
+
+/// The slack that was taken off a set.
+fn slack(set: &DataSet, toe: &Toe) -> String {
+    let unit = if set.abscissa.unit == "-" { String::new() } else { format!(" {}", set.abscissa.unit) };
+    format!(
+        "slack: the {} counts from {}{unit} ± {} (95 %), where the curve beyond its toe begins; {} points up to {}{unit} are left \
+         out (zero = 0 keeps them)",
+        set.abscissa.name,
+        number(toe.zero),
+        number(uncertainty::quantile(f64::INFINITY) * toe.deviation),
+        toe.left_out,
+        number(toe.end)
+    )
 }
 
 /// How the law meets a set.

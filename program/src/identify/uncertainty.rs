@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use nalgebra::{DMatrix, RowDVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::least_squares::Solution;
@@ -30,7 +30,7 @@ pub struct Estimate {
     pub bounded: bool,
 }
 
-/// A source of errors: a data set, or a constant that was given with its deviation.
+/// A source of errors: a data set, a constant that was given with its deviation, or the zero that a data set counts from.
 #[derive(Clone, Copy, Debug)]
 pub struct Source {
     /// Degrees of freedom of the estimate of its noise; infinite where the noise is known.
@@ -40,12 +40,14 @@ pub struct Source {
 /// The errors of the parameters by those of the data.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
-    /// A row for each parameter, a column for each datum of all sets and for each constant.
+    /// A row for each parameter, a column for each datum of all sets, for each constant, and for each set's zero.
     factors: DMatrix<f64>,
     /// Of each column.
     variances: Vec<f64>,
     /// The columns of each source.
     sources: Vec<(Range<usize>, Source)>,
+    /// The first of the zeros among the sources.
+    zeros: usize,
     /// For parameters on a bound, where the data alone would put them.
     unbounded: [Option<f64>; PARAMETERS],
 }
@@ -55,15 +57,23 @@ impl Uncertainty {
     pub fn new(lengths: impl Iterator<Item = usize>, known: &[Values]) -> Uncertainty {
         let mut sources = Vec::new();
         let mut columns = 0;
-        for length in lengths.chain(known.iter().map(|_| 1)) {
+        let lengths: Vec<usize> = lengths.collect();
+        let sets = lengths.len();
+        for length in lengths.into_iter().chain(std::iter::repeat_n(1, known.len() + sets)) {
             sources.push((columns..columns + length, Source { freedom: f64::INFINITY }));
             columns += length;
         }
         let mut factors = DMatrix::zeros(PARAMETERS, columns);
-        for (column, values) in (columns - known.len()..).zip(known) {
+        for (column, values) in (columns - known.len() - sets..).zip(known) {
             factors.column_mut(column).copy_from_slice(values);
         }
-        Uncertainty { factors, variances: vec![1.0; columns], sources, unbounded: [None; PARAMETERS] }
+        Uncertainty {
+            factors,
+            variances: vec![1.0; columns],
+            zeros: sources.len() - sets,
+            sources,
+            unbounded: [None; PARAMETERS],
+        }
     }
 
     /// The deviations of a set's data and how well they are known.
@@ -84,6 +94,26 @@ impl Uncertainty {
             let row = self.factors.row(parameter.index());
             let moved: f64 = columns.iter().enumerate().map(|(i, &c)| -row[c] * solution.residuals[i]).sum();
             self.unbounded[parameter.index()] = Some(solution.values[parameter.index()] + moved);
+        }
+    }
+
+    /// Adds to the errors of parameters that were just fitted what the zero of one of their sets adds: by one standard deviation of
+    /// it the predictions change by `shift`. Given the zero, the parameters have the error that they have already; the two make
+    /// the error of a fit in which the zero is sought as well.
+    pub fn add_zero(
+        &mut self,
+        set: usize,
+        source: Source,
+        shift: &DVector<f64>,
+        solution: &Solution,
+        weights: &[f64],
+        parameters: &[Parameter],
+    ) {
+        let Some(factors) = inverse(solution, weights, parameters) else { return };
+        let (columns, own) = &mut self.sources[self.zeros + set];
+        *own = source;
+        for (change, parameter) in (-factors * shift).iter().zip(parameters) {
+            self.factors[(parameter.index(), columns.start)] = *change;
         }
     }
 

@@ -13,7 +13,7 @@ use toron_program::identify::file::Job;
 use toron_program::identify::fit::{Fit, Problem};
 use toron_program::identify::parameter::{PARAMETERS, Parameter, Values};
 use toron_program::identify::response::{Measured, Quantity};
-use toron_program::identify::{notes, output, worth};
+use toron_program::identify::{notes, output, report, worth};
 use toron_program::impact::{self, scene::Scene};
 use toron_program::load_path::path::LoadPath;
 
@@ -51,6 +51,7 @@ fn energies(name: &str, fits: &[Parameter], abscissae: Vec<f64>, state: impl Fn(
         deviations: None,
         weight: 1.0,
         fits: fits.to_vec(),
+        toe: None,
     }
 }
 
@@ -490,6 +491,84 @@ fn parameters_that_the_data_cannot_tell_apart_are_named() {
     let table = "strain (-),I_tc (-)\n0.045,-0.02\n0.0451,-0.02\n0.0449,-0.02\n0.0452,-0.02\n";
     let found = message("failure", table, "");
     assert!(found.contains("tell only a combination of eps_lim and alpha"), "{found}");
+}
+
+/// A tensile test of a yarn with k_el = 80 000 MPa and an area of 0.1 mm², slack up to a strain of 0.5 %.
+fn slack_yarn(normal: &mut Normal, zero: f64) -> String {
+    let rows = (0..60).map(|i| {
+        let strain = 0.0005 * f64::from(i);
+        let stretch = 1.0 + (strain - zero).max(0.0);
+        let force = 0.1 * 80_000.0 * stretch.ln() / stretch + normal.next();
+        format!("{strain:.4},{force:.4}\n")
+    });
+    format!("strain (-),force (N)\n{}", rows.collect::<String>())
+}
+
+fn tensile_job(name: &str, table: &str, more: &str) -> Result<Job, toron_program::common::error::Error> {
+    let folder = new_folder(name);
+    std::fs::write(folder.join("data.csv"), table).expect("a file");
+    let text = format!(
+        "units = \"mm-tonne-s\"\n[[data]]\nname = \"pull\"\nfile = \"data.csv\"\nloading = \"elongation\"\narea = 0.1\n{more}"
+    );
+    std::fs::write(folder.join("fit.toml"), text).expect("a file");
+    Job::read(&folder.join("fit.toml"))
+}
+
+/// The toe is found, and the interval holds k_el as often as it says, which without the zero's part it would not.
+#[test]
+fn a_slack_toe_is_found_and_makes_the_interval_wider() {
+    let mut normal = Normal(fastrand::Rng::with_seed(31));
+    let (trials, mut held, mut narrow) = (300, 0, 0);
+    for trial in 0..trials {
+        let job = tensile_job("slack", &slack_yarn(&mut normal, 0.005), "").expect("valid");
+        let toe = job.problem.sets[0].toe.as_ref().expect("a toe");
+        assert!((toe.zero - 0.005).abs() < 5.0 * toe.deviation, "{toe:?}");
+        let fit = job.problem.fit().expect("a fit");
+        let k_el = fit.estimates[0];
+        held += usize::from(k_el.low <= 80_000.0 && 80_000.0 <= k_el.high);
+        let mut exact = job.problem.clone();
+        exact.sets[0].toe = None;
+        let k_el = exact.fit().expect("a fit").estimates[0];
+        narrow += usize::from(k_el.low <= 80_000.0 && 80_000.0 <= k_el.high);
+        if trial == 0 {
+            let text = report::report(&job, &fit);
+            assert!(text.contains("slack: the strain counts from 0.00"), "{text}");
+        }
+    }
+    println!("held in {held} of {trials}, {narrow} without the zero's part");
+    assert!(held >= 270 && narrow < 240, "{held}, {narrow}");
+}
+
+#[test]
+fn a_tensile_test_without_slack_is_left_alone() {
+    let mut normal = Normal(fastrand::Rng::with_seed(32));
+    let job = tensile_job("taut", &slack_yarn(&mut normal, 0.0), "").expect("valid");
+    assert_eq!(job.problem.sets[0].toe, None);
+    assert_eq!(job.problem.sets[0].len(), 60);
+    // A slack that the file takes off by itself is not sought.
+    let job = tensile_job("taut", &slack_yarn(&mut normal, 0.005), "zero = 0.005\nrange = [0, 1]\n").expect("valid");
+    assert_eq!(job.problem.sets[0].toe, None);
+    let error = tensile_job("taut", &slack_yarn(&mut normal, 0.005), "zero = 0.005\n").expect_err("before zero");
+    let error = error.to_string();
+    assert!(error.contains("less zero = 0.005") && error.contains("range = [0, …]"), "{error}");
+    // With the toe kept the law does not follow, and k_el's own line says so.
+    let job = tensile_job("taut", &slack_yarn(&mut normal, 0.005), "zero = 0\n").expect("valid");
+    let text = report::report(&job, &job.problem.fit().expect("a fit"));
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("from pull; no noise: the value may be farther off than the interval says"), "{text}");
+}
+
+/// Every line of a note is indented, and what would tell a parameter is said once, with its name.
+#[test]
+fn notes_are_indented_and_say_each_thing_once() {
+    let job = tensile_job("notes", &slack_yarn(&mut Normal(fastrand::Rng::with_seed(33)), 0.0), "");
+    let mut job = job.expect("valid");
+    job.problem.density = Some(1.4);
+    let text = report::report(&job, &job.problem.fit().expect("a fit"));
+    assert!(text.lines().skip(1).all(|line| line.starts_with("  ")) && text.contains("fibres have"), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let would = "What would: k_tc, p by energy or pressure in compaction, or transverse compression; k_td by transverse compression";
+    assert!(words.contains(would), "{words}");
 }
 
 #[test]
