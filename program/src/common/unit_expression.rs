@@ -17,7 +17,7 @@ pub struct Unit {
 
 /// What may stand in the brackets of a header.
 pub const ALLOWED: &str = "- or % for a number; else products and quotients of m, in, ft, g, t (tonne), slug, slinch, s, N, \
-                           lbf, Pa, bar, psi, psf, ksi, J, W with prefixes n µ (u) m c d k M G T P where they are metric, in \
+                           lbf, gf, Pa, bar, psi, psf, ksi, J, W, tex, den with prefixes n µ (u) m c d k M G T P where they are metric, in \
                            capitals and small letters as here: N, kN, MPa, N/mm², mJ/mm^3, kg/(m s²), 1/s";
 
 /// Longer texts are no units; this also bounds how deep parentheses can be.
@@ -51,7 +51,7 @@ const POUND_FORCE: f64 = 44_482_216_152_605.0;
 const INCH: f64 = 254.0;
 const FOOT: f64 = 3048.0;
 
-const NAMED: [Named; 20] = [
+const NAMED: [Named; 24] = [
     plain("1", [0, 0, 0], 1.0, 0),
     plain("%", [0, 0, 0], 1.0, -2),
     metric("m", [0, 1, 0], 0),
@@ -64,6 +64,11 @@ const NAMED: [Named; 20] = [
     metric("W", [1, 2, -3], 0),
     plain("t", [1, 0, 0], 1.0, 3),
     plain("tonne", [1, 0, 0], 1.0, 3),
+    plain("gf", FORCE, 9.80665, -3),
+    // Grams in 1000 m and, of a denier, in 9000 m.
+    metric("tex", [1, -1, 0], -6),
+    plain("den", [1, -1, 0], 1.0 / 9.0, -6),
+    plain("denier", [1, -1, 0], 1.0 / 9.0, -6),
     plain("in", [0, 1, 0], INCH, -4),
     plain("ft", [0, 1, 0], FOOT, -4),
     plain("lbf", FORCE, POUND_FORCE, -13),
@@ -291,6 +296,8 @@ mod tests {
             (&["tonne/mm^3", "t/(mm² mm)"], DENSITY, 12),
             (&["kN/m", "N/mm"], Dimension { mass: 1, length: 0, time: -2, name: "" }, 3),
             (&["ms", "m·s/km"], TIME, -3),
+            (&["dtex", "dg/km"], Dimension { mass: 1, length: -1, time: 0, name: "" }, -7),
+            (&["N/tex", "cN/ctex", "kN m/g"], Dimension { mass: 0, length: 2, time: -2, name: "" }, 6),
         ] {
             for text in texts {
                 let unit = parse(text);

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::data::{DataSet, Loading};
+use super::data_sheet::{DataSheet, DataSheetFile};
 use super::equivalence::{Constant, Fibre};
 use super::fit::Problem;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
@@ -26,6 +27,7 @@ struct FitFile {
     #[serde(default)]
     yarn: YarnFile,
     fibre: Option<Spanned<FibreFile>>,
+    data_sheet: Option<Spanned<DataSheetFile>>,
     #[serde(default)]
     data: Vec<Spanned<DataFile>>,
 }
@@ -109,6 +111,7 @@ pub struct Job {
     /// The preset from which values come that nothing else gives.
     pub base: Option<Preset>,
     pub fibre: Option<Fibre>,
+    pub sheet: Option<DataSheet>,
     pub problem: Problem,
     /// The files that were read, none of which is to be overwritten.
     pub inputs: Vec<PathBuf>,
@@ -126,12 +129,19 @@ impl Job {
         let file: FitFile = source.parse()?;
         let units = source.units(&file.units)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        if file.data.is_empty() && file.fibre.is_none() {
-            return Err(source.error(0..0, "neither [[data]] nor [fibre]: nothing tells a parameter"));
+        if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
+            return Err(source.error(0..0, "neither [[data]] nor [fibre] nor [data_sheet]: nothing tells a parameter"));
         }
+        if let (Some(_), Some(sheet)) = (&file.fibre, &file.data_sheet) {
+            let message = "[fibre] and [data_sheet] both tell k_el and eps_lim; allowed: one of them";
+            return Err(source.error(sheet.span(), message));
+        }
+        let sheet = file.data_sheet.as_ref().map(|sheet| DataSheet::read(&source, sheet)).transpose()?;
         let fibre = file.fibre.as_ref().map(|fibre| source.known_fibre(fibre)).transpose()?;
+        let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
         let base = file.yarn.preset.as_ref().map(|name| source.base(name, folder)).transpose()?;
-        let preset = source.preset_to_be(&file, units)?;
+        let mut preset = source.preset_to_be(&file, units)?;
+        preset.density = preset.density.or_else(|| sheet.as_ref().map(|sheet| sheet.density(&units)));
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
         let reader = Reader { source: &source, folder, units: &units, known: &known };
@@ -159,7 +169,7 @@ impl Job {
         let data = file.data.iter().flat_map(|data| data.get_ref().files());
         let inputs = data.chain(file.yarn.preset.as_ref().map(|preset| preset.get_ref().as_str()));
         let inputs = inputs.map(|name| folder.join(name)).chain([path.to_path_buf()]).collect();
-        Ok(Job { title, units, preset, base, fibre, problem, inputs })
+        Ok(Job { title, units, preset, base, fibre, sheet, problem, inputs })
     }
 }
 

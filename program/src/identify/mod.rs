@@ -3,6 +3,7 @@
 pub mod checks;
 pub mod command;
 pub mod data;
+pub mod data_sheet;
 pub mod equivalence;
 pub mod file;
 pub mod fit;

@@ -21,6 +21,10 @@ pub fn report(job: &Job, fit: &Fit) -> String {
     for parameter in ALL {
         text += &line(parameter.name(), &value(job, fit, parameter));
     }
+    if let Some(sheet) = &job.sheet {
+        text += &line("data sheet", &sheet.summary(&job.units));
+        text += &sheet.warning().map_or(String::new(), |warning| line("warning", &warning));
+    }
     for (a, b, correlation) in notes::strong_correlations(fit) {
         let meaning = "they are sure together, less so one by one";
         text += &line("correlation", &format!("{} and {}: {correlation:.3}; {meaning}", a.name(), b.name()));

@@ -493,6 +493,27 @@ fn parameters_that_the_data_cannot_tell_apart_are_named() {
     assert!(found.contains("tell only a combination of eps_lim and alpha"), "{found}");
 }
 
+/// Starting files of known yarns: the fibres tell k_el, the strain at failure and the density; what nobody has published stays open.
+#[test]
+fn yarns_from_data_sheets_are_presets_to_be_completed() {
+    for (name, modulus) in
+        [("kevlar-49", 135_000.0), ("twaron", 72_000.0), ("dyneema-sk75", 120_765.0), ("zylon-as", 177_100.0)]
+    {
+        let job = Job::read(&example(&format!("yarns/{name}.toml"))).expect("the example is valid");
+        let fibre = job.fibre.expect("a fibre");
+        assert_relative_eq!(fibre.modulus.value, modulus, max_relative = 1e-6);
+        let fit = job.problem.fit().expect("a fit");
+        // Equal energies at 2.8 to 3.5 % of strain: the law's k_el is 1 + 0.8 ε times the modulus.
+        let ratio = fit.values[0].expect("k_el") / (modulus * 0.9069);
+        assert!((1.02..1.03).contains(&ratio), "{name}: {ratio}");
+        assert_eq!(job.sheet.as_ref().expect("a sheet").warning(), None);
+        let notes = notes::notes(&job.problem, &fit);
+        assert!(notes.iter().any(|note| note.contains("say nothing of k_tc, p, k_td")), "{notes:?}");
+        let preset = output::preset(&job, &fit);
+        assert!(preset.contains("density") && preset.contains("eps_lim") && !preset.contains("k_tc ="), "{preset}");
+    }
+}
+
 /// A tensile test of a yarn with k_el = 80 000 MPa and an area of 0.1 mm², slack up to a strain of 0.5 %.
 fn slack_yarn(normal: &mut Normal, zero: f64) -> String {
     let rows = (0..60).map(|i| {
