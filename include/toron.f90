@@ -43,6 +43,7 @@ module toron
   integer(c_int32_t), parameter :: toron_status_state_not_finite = -304
   integer(c_int32_t), parameter :: toron_status_fibre_direction = -305
   integer(c_int32_t), parameter :: toron_status_increment_too_large = -306
+  integer(c_int32_t), parameter :: toron_status_material_axes = -307
   integer(c_int32_t), parameter :: toron_module_abi_version = 2
   integer(c_int32_t), parameter :: toron_hyperelastic = 0
   integer(c_int32_t), parameter :: toron_linear_elastic = 1

@@ -132,6 +132,11 @@
 #define TORON_INCREMENT_TOO_LARGE -306
 
 /*
+ The material axes given for this point, for the frame of the spin, are not orthonormal.
+ */
+#define TORON_MATERIAL_AXES -307
+
+/*
  Version of the binary interface. A program built against it runs with every later library of the same number.
  */
 #define TORON_ABI_VERSION 2

@@ -89,7 +89,8 @@ pub(super) struct Answer<R: Real> {
     pub state: [R; LINEAR_ELASTIC_STATE],
     /// ρ0 c² for an upper bound c of the wave speed at the end of the step.
     pub wave_modulus: R,
-    /// The material axes at both ends of the step, as columns.
+    /// The material axes that the caller has passed, and those at both ends of the step, as columns.
+    pub axes: Matrix<R>,
     pub q0: Matrix<R>,
     pub q1: Matrix<R>,
     pub status: R,
@@ -163,7 +164,7 @@ impl LinearElastic {
     /// One step, from the deformation gradient `f0` and the old state to the deformation gradient `f1`.
     ///
     /// `axes`, the material axes in space as columns, is read and updated for [`Rotation::Spin`] only (start with
-    /// [`reference_axes`](Self::reference_axes)); the other frames follow from F.
+    /// [`reference_axes`](Self::reference_axes); axes that are not orthonormal are refused); the other frames follow from F.
     pub fn step(
         &self,
         f0: &Matrix3<f64>,
@@ -198,8 +199,16 @@ impl LinearElastic {
         let (stress, new) = self.advance(strain, jacobian, state, criterion, Wanted::STRESS_AND_STATE);
         let nowhere = [[0.0; 3]; 3];
         let wave_modulus = self.wave_modulus();
-        let mut answer =
-            Answer { stress, state: new, wave_modulus, q0: nowhere, q1: nowhere, status: 0.0, taken: true };
+        let mut answer = Answer {
+            stress,
+            state: new,
+            wave_modulus,
+            axes: nowhere,
+            q0: nowhere,
+            q1: nowhere,
+            status: 0.0,
+            taken: true,
+        };
         let finite = strain.iter().all(|x| x.is_finite()) && jacobian.is_finite();
         answer.taken = finite & answer.sound(state);
         if !answer.taken {
@@ -212,8 +221,16 @@ impl LinearElastic {
     pub(crate) fn kept(&self, state: &[f64; LINEAR_ELASTIC_STATE], why: i32) -> LinearPoint {
         let nowhere = [[0.0; 3]; 3];
         let (wave_modulus, stress) = (self.wave_modulus(), [0.0; 6]);
-        let mut answer =
-            Answer { stress, state: *state, wave_modulus, q0: nowhere, q1: nowhere, status: 0.0, taken: false };
+        let mut answer = Answer {
+            stress,
+            state: *state,
+            wave_modulus,
+            axes: nowhere,
+            q0: nowhere,
+            q1: nowhere,
+            status: 0.0,
+            taken: false,
+        };
         answer.keep(state, f64::from(why));
         answer.point()
     }
@@ -230,7 +247,7 @@ pub(super) struct Step<'a, R> {
     /// Columns of F at both ends.
     pub f0: &'a Matrix<R>,
     pub f1: &'a Matrix<R>,
-    /// The material axes in space at the start; read for [`Rotation::Spin`] only.
+    /// The material axes in space at the start, orthonormal; read for [`Rotation::Spin`] only.
     pub axes: &'a Matrix<R>,
     pub rotation: Rotation,
     pub criterion: Criterion,
@@ -293,6 +310,13 @@ impl<R: Real> LinearElastic<R> {
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
         let upright = zero.lt(j0) & zero.lt(j1);
+        let (start, usable, unusable) = match rotation {
+            Rotation::Spin => {
+                let (start, near) = orthonormal(axes);
+                (start, near, status::MATERIAL_AXES)
+            }
+            Rotation::Fibre | Rotation::Polar => (*axes, usable, status::FIBRE_DIRECTION),
+        };
         let able = upright & usable & Failure::intact(old[LINEAR_FAILED]);
         // F1 F0⁻¹ − 1.
         let inverse = j0.reciprocal();
@@ -304,7 +328,7 @@ impl<R: Real> LinearElastic<R> {
                 let (r0, r1) = (polar_rotation(f0, able), polar_rotation(f1, able));
                 (product(&r0, reference), product(&r1, reference))
             }
-            Rotation::Spin => (*axes, rotated_by_spin(axes, &change)),
+            Rotation::Spin => (start, rotated_by_spin(&start, &change)),
         };
         let turn = difference(&q1, &q0);
         let back = transposed(&q1);
@@ -324,7 +348,7 @@ impl<R: Real> LinearElastic<R> {
         // Its size is the same in the material axes.
         let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
-        let mut answer = Answer { stress, state, wave_modulus, q0, q1, status: zero, taken: able };
+        let mut answer = Answer { stress, state, wave_modulus, axes: *axes, q0, q1, status: zero, taken: able };
         // If squares of lengths overflow, there are no axes.
         let in_range = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
         answer.taken = upright & usable & converged & in_range & answer.sound(old);
@@ -333,8 +357,8 @@ impl<R: Real> LinearElastic<R> {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(converged, zero, code(status::INCREMENT_TOO_LARGE));
             let why = R::select(upright, why, code(status::INVERTED));
-            let why = R::select(usable, why, code(status::FIBRE_DIRECTION));
-            let finite = is_finite(f0) & is_finite(f1) & is_finite(axes);
+            let why = R::select(usable, why, code(unusable));
+            let finite = is_finite(f0) & is_finite(f1);
             answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
             answer.wave_modulus = R::select(answer.taken, answer.wave_modulus, self.modulus_at_rest());
         }
@@ -404,7 +428,7 @@ impl<R: Real> Answer<R> {
         for stress in &mut self.stress {
             *stress = R::select(taken, *stress, zero);
         }
-        self.q1 = selected(taken, &self.q1, &self.q0);
+        self.q1 = selected(taken, &self.q1, &self.axes);
         let overflow = R::select(intact, R::splat(f64::from(status::OVERFLOW)), zero);
         let of_state = R::select(lost, R::splat(f64::from(status::STATE_NOT_FINITE)), overflow);
         let code = R::select(intact & why.lt(zero), why, of_state);
@@ -436,6 +460,23 @@ fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix<R>, R::Mas
     let usable = usable & apart & R::splat(1e-6).lt(dot(across, across));
     let chosen = [frame.m, n.m, cross(frame.m, n.m)];
     (selected(any, &[frame.m, frame.t1, frame.t2], &chosen), any | usable)
+}
+
+/// The axes that a caller keeps, made orthonormal, Q (3 − QᵀQ)/2, and where they are nearly so before. The roundings of a step may
+/// lengthen the axes by as much in every step (in single precision by 7e-8), which without the correction would add up.
+#[inline(always)]
+fn orthonormal<R: Real>([a, b, c]: &Matrix<R>) -> (Matrix<R>, R::Mask) {
+    /// The most that the norm of QᵀQ − 1 may be: more than what roundings do to corrected axes, or three digits to those of a text
+    /// file. The correction leaves less than its square.
+    const DRIFT: f64 = 0.01;
+    let (one, half) = (R::splat(1.0), R::splat(-0.5));
+    let lengths = [dot(*a, *a) - one, dot(*b, *b) - one, dot(*c, *c) - one];
+    let angles = [dot(*a, *b), dot(*b, *c), dot(*c, *a)];
+    let once = dot(angles, angles);
+    let near = (dot(lengths, lengths) + (once + once)).lt(R::splat(DRIFT * DRIFT));
+    let ([aa, bb, cc], [ab, bc, ca]) = (scale(half, lengths), scale(half, angles));
+    let corrected = |v: [R; 3], by_a: R, by_b: R, by_c: R| along(along(along(v, by_a, *a), by_b, *b), by_c, *c);
+    ([corrected(*a, aa, ab, ca), corrected(*b, ab, bb, bc), corrected(*c, ca, bc, cc)], near)
 }
 
 /// The axes that follow the fibre: F m and F n made orthonormal in this order, and their vector product.

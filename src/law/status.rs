@@ -48,9 +48,11 @@ pub const STATE_NOT_FINITE: i32 = -304;
 pub const FIBRE_DIRECTION: i32 = -305;
 /// The step is too large to integrate: a stretch by a factor of ten or more, or a half-turn.
 pub const INCREMENT_TOO_LARGE: i32 = -306;
+/// The material axes given for this point, for the frame of the spin, are not orthonormal.
+pub const MATERIAL_AXES: i32 = -307;
 
 /// Every code with its name and meaning.
-pub const TABLE: [(i32, &str, &str); 22] = [
+pub const TABLE: [(i32, &str, &str); 23] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
     (BAD_COUNT, "bad_count", "a count that this function does not support"),
@@ -96,6 +98,11 @@ pub const TABLE: [(i32, &str, &str); 22] = [
         INCREMENT_TOO_LARGE,
         "increment_too_large",
         "the step is too large to integrate: a stretch by a factor of ten or a half-turn",
+    ),
+    (
+        MATERIAL_AXES,
+        "material_axes",
+        "the material axes of this point are not orthonormal: start with the law's own, and keep those that each step returns",
     ),
 ];
 

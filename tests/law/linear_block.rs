@@ -96,7 +96,9 @@ fn troubled() -> Vec<Input> {
             inputs.push(input);
         }
     }
-    inputs.push(Input { axes: [f64::NAN; 9], ..good });
+    for axes in [[f64::NAN; 9], [0.0; 9], [1e30; 9], REST.map(|x| 1.1 * x)] {
+        inputs.push(Input { axes, ..good });
+    }
     inputs
 }
 
@@ -220,13 +222,17 @@ fn codes() {
                 let [f_old, f_new] = [input.f_old, input.f_new].map(|f| Matrix3::from_column_slice(&f));
                 let finite = |f: &[f64]| f.iter().all(|x| x.is_finite());
                 let spin = call.rotation == Rotation::Spin;
+                let q = Matrix3::from_column_slice(&input.axes);
+                let orthonormal = (q.transpose() * q - Matrix3::identity()).norm() < 0.01;
                 let failed = input.old[LINEAR_FAILED].is_nan() || input.old[LINEAR_FAILED] >= 0.5;
                 let known = finite(&input.old[..LINEAR_ALIVE]);
                 let huge = [f_old[0], f_new[0]].iter().any(|x| !(1e-20..50.0).contains(&x.abs()));
                 let expected = if failed {
                     if known { status::OK } else { status::STATE_NOT_FINITE }
-                } else if !finite(&input.f_old) || !finite(&input.f_new) || (spin && !finite(&input.axes)) {
+                } else if !finite(&input.f_old) || !finite(&input.f_new) {
                     status::NOT_FINITE
+                } else if spin && !orthonormal {
+                    status::MATERIAL_AXES
                 } else if huge {
                     // Underflow and overflow make the determinant 0, the increment no number or the axes none.
                     assert!(
@@ -301,6 +307,51 @@ fn outputs_left_out() {
             }
         }
     }
+}
+
+/// Material axes that are turned by many steps in single precision stay orthonormal: about fixed and changing axes, by small and large
+/// angles.
+#[test]
+fn axes_after_many_steps() {
+    const POINTS: usize = 64;
+    const STEPS: usize = 20_000;
+    let law = law::<f32>();
+    let reference = by_columns(&LinearElastic::<f64>::new(&YARN).expect("valid properties").reference_axes());
+    let mut axes: Vec<f32> = (0..9 * POINTS).map(|k| reference[k / POINTS] as f32).collect();
+    let rest: Vec<f32> = (0..9 * POINTS).map(|k| REST[k / POINTS] as f32).collect();
+    let mut turned = [rest.clone(), rest.clone()];
+    let mut state = vec![0.0f32; STATE * POINTS];
+    let mut codes = [0; POINTS];
+    for step in 0..STEPS {
+        let after = &mut turned[step % 2];
+        for i in 0..POINTS {
+            // From 1e-6 to 1 rad a step; every other axis turns by itself.
+            let angle = 10f64.powf(-6.0 + 6.0 * (i / 2) as f64 / (POINTS / 2) as f64);
+            let t = if i % 2 == 0 { 1.0 } else { step as f64 };
+            let axis = nalgebra::Unit::new_normalize(nalgebra::Vector3::new(1.0, t.sin(), (0.3 * t).cos()));
+            let turn = nalgebra::Rotation3::from_axis_angle(&axis, angle);
+            for (c, &x) in turn.matrix().iter().enumerate() {
+                after[c * POINTS + i] = x as f32;
+            }
+        }
+        let block = LinearPointers {
+            f_old: components(rest.as_ptr(), POINTS),
+            f_new: components(after.as_ptr(), POINTS),
+            axes: axes.as_mut_ptr(),
+            state_new: state.as_mut_ptr(),
+            status: codes.as_mut_ptr(),
+            rotation: Rotation::Spin,
+            ..LinearPointers::without_arrays(POINTS, POINTS)
+        };
+        // SAFETY: the arrays hold as many points.
+        assert_eq!(unsafe { law.raw_block(&block) }, Ok(status::OK), "step {step}: {codes:?}");
+    }
+    let drift = |i: usize| {
+        let q = Matrix3::from_fn(|r, c| f64::from(axes[(3 * c + r) * POINTS + i]));
+        (q.transpose() * q - Matrix3::identity()).norm()
+    };
+    let worst = (0..POINTS).map(drift).fold(0.0, f64::max);
+    assert!(worst < 1e-6, "{worst}");
 }
 
 #[test]

@@ -212,6 +212,49 @@ fn steps_too_large() {
     }
 }
 
+/// Axes that are not orthonormal have a status and keep their values: forgotten ones, too long ones, parallel ones, some that are no
+/// numbers. Those that are written with three digits are taken, and the other frames do not look at them.
+#[test]
+fn axes_that_are_not_orthonormal() {
+    let (law, f) = (yarn(0.0), stretch(1.01));
+    let old = follow(&law, Rotation::Fibre, 1, |t| stretch(1.0 + 0.01 * t)).state;
+    let typed = Matrix3::new(0.707, -0.707, 0.0, 0.707, 0.707, 0.0, 0.0, 0.0, 1.0);
+    let mut parallel = Matrix3::identity();
+    parallel.set_column(1, &Vector3::new(1.0, 0.0, 0.0));
+    for (axes, expected) in [
+        (Matrix3::zeros(), status::MATERIAL_AXES),
+        (Matrix3::identity() * 2.0, status::MATERIAL_AXES),
+        (Matrix3::identity() * 1.01, status::MATERIAL_AXES),
+        (Matrix3::from_element(1e200), status::MATERIAL_AXES),
+        (Matrix3::from_element(f64::NAN), status::MATERIAL_AXES),
+        (parallel, status::MATERIAL_AXES),
+        (typed, status::OK),
+    ] {
+        for rotation in FRAMES {
+            let (mut kept, mut with_tangent) = (axes, axes);
+            let criterion = Criterion::LargestPrincipal;
+            let point = law.step(&Matrix3::identity(), &f, &old, rotation, criterion, &mut kept);
+            let (again, tangent) =
+                law.step_with_tangent(&Matrix3::identity(), &f, &old, rotation, criterion, &mut with_tangent);
+            let expected = if rotation == Rotation::Spin { expected } else { status::OK };
+            assert_eq!((point.status, again.status), (expected, expected), "{rotation:?}, axes {axes}");
+            if expected != status::OK {
+                assert_eq!((point.stress, point.state, again), ([0.0; 6], old, point));
+                assert_eq!(tangent.0, [[0.0; 6]; 9]);
+                for (found, given) in kept.iter().chain(&with_tangent).zip(axes.iter().chain(&axes)) {
+                    assert_eq!(found.to_bits(), given.to_bits(), "the axes");
+                }
+            }
+        }
+    }
+    // An element that has failed needs no axes.
+    let mut failed = old;
+    (failed[LINEAR_FAILED], failed[LINEAR_ALIVE]) = (1.0, 0.0);
+    let mut none = Matrix3::zeros();
+    let point = law.step(&f, &f, &failed, Rotation::Spin, Criterion::LargestPrincipal, &mut none);
+    assert_eq!((point.status, point.stress), (status::OK, [0.0; 6]));
+}
+
 /// Increments of strain in a frame that does not turn are what F gives for a pure stretch.
 #[test]
 fn increments_of_a_pure_stretch() {
