@@ -208,6 +208,9 @@ static inline void check_text(const char *whole, size_t capacity, int line)
 /* Messages that several entries give. */
 #define NOT_PREPARED_BY(entry) "the law has not been prepared by " TEXT(ENTRY(entry))
 #define INVERTED_TEXT "the deformation gradient has a determinant <= 0 or maps the fibre to zero length"
+/* The most points, and the greatest distance between two components. */
+#define MOST_DISTANCE ((SIZE_MAX >> 1) >> 10)
+#define MOST_TEXT "9007199254740991"
 #define NO_FIBRE_TEXT "the fibre direction of this point is zero, NaN or infinite, or along the second axis"
 #define LEVELS_TEXT "0 (the best), 1 (baseline), 2 (AVX2) or 3 (AVX-512)"
 #define MEASURES_TEXT "0 (material), 1 (Truesdell), 2 (Jaumann) or 3 (nominal)"

@@ -627,6 +627,28 @@ static void wrong_blocks(void)
     refused_block(properties, b, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 10 given, 11 needed");
     b = good, b.tangent = tangent, b.tangent_layout.leading_dimension = POINTS - 1;
     refused_block(properties, b, TORON_BAD_LEADING_DIMENSION, "leading dimension of tangent: 10 given, 11 needed");
+    static const struct {
+        const char *array;
+        size_t layout;
+    } layouts[] = {
+        {"f_old", offsetof(toron_linear_block, deformation_gradient_layout)}, {"fibre", offsetof(toron_linear_block, fibre_layout)},
+        {"axes", offsetof(toron_linear_block, axes_layout)}, {"the state", offsetof(toron_linear_block, state_layout)},
+        {"stress", offsetof(toron_linear_block, stress_layout)}, {"tangent", offsetof(toron_linear_block, tangent_layout)},
+    };
+    for (size_t k = 0; k < sizeof layouts / sizeof *layouts; k++) {
+        char words[160];
+        b = good, b.tangent = tangent;
+        toron_layout *layout = (toron_layout *)((char *)&b + layouts[k].layout);
+        *layout = (toron_layout){0, (size_t)-3};
+        snprintf(words, sizeof words, "argument stride of %s is -3; allowed: 1 to %zu", layouts[k].array, MOST_DISTANCE / POINTS);
+        refused_block(properties, b, TORON_BAD_LEADING_DIMENSION, words);
+        *layout = (toron_layout){(size_t)-100, 0};
+        snprintf(words, sizeof words, "argument leading dimension of %s is -100; allowed: 1 to " MOST_TEXT, layouts[k].array);
+        refused_block(properties, b, TORON_BAD_LEADING_DIMENSION, words);
+    }
+    b = good, b.leading_dimension = (size_t)-1;
+    refused_block(properties, b, TORON_BAD_LEADING_DIMENSION,
+                  "argument leading dimension of f_old is -1; allowed: 1 to " MOST_TEXT);
     b = good, b.tangent = tangent, b.measure = -1;
     refused_block(properties, b, TORON_BAD_ARGUMENT, "argument measure is -1; allowed: " MEASURES_TEXT);
     b = good, b.axes = NULL;

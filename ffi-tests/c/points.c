@@ -570,6 +570,50 @@ static void refused_block(const real *properties, toron_block block, arrays_of_b
     CHECK(untouched(a.stress, 6 * a.ld * sizeof(real)), "stress, status %d", wanted);
 }
 
+/* Negative distances, converted: for each array in turn, where the others are right. */
+static void wrong_distances(const real *properties, toron_block good, arrays_of_block a, real *tangent)
+{
+    static const struct {
+        const char *array;
+        size_t layout;
+    } layouts[] = {
+        {"deformation_gradient", offsetof(toron_block, deformation_gradient_layout)}, {"fibre", offsetof(toron_block, fibre_layout)},
+        {"the state", offsetof(toron_block, state_layout)}, {"stress", offsetof(toron_block, stress_layout)},
+        {"modes", offsetof(toron_block, modes_layout)}, {"tangent", offsetof(toron_block, tangent_layout)},
+    };
+    good.tangent = tangent;
+    for (size_t k = 0; k < sizeof layouts / sizeof *layouts; k++) {
+        toron_block block = good;
+        toron_layout *layout = (toron_layout *)((char *)&block + layouts[k].layout);
+        char words[160];
+        *layout = (toron_layout){0, (size_t)-3};
+        snprintf(words, sizeof words, "argument stride of %s is -3; allowed: 1 to %zu", layouts[k].array, MOST_DISTANCE / 2);
+        refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, words);
+        *layout = (toron_layout){1, MOST_DISTANCE / 2 + 1};
+        snprintf(words, sizeof words, "argument stride of %s is %zu; allowed: 1 to %zu", layouts[k].array, MOST_DISTANCE / 2 + 1, MOST_DISTANCE / 2);
+        refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, words);
+        for (size_t stride = 0; stride < 3; stride++) {
+            *layout = (toron_layout){(size_t)-100, stride};
+            snprintf(words, sizeof words, "argument leading dimension of %s is -100; allowed: 1 to " MOST_TEXT, layouts[k].array);
+            refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, words);
+        }
+    }
+    /* Components with pointers of their own. */
+    toron_block block = good;
+    for (int c = 0; c < 9; c++)
+        block.deformation_gradient[c] = good.deformation_gradient[0];
+    block.deformation_gradient_layout.stride = (size_t)-1;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION,
+                  "argument stride of deformation_gradient is -1; allowed: 1 to 4503599627370495");
+    /* The leading dimension of the whole block. */
+    block = good, block.leading_dimension = (size_t)-1;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION,
+                  "argument leading dimension of deformation_gradient is -1; allowed: 1 to " MOST_TEXT);
+    block.n = 1;
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION,
+                  "argument leading dimension of deformation_gradient is -1; allowed: 1 to " MOST_TEXT);
+}
+
 static void wrong_calls(void)
 {
     const truth *t = &cases[0];
@@ -614,7 +658,8 @@ static void wrong_calls(void)
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 1 given, 3 needed");
     block = good, block.n = (size_t)-1;
     refused_block(properties, block, a, TORON_BAD_COUNT,
-                  "argument n is 9223372036854775807; allowed: 0 to 72057594037927935");
+                  "argument n is -1; allowed: 0 to " MOST_TEXT);
+    wrong_distances(properties, good, a, wrong);
     block = good, block.modes_layout.leading_dimension = 1;
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of modes: 1 given, 2 needed");
     block = good, block.tangent_layout.leading_dimension = 1, block.tangent = wrong;

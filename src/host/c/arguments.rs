@@ -3,7 +3,7 @@
 use libc::size_t;
 
 use super::constants::*;
-use crate::law::block::{check_layout, components, components_mut};
+use crate::law::block::{MOST, check_layout, components, components_mut};
 use crate::law::error::Error;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::level::Level;
@@ -24,16 +24,13 @@ pub struct Layout {
     pub stride: size_t,
 }
 
-/// Room for more points than any memory holds: a larger number is a negative one, converted.
-const MOST_POINTS: size_t = size_t::MAX >> 8;
-
 /// Checks the number of points.
 #[inline(always)]
 pub fn check_points(n: size_t) -> Result<(), Error> {
-    if n <= MOST_POINTS {
+    if n <= MOST {
         return Ok(());
     }
-    let (value, greatest) = (i64::try_from(n).unwrap_or(i64::MAX), MOST_POINTS as i64);
+    let (value, greatest) = (n as i64, MOST as i64); // as the caller wrote it, if it is negative
     Err(Error::Range { code: status::BAD_COUNT, name: "n", value, least: 0, greatest })
 }
 
@@ -60,17 +57,18 @@ impl Layout {
     }
 
     /// Checks the pointers to the components of an array of `n` points: all are given, or only the first one, or none. The layout
-    /// has nothing left out; `names` are those of one of its components and of its leading dimension.
+    /// has nothing left out; `component` is the name of one of its components, `distances` those of its leading dimension and stride.
     ///
     /// # Errors
-    /// Some are given, but not all; or entries may overlap.
+    /// Some are given, but not all; or entries may overlap, or are before the array's start.
     #[inline(always)]
     pub fn check<P: Copy + PartialEq, const N: usize>(
         self,
         array: &[P; N],
         null: P,
         n: size_t,
-        names: [&'static str; 2],
+        component: &'static str,
+        distances: [&'static str; 2],
     ) -> Result<(), Error> {
         let (mut count, mut c) = (0, 1);
         while c < N {
@@ -78,12 +76,14 @@ impl Layout {
             c += 1;
         }
         if count > 0 && (count < N - 1 || array[0] == null) {
-            return Err(Error::Null { name: names[0] });
+            return Err(Error::Null { name: component });
         }
-        if count > 0 || array[0] == null {
+        if array[0] == null {
             return Ok(());
         }
-        check_layout(n, N, self.leading_dimension, self.stride, names[1])
+        // Components that have pointers of their own are where the caller says.
+        let (components, leading_dimension) = if count > 0 { (1, n) } else { (N, self.leading_dimension) };
+        check_layout(n, components, leading_dimension, self.stride, distances)
     }
 
     /// The pointers to the components of an array that [`check`](Self::check) has found right.

@@ -9,7 +9,7 @@ use super::arguments::{Layout, check_density, check_points, leading_dimension, l
 use super::prepared::{HyperelasticLaw, numbers};
 use crate::host::border::{Message, entry, of_points, properties};
 use crate::host::structures::{read, structures};
-use crate::law::block::{Law, Pointers, Precision, Strides, components, components_mut, raw_block_of};
+use crate::law::block::{Law, MOST, Pointers, Precision, Strides, components, components_mut, distances, raw_block_of};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::parameters;
@@ -105,7 +105,7 @@ impl<T: Scalar> Block<T> {
             c += 1;
         }
         others |= s1.addr() | s2.addr() | s3.addr() | s4.addr() | s5.addr();
-        others == 0 && self.n <= leading_dimension(self.leading_dimension, self.n)
+        others == 0 && self.leading_dimension <= MOST && self.n <= leading_dimension(self.leading_dimension, self.n)
     }
 
     /// Checks what the law itself does not check, but for the layouts.
@@ -128,12 +128,13 @@ impl<T: Scalar> Block<T> {
             &self.deformation_gradient,
             null(),
             n,
-            ["deformation_gradient, one of its components,", "leading dimension of deformation_gradient"],
+            "deformation_gradient, one of its components,",
+            distances!("deformation_gradient"),
         )?;
-        let names = ["fibre, one of its components,", "leading dimension of fibre"];
-        fibre.or(leading_dimension).check(&self.fibre, null(), n, names)?;
-        let names = ["stress, one of its components,", "leading dimension of stress"];
-        stress.or(leading_dimension).check(&self.stress, null_mut(), n, names)
+        let component = "fibre, one of its components,";
+        fibre.or(leading_dimension).check(&self.fibre, null(), n, component, distances!("fibre"))?;
+        let component = "stress, one of its components,";
+        stress.or(leading_dimension).check(&self.stress, null_mut(), n, component, distances!("stress"))
     }
 
     /// The block as the law takes it, if it [is plain](Self::is_plain).

@@ -11,7 +11,7 @@ use crate::host::border::{Message, entry, of_points, properties, store};
 use crate::host::structures::{read, structures};
 use crate::law::block::Precision;
 use crate::law::block::linear::{LinearPointers, LinearStrides};
-use crate::law::block::{components, components_mut};
+use crate::law::block::{components, components_mut, distances};
 use crate::law::error::Error;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
@@ -196,16 +196,12 @@ impl<T: Scalar> LinearBlock<T> {
         let n = self.n;
         check_points(n)?;
         check_density::<T>(self.density, !self.wave_speed.is_null() && n > 0)?;
-        f.check(&self.f_old, null(), n, ["f_old, one of its components,", "leading dimension of f_old"])?;
-        f.check(&self.f_new, null(), n, ["f_new, one of its components,", "leading dimension of f_new"])?;
-        fibre.check(&self.fibre, null(), n, ["fibre, one of its components,", "leading dimension of fibre"])?;
-        fibre.check(
-            &self.second_axis,
-            null(),
-            n,
-            ["second_axis, one of its components,", "leading dimension of second_axis"],
-        )?;
-        stress.check(&self.stress, null_mut(), n, ["stress, one of its components,", "leading dimension of stress"])?;
+        f.check(&self.f_old, null(), n, "f_old, one of its components,", distances!("f_old"))?;
+        f.check(&self.f_new, null(), n, "f_new, one of its components,", distances!("f_new"))?;
+        fibre.check(&self.fibre, null(), n, "fibre, one of its components,", distances!("fibre"))?;
+        let component = "second_axis, one of its components,";
+        fibre.check(&self.second_axis, null(), n, component, distances!("second_axis"))?;
+        stress.check(&self.stress, null_mut(), n, "stress, one of its components,", distances!("stress"))?;
         Ok(LinearPointers {
             n,
             leading_dimension: state.leading_dimension,

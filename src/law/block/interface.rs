@@ -118,7 +118,7 @@ impl<'a, T: Precision> Block<'a, T> {
             level: arrays.level,
         };
         // If columns overlapped, the parts of a block would overlap too.
-        check_layout(n, 9, leading_dimension, 1, "leading dimension")?;
+        check_layout(n, 9, leading_dimension, 1, ["leading dimension", "stride"])?;
         Ok(Block { pointers, arrays: PhantomData })
     }
 

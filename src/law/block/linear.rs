@@ -15,7 +15,7 @@ use core::ops::Range;
 use core::ptr::{null, null_mut};
 
 use super::kernel::least_code;
-use super::pointers::check_layout;
+use super::pointers::{check_layout, distances};
 use crate::law::error::Error;
 use crate::law::linear_elastic::{Answer, Criterion, LinearElastic, Rotation, Step, Wanted};
 use crate::law::linear_tangent::by_rows;
@@ -130,15 +130,14 @@ impl<T: Scalar> LinearPointers<T> {
         }
         let LinearStrides { axes, state, tangent, .. } = self.strides;
         if !self.state_old.is_null() || !self.state_new.is_null() {
-            let name = "leading dimension of the state";
-            check_layout(self.n, LINEAR_ELASTIC_STATE, self.leading_dimension, state, name)?;
+            check_layout(self.n, LINEAR_ELASTIC_STATE, self.leading_dimension, state, distances!("the state"))?;
         }
         if spin {
-            check_layout(self.n, 9, self.axes_leading_dimension, axes, "leading dimension of axes")?;
+            check_layout(self.n, 9, self.axes_leading_dimension, axes, distances!("axes"))?;
         }
         if !self.tangent.is_null() {
             let components = self.measure.components();
-            check_layout(self.n, components, self.tangent_leading_dimension, tangent, "leading dimension of tangent")?;
+            check_layout(self.n, components, self.tangent_leading_dimension, tangent, distances!("tangent"))?;
         }
         if self.n > 0 && !self.wave_speed.is_null() {
             wave_speed::check_density(self.density)?;

@@ -66,6 +66,14 @@ impl Strides {
     pub const UNIT: Strides = Strides { deformation_gradient: 1, fibre: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
 }
 
+/// The names of an array's leading dimension and stride, for messages.
+macro_rules! distances {
+    ($array:literal) => {
+        [concat!("leading dimension of ", $array), concat!("stride of ", $array)]
+    };
+}
+pub(crate) use distances;
+
 /// The pointers to the components of a component-major array; all null if `array` is.
 #[inline(always)]
 pub fn components<T, const N: usize>(array: *const T, leading_dimension: usize) -> [*const T; N] {
@@ -122,23 +130,27 @@ impl<T> Pointers<T> {
     }
 }
 
-/// Checks that the entries of an array with so many components and points are all at different places: component by component, or
-/// point by point.
+/// More points, and more numbers between two components, than any memory holds: a greater number is a negative one, converted. An
+/// array of 81 components with such distances is still shorter than half the address space.
+pub(crate) const MOST: usize = isize::MAX as usize >> 10;
+
+/// Checks that the entries of an array with so many components and points are all at different places, component by component or
+/// point by point, and none before its start.
 ///
 /// # Errors
-/// Entries may overlap; `name` says of what the leading dimension is.
+/// Entries may overlap, or are nowhere; `names` are those of the leading dimension and of the stride.
 #[inline(always)]
 pub(crate) fn check_layout(
     n: usize,
     components: usize,
     leading_dimension: usize,
     stride: usize,
-    name: &'static str,
+    names: [&'static str; 2],
 ) -> Result<(), Error> {
-    if stride == 1 && leading_dimension >= n {
+    if stride == 1 && leading_dimension >= n && leading_dimension <= MOST {
         return Ok(()); // the usual layout
     }
-    check_other_layout(n, components, leading_dimension, stride, name)
+    check_other_layout(n, components, leading_dimension, stride, names)
 }
 
 /// # Errors
@@ -150,8 +162,15 @@ fn check_other_layout(
     components: usize,
     leading_dimension: usize,
     stride: usize,
-    name: &'static str,
+    [name, of_stride]: [&'static str; 2],
 ) -> Result<(), Error> {
+    let (code, greatest) = (status::BAD_LEADING_DIMENSION, MOST / n.max(1));
+    for (name, value, greatest) in [(of_stride, stride, greatest), (name, leading_dimension, MOST)] {
+        if value > greatest {
+            // As the caller wrote it, if it is negative.
+            return Err(Error::Range { code, name, value: value as i64, least: 1, greatest: greatest as i64 });
+        }
+    }
     let needed = n.saturating_sub(1).saturating_mul(stride).saturating_add(1);
     let in_rows = leading_dimension > 0 && stride > (components - 1).saturating_mul(leading_dimension);
     if n == 0 || (stride > 0 || n == 1) && (leading_dimension >= needed || in_rows) {
@@ -159,7 +178,7 @@ fn check_other_layout(
     }
     let found = i64::try_from(leading_dimension).unwrap_or(i64::MAX);
     let wanted = i64::try_from(needed).unwrap_or(i64::MAX);
-    Err(Error::Count { code: status::BAD_LEADING_DIMENSION, what: name, found, wanted })
+    Err(Error::Count { code, what: name, found, wanted })
 }
 
 impl<T: Scalar> Pointers<T> {
@@ -208,14 +227,14 @@ impl<T: Scalar> Pointers<T> {
             old.iter().any(|array| !array.is_null()) || !self.energies.is_null() || !self.invariants.is_null();
         if of_modes || !self.failure_old.is_null() || !self.failure.is_null() {
             let components = if of_modes { 4 } else { 3 };
-            check_layout(self.n, components, self.leading_dimension, state, "leading dimension of the state")?;
+            check_layout(self.n, components, self.leading_dimension, state, distances!("the state"))?;
         }
         if !self.modes.is_null() {
-            check_layout(self.n, 24, self.modes_leading_dimension, modes, "leading dimension of modes")?;
+            check_layout(self.n, 24, self.modes_leading_dimension, modes, distances!("modes"))?;
         }
         if !self.tangent.is_null() {
             let components = self.measure.components();
-            check_layout(self.n, components, self.tangent_leading_dimension, tangent, "leading dimension of tangent")?;
+            check_layout(self.n, components, self.tangent_leading_dimension, tangent, distances!("tangent"))?;
         }
         if self.n > 0 && !self.wave_speed.is_null() {
             wave_speed::check_density(self.density)?;
