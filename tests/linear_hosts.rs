@@ -574,6 +574,24 @@ fn lsdyna_elements_that_fail() {
     }
 }
 
+/// A collapsed element whose history is this law's is deleted; it does not stop the job.
+#[test]
+fn lsdyna_elements_that_collapse() {
+    let mut hsv = [0.0; 28];
+    hsv[19..].copy_from_slice(Matrix3::from_diagonal(&Vector3::new(1.01, 1.0, 1.0)).as_slice());
+    let (mut sig, mut failed) = ([f64::NAN; 6], 7);
+    for (f, code, failel) in [(None, status::OK, 0), (Some(Matrix3::zeros()), status::INVERTED, 1)] {
+        if let Some(f) = f {
+            hsv[19..].copy_from_slice(f.as_slice());
+        }
+        let (cm, s, h) = (ALONG_X.as_ptr(), sig.as_mut_ptr(), hsv.as_mut_ptr());
+        // SAFETY: the arrays have the sizes that the entry asks for.
+        let found = unsafe { lsdyna::linear_umat_f64(cm, s, h, 19, &mut failed, null_mut(), 0) };
+        assert_eq!((found, failed), (code, failel));
+    }
+    assert_eq!((sig, &hsv[LINEAR_FAILED..=LINEAR_ALIVE]), ([0.0; 6], &[1.0, 0.0][..]));
+}
+
 #[test]
 fn lsdyna_bulk_and_shear() {
     let (mut bulk, mut shear) = (0.0, 0.0);

@@ -222,6 +222,29 @@ static void lsdyna_wrong_calls(void)
     release();
 }
 
+/* A collapsed element of this law's history is deleted by the scalar routine as by the vectorised one, also as its first element. */
+static void lsdyna_collapsed(void)
+{
+    static const double gradients[][9] = {{0, 0, 0, 0, 1, 0, 0, 0, 1}, {1, 0, 0, 0, 0, 0, 0, 0, 1}, {0, 0.7, 0, 0, 1, 0, 0, 0.2, 1},
+                                          {0, 0, 1, 0, 0, 0, 0, 0, 0}, {0}};
+    for (size_t k = 0; k < 2 * sizeof gradients / sizeof *gradients; k++) {
+        vector_block v = allocate(cases, 2);
+        real *sig = reals(6), *hsv = filled(0, HISTORY);
+        int *failel = guarded(sizeof *failel), i = v.lft - 1;
+        hsv[ALIVE] = 1, hsv[ENERGIES] = hsv[INVARIANTS] = k % 2 == 0 ? 0 : (real)0.01;
+        for (int c = 0; c < 9; c++)
+            hsv[STATE + c] = (real)gradients[k / 2][c];
+        for (int j = 0; j < HISTORY; j++)
+            v.hsvs[j * v.nlq + i] = hsv[j];
+        CHECK(TOLD(ENTRY(toron_lsdyna_umat), v.cm, sig, hsv, STATE, failel) == TORON_INVERTED, "gradient %zu: %s", k / 2, text);
+        CHECK(*failel == 1 && hsv[FAILED] == 1 && hsv[ALIVE] == 0 && sig[0] == 0, "gradient %zu: deleted", k / 2);
+        CHECK(umat_vector(&v) == TORON_INVERTED && v.failels[i] == 1, "gradient %zu: %s", k / 2, text);
+        for (int j = 0; j < HISTORY; j++)
+            CHECK(v.hsvs[j * v.nlq + i] == hsv[j], "gradient %zu: variable %d", k / 2, j + 1);
+        release();
+    }
+}
+
 static void lsdyna_moduli(void)
 {
 #define MODULI toron_lsdyna_bulk_and_shear_f64
@@ -370,6 +393,35 @@ static void vumat_data_check(void)
     release();
 }
 
+/* In the data check as in a step: a point with numbers that are not finite is deleted, and its neighbours do not notice. */
+static void vumat_data_check_of_bad_points(void)
+{
+    static const int32_t wanted[] = {TORON_OK, TORON_NOT_FINITE, TORON_STATE_NOT_FINITE, TORON_OVERFLOW, TORON_OVERFLOW};
+    for (int bad = 0; bad < 5; bad++) {
+        vumat_arrays v = vumat_block(cases, 2);
+        v.block.step_time = v.block.total_time = 0;
+        real *stress_old = filled(5, 12);
+        v.block.stress_old = stress_old;
+        v.strain_inc[0] = (real)1e-4;
+        if (bad == 1)
+            v.strain_inc[3 * 2 + 1] = NAN;
+        if (bad == 2)
+            v.state_old[ENERGIES * 2 + 1] = -INFINITY;
+        if (bad == 3)
+            stress_old[1] = INFINITY;
+        if (bad == 4)
+            v.strain_inc[1] = (real)(sizeof(real) == 4 ? 3e38 : 1e308);
+        CHECK(TOLD(VUMAT, &v.block) == wanted[bad], "%d: %s", bad, text);
+        CHECK(v.stress_new[0] > 5 && v.state_new[ALIVE * 2] == 1, "%d: the first point", bad);
+        CHECK(v.state_new[ALIVE * 2 + 1] == (bad == 0) && v.state_new[FAILED * 2 + 1] == (bad != 0), "%d: the second one", bad);
+        for (int c = 0; c < 6; c++)
+            CHECK(v.stress_new[2 * c + 1] == (bad == 0 ? 5 : 0), "%d: component %d", bad, c);
+        for (int j = 0; j < STATE; j++)
+            CHECK(isfinite(v.state_new[2 * j + 1]), "%d: variable %d", bad, j);
+        release();
+    }
+}
+
 static void vumat_refused(toron_vumat block, int32_t wanted, const char *words)
 {
     if (wanted == TORON_OK)
@@ -447,6 +499,25 @@ static int32_t call_umat(const umat_arguments *a)
 {
     return TOLD(toron_abaqus_umat_tangent_f64, a->stress, a->statev, a->ddsdde, a->sse, a->pnewdt, a->dfgrd1, a->props, a->nprops,
                 a->nstatv, a->ndi, a->nshr, a->nlgeom);
+}
+
+/* Old energies of a failed point whose sum is no number: Abaqus is asked for a smaller increment, and nothing but the stress is
+ * written. */
+static void umat_energies_that_overflow(void)
+{
+    for (int sign = -1; sign < 2; sign += 2) {
+        umat_arguments a = umat_point(cases);
+        a.statev[FAILED] = 1;
+        for (int k = 0; k < 4; k++)
+            a.statev[ENERGIES + k] = sign * 1e308;
+        CHECK(call_umat(&a) == TORON_OVERFLOW && *a.pnewdt == 0.25, "%s, PNEWDT %g", text, *a.pnewdt);
+        CHECK(untouched(a.sse, sizeof(double)) && a.statev[ENERGIES] == sign * 1e308 && a.statev[ALIVE] == 0, "SSE, state");
+        for (int c = 0; c < 6; c++)
+            CHECK(a.stress[c] == 0, "stress");
+        for (int c = 0; c < 36; c++)
+            CHECK(a.ddsdde[c] == 0, "DDSDDE");
+        release();
+    }
 }
 
 static void umat(void)
@@ -554,12 +625,15 @@ int main(int argc, char **argv)
     lsdyna_vector_tangents();
     lsdyna_bad_elements();
     lsdyna_wrong_calls();
+    lsdyna_collapsed();
     lsdyna_moduli();
     vumat();
     vumat_data_check();
+    vumat_data_check_of_bad_points();
     vumat_wrong_calls();
 #ifndef SINGLE
     umat();
+    umat_energies_that_overflow();
     umat_wrong_calls();
 #endif
     return finish();

@@ -190,9 +190,22 @@ struct Umat<'a> {
 }
 
 impl Umat<'_> {
+    /// The energy per current volume. One that does not fit the number format, which only the old energies of a failed point can
+    /// give, makes the point one that cannot be evaluated; its stress is 0 in any case.
+    #[inline(always)]
+    fn energy(&self, point: &mut Point<f64>) -> f64 {
+        let [w_el, w_tc, w_td, w_ld, ..] = point.state;
+        let energy = ((w_el + w_tc) + w_td) + w_ld;
+        if point.status == status::OK && !energy.is_finite() {
+            point.status = status::OVERFLOW;
+            point.stress = [0.0; 6];
+        }
+        current_density(energy, determinant(self.f))
+    }
+
     /// Stores all results except DDSDDE.
     #[inline(always)]
-    fn put(self, point: &Point<f64>) {
+    fn put(self, point: &Point<f64>, energy: f64) {
         let [s11, s22, s33, s12, s23, s31] = point.stress;
         *self.status = point.status;
         // SAFETY: ntens entries, for ntens = 6 or 4, and as many state variables as the law has.
@@ -205,10 +218,7 @@ impl Umat<'_> {
                 for (c, &variable) in point.state.iter().enumerate() {
                     *self.statev.add(c) = variable;
                 }
-                let [w_el, w_tc, w_td, w_ld, ..] = point.state;
-                let energy = ((w_el + w_tc) + w_td) + w_ld;
-                let jacobian = determinant(self.f);
-                *self.sse = current_density(energy, jacobian);
+                *self.sse = energy;
             } else {
                 *self.pnewdt = (*self.pnewdt).min(CUTBACK);
             }
@@ -218,14 +228,19 @@ impl Umat<'_> {
 
 impl Sink<f64, 0> for Umat<'_> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, _: [f64; 0]) {
-        self.put(&point);
+    fn take(self, mut point: Point<f64>, _: [f64; 0]) {
+        let energy = self.energy(&mut point);
+        self.put(&point, energy);
     }
 }
 
 impl Sink<f64, 21> for Umat<'_> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+    fn take(self, mut point: Point<f64>, mut moduli: [f64; 21]) {
+        let energy = self.energy(&mut point);
+        if point.status == status::OVERFLOW {
+            moduli = [0.0; 21];
+        }
         let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix();
         let [r1, r2, r3, r4] = [abaqus_order(r1), abaqus_order(r2), abaqus_order(r3), abaqus_order(r4)];
         let [r5, r6] = [abaqus_order(r5), abaqus_order(r6)];
@@ -239,7 +254,7 @@ impl Sink<f64, 21> for Umat<'_> {
                 }
             }
         }
-        self.put(&point);
+        self.put(&point, energy);
     }
 }
 

@@ -230,8 +230,7 @@ unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
         }
         if block.step_time == 0.0 && block.total_time == 0.0 {
-            elastic_check(&law, block, n);
-            return Ok(status::OK);
+            return Ok(elastic_check(&law, block, n));
         }
         stretched(&law, block, n, level)
     }
@@ -239,12 +238,15 @@ unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<
 
 /// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
 /// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the hyperelastic law has no
-/// transverse stiffness at rest.
+/// transverse stiffness at rest. A point whose numbers are not finite is deleted, as in a step. Returns the worst status.
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) {
+unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) -> i32 {
     let [bulk, shear] = law.moduli();
+    let (zero, mut worst) = (T::splat(0.0), status::OK);
+    let is_finite = |x: T| (x * zero).le(zero);
+    let components = 3 + block.nshr as usize;
     let two_g = T::splat(2.0) * shear;
     let lame = bulk - two_g * T::splat(1.0 / 3.0);
     // SAFETY: the caller's promise.
@@ -252,18 +254,32 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
         for i in 0..n {
             let strain = |c: usize| at!(block.strain_inc, block, c, i);
             let volumetric = lame * (strain(0) + strain(1) + strain(2));
-            for c in 0..3 + block.nshr as usize {
-                let isotropic = if c < 3 { volumetric } else { T::splat(0.0) };
-                at!(block.stress_new, block, c, i) =
-                    at!(block.stress_old, block, c, i) + two_g.mul_add(strain(c), isotropic);
+            let mut code = status::OK;
+            for c in 0..components {
+                let isotropic = if c < 3 { volumetric } else { zero };
+                let stress = at!(block.stress_old, block, c, i) + two_g.mul_add(strain(c), isotropic);
+                code = if is_finite(stress) { code } else { status::OVERFLOW };
+                at!(block.stress_new, block, c, i) = stress;
             }
             for c in 0..L::STATE {
-                at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
+                let old = at!(block.state_old, block, c, i);
+                code = if is_finite(old) { code } else { status::STATE_NOT_FINITE };
+                at!(block.state_new, block, c, i) = if is_finite(old) { old } else { zero };
             }
-            at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_old, block, L::FAILED, i);
+            at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_new, block, L::FAILED, i);
+            if code != status::OK {
+                code = if (0..components).all(|c| is_finite(strain(c))) { code } else { status::NOT_FINITE };
+                for c in 0..components {
+                    at!(block.stress_new, block, c, i) = zero;
+                }
+                at!(block.state_new, block, L::FAILED, i) = T::splat(1.0);
+                at!(block.state_new, block, L::ALIVE, i) = zero;
+            }
+            worst = worst.min(code);
             *block.ener_intern_new.add(i) = *block.ener_intern_old.add(i);
         }
     }
+    worst
 }
 
 /// The points of a block that are evaluated at once.

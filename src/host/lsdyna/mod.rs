@@ -185,28 +185,33 @@ impl History {
     /// below NHV + 9.
     ///
     /// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
-    /// zeros. Before the first call of an element, F is a rotation or nearly one, which two of its columns show. After a call,
-    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0. An NHV that is greater by 3 to 8 is
+    /// zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show. After a call,
+    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also 0 where
+    /// the element has collapsed, unless a first F is seen elsewhere. An NHV that is greater by 3 to 8 is
     /// not detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
     fn is_plausible<T: Scalar>(&self, history: impl Fn(usize) -> T) -> bool {
         let f = self.variables;
         let h = |j: usize| -> f64 { history(j).into() };
-        if (f..f + 9).all(|j| h(j) == 0.0) {
-            return false;
-        }
+        let is_at = |start: usize| {
+            let column = |k: usize| [0, 1, 2].map(|i| h(start + 3 * k + i));
+            let [a, b] = [0, 1].map(column);
+            let near = |deviations: [f64; 3]| deviations.iter().all(|x| x.abs() < 0.25);
+            // The history has a third column only of an F that starts before its place.
+            let third = |c: [f64; 3]| near([dot(c, c) - 1.0, dot(a, c), dot(b, c)]);
+            near([dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)]) && (start > f || third(column(2)))
+        };
+        let is_elsewhere = || {
+            let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
+            let mut starts = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
+            starts.any(is_at)
+        };
         let [failed, alive] = [self.failed, self.alive].map(h);
         if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-            // Entries of an F at another place may look like such flags; then there are zeros where F is read. No F has a row or
-            // column of zeros.
+            // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
+            // a collapsed element has a row or column of zeros as well.
             let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-            return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3));
+            return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
         }
-        let is_at = |start: usize| {
-            let [a, b] = [start, start + 3].map(|column| [0, 1, 2].map(|i| h(column + i)));
-            [dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)].iter().all(|x| x.abs() < 0.25)
-        };
-        let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
-        let mut elsewhere = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
-        !elsewhere.any(is_at)
+        (f..f + 9).any(|j| h(j) != 0.0) && !is_elsewhere()
     }
 }

@@ -121,7 +121,9 @@ impl ToHost<'_> {
             sum(sum(el, tc), sum(td, ld))
         });
         let converted = results.options.measure == StressMeasure::Cauchy || stress.is_finite();
-        *self.code = status_of(point.status, finite & converted);
+        let [w_el, w_tc, w_td, w_ld, ..] = point.state;
+        let energy = ((w_el + w_tc) + w_td) + w_ld;
+        *self.code = status_of(point.status, finite & converted & energy.is_finite());
         if *self.code != status::OK {
             return;
         }
@@ -130,8 +132,7 @@ impl ToHost<'_> {
         unsafe {
             results.store_speed(point.wave_modulus);
             if results.options.integrates {
-                let [w_el, w_tc, w_td, w_ld, ..] = point.state;
-                results.store_step(&stress, &point.state, ((w_el + w_tc) + w_td) + w_ld);
+                results.store_step(&stress, &point.state, energy);
             }
         }
     }
