@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use toron_program::common::console::{print, print_error};
+use toron_program::common::console::{keep, lost, print, print_error};
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::{bench, cell, deck, eval, fabric, identify, impact, load_path, params, weave};
@@ -119,7 +119,25 @@ fn completions(shell: Shell) {
 }
 
 fn main() -> ExitCode {
-    let answer: Result<(), Error> = match Arguments::parse().command {
+    let answer = match Arguments::try_parse() {
+        Ok(arguments) => run(arguments.command),
+        Err(error) if error.use_stderr() => error.exit(),
+        // `--help` and `--version` are errors for clap.
+        Err(text) => {
+            keep(text.print());
+            Ok(())
+        }
+    };
+    let lost = lost().map(|reason| Error::Input(format!("standard output: {reason}")));
+    let errors: Vec<Error> = answer.err().into_iter().chain(lost).collect();
+    for error in &errors {
+        print_error(&format!("toron: {error}\n"));
+    }
+    errors.first().map_or(ExitCode::SUCCESS, |error| ExitCode::from(error.exit_code()))
+}
+
+fn run(command: Command) -> Result<(), Error> {
+    match command {
         Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
         Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
         Command::Deck(arguments) => deck::command::run(&arguments),
@@ -135,12 +153,5 @@ fn main() -> ExitCode {
             Ok(())
         }
         Command::Bench { output } => bench::command::run(output.as_deref()),
-    };
-    match answer {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            print_error(&format!("toron: {error}\n"));
-            ExitCode::from(error.exit_code())
-        }
     }
 }

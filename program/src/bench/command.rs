@@ -15,6 +15,7 @@ use super::hosts::{Host, HostArrays, call};
 use super::scene::Scene;
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::folder;
 use crate::entries::precision::BlockPrecision;
 use toron::Hyperelastic;
 use toron::law::block::Precision;
@@ -60,6 +61,7 @@ struct Report {
 /// # Errors
 /// The file cannot be written.
 pub fn run(output: Option<&Path>) -> Result<(), Error> {
+    output.map_or(Ok(()), folder::create)?;
     let mut rows = measured::<f64>("f64", &[&Host::BOTH[..], &Host::DOUBLE].concat())?;
     rows.extend(measured::<f32>("f32", &Host::BOTH)?);
     let report = Report {
@@ -71,10 +73,9 @@ pub fn run(output: Option<&Path>) -> Result<(), Error> {
         choices: choices::measured()?,
     };
     print(&table(&report));
-    let Some(folder) = output else { return Ok(()) };
-    let file = folder.join("bench.json");
+    let Some(output) = output else { return Ok(()) };
+    let file = output.join("bench.json");
     let file_error = |error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    std::fs::create_dir_all(folder).map_err(|error| file_error(&error))?;
     let text = serde_json::to_string_pretty(&report).map_err(|error| file_error(&error))?;
     std::fs::write(&file, text + "\n").map_err(|error| file_error(&error))
 }

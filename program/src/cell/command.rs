@@ -14,6 +14,7 @@ use super::solver::{self, Job};
 use super::{arrangement, explicit_run, output, picture, report};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
+use crate::common::folder;
 use crate::common::progress;
 
 /// Ticks of the progress bar for each load.
@@ -34,9 +35,7 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
     let model = arrangement::model(&scene.arrangement, scene.elements)
         .map_err(|message| Error::Input(format!("{}: {message}", path.display())))?;
     let program = if scene.explicit { None } else { Some(solver::find(ccx)?) };
-    if output.exists() && !output.is_dir() {
-        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
-    }
+    folder::check(output)?;
     let folder = |path: &Path| std::fs::canonicalize(path).ok();
     if folder(output).is_some()
         && folder(output) == folder(path).as_deref().and_then(Path::parent).map(Path::to_path_buf)

@@ -4,6 +4,7 @@
 pub mod console;
 pub mod data_table;
 pub mod error;
+pub mod folder;
 pub mod interrupt;
 pub mod progress;
 pub mod run_directory;

@@ -170,7 +170,7 @@ pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
     }
     match evaluate(entry, tangent, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
         // A reader that has gone is no error.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Evaluation(error.to_string())),
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Input(error.to_string())),
         _ => Ok(()),
     }
 }
@@ -180,9 +180,10 @@ pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
 /// # Errors
 /// Reading or writing fails. A line that cannot be read or evaluated is answered by a line with its status.
 pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: impl Write) -> io::Result<()> {
+    let of_output = |error: io::Error| io::Error::new(error.kind(), format!("standard output: {error}"));
     let mut number = 0;
     for line in input.split(b'\n') {
-        let line = line?;
+        let line = line.map_err(|error| io::Error::new(error.kind(), format!("standard input: {error}")))?;
         number += 1;
         if line.iter().all(u8::is_ascii_whitespace) {
             continue;
@@ -194,10 +195,10 @@ pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: im
             (None, Err(error)) => refused(format!("line {number}: {error}; {expected}")),
             (None, Ok(point)) => evaluate_point(entry, tangent, &point, number),
         };
-        serde_json::to_writer(&mut output, &answer)?;
-        output.write_all(b"\n")?;
+        serde_json::to_writer(&mut output, &answer).map_err(|error| of_output(error.into()))?;
+        output.write_all(b"\n").map_err(of_output)?;
     }
-    output.flush()
+    output.flush().map_err(of_output)
 }
 
 /// The answer to a line that is no point.

@@ -6,6 +6,7 @@ use super::file::Job;
 use super::{output, plot, region, report, worth};
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::folder;
 use crate::impact::scene::Scene;
 
 /// Fits the parameters to the data of a file and writes what came of it to the directory `output`; with a scene, also what it
@@ -19,7 +20,7 @@ pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error
     let fit = job.problem.fit()?;
     let files = names(&job);
     require_new(&job, output, &files)?;
-    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    folder::create(output)?;
     let file = output.join(&files[0]);
     std::fs::write(&file, output::preset(&job, &fit))
         .map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;

@@ -11,6 +11,7 @@ use super::run::{self, End, History};
 use super::{plot, report, table};
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::folder;
 use crate::common::progress;
 
 const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
@@ -27,7 +28,7 @@ pub fn run(path: Option<&Path>, output: &Path) -> Result<(), Error> {
         Some(path) => LoadPath::read(path)?,
         None => LoadPath::parse("demonstration", DEMONSTRATION)?,
     };
-    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
+    folder::create(output)?;
     let histories = run_with_progress(&path);
     print(&format!("{}\n", path.title));
     for history in &histories {

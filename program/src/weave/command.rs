@@ -8,6 +8,7 @@ use super::reader::Scene;
 use super::{picture, report, vtu};
 use crate::common::console::print;
 use crate::common::error::Error;
+use crate::common::folder;
 
 /// Meshes the panel of a scene, prints its figures, and writes the mesh and a picture of it to the directory `output`.
 ///
@@ -17,9 +18,7 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
     let model = scene.woven.model();
     let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
-    if output.exists() && !output.is_dir() {
-        return Err(Error::Input(format!("output is {}, a file; allowed: a directory, new or not", output.display())));
-    }
+    folder::check(output)?;
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
     let mut text = report::report(&scene, &Figures::of(&model, &scene.woven.geometry));
     let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));

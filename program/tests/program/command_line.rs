@@ -130,6 +130,60 @@ fn a_reader_that_has_gone_is_no_error() {
     assert_eq!(ended(&["run", "nowhere.toml"]), Some(2));
 }
 
+/// What cannot be printed is lost, and the exit code and a message say so; the files are written all the same.
+#[test]
+fn a_full_disk_is_an_error() {
+    let directory = scratch("full");
+    let point =
+        r#"{"F": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "m": [1, 0, 0], "params": {"kel": 1, "ktc": 1, "p": 2, "ktd": 1}}"#;
+    std::fs::write(directory.join("points"), point).expect("a file can be written");
+    let full = || std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
+    for arguments in [
+        &["run"][..],
+        &["params"],
+        &["params", "--preset", "kevlar-km2-600"],
+        &["deck", "--host", "ls-dyna", "--preset", "kevlar-km2-600", "--units", "mm-tonne-s"],
+        &["eval"],
+        &["--help"],
+        &["run", "--help"],
+        &["--version"],
+    ] {
+        let points = std::fs::File::open(directory.join("points")).expect("there are points");
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        program.args(arguments).current_dir(&directory).stdin(points).stdout(full());
+        let output = program.output().expect("the program starts");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        let message = "toron: standard output: No space left on device (os error 28)\n";
+        assert_eq!(text(&output.stderr), message, "{arguments:?}");
+    }
+    assert!(directory.join("toron-out/increments.csv").exists());
+}
+
+/// A file that cannot be written is named, whether it cannot be opened or the disk is full.
+#[test]
+fn a_file_that_cannot_be_written() {
+    for file in ["increments.csv", "plot.svg", "plot.png"] {
+        let directory = scratch("unwritable");
+        std::fs::create_dir(directory.join("toron-out")).expect("a directory");
+        std::os::unix::fs::symlink("/dev/full", directory.join("toron-out").join(file)).expect("a link");
+        let output = toron(&directory, &["run"]);
+        assert_eq!(output.status.code(), Some(2), "{file}");
+        let message = format!("toron: toron-out/{file}: No space left on device (os error 28)\n");
+        assert_eq!(text(&output.stderr), message);
+    }
+}
+
+#[test]
+fn an_output_that_is_a_file() {
+    let directory = scratch("output-is-a-file");
+    std::fs::write(directory.join("taken"), "").expect("a file");
+    for arguments in [&["run", "-o", "taken"][..], &["bench", "-o", "taken"]] {
+        let output = toron(&directory, arguments);
+        let message = "toron: output is taken, a file; allowed: a directory, new or not\n";
+        assert_eq!((output.status.code(), text(&output.stderr).as_str()), (Some(2), message), "{arguments:?}");
+    }
+}
+
 /// What a summary says of law and units.
 #[test]
 fn a_summary_tells_the_law_and_its_wave() {
