@@ -177,6 +177,12 @@ static inline behaviour load_as_mtest(const char *name, const char *hypothesis)
     expect(&b, number(&b, "TemperatureRemovedFromExternalStateVariables") == 1, "the temperature is among the variables");
     required(&b, "ExternalStateVariablesTypes");
     required(&b, "ExternalStateVariables");
+    /* Not every deck has @OutOfBoundsPolicy; TFEL's type of the function returns an int that nobody reads. */
+    void *function = required(&b, "setOutOfBoundsPolicy");
+    void (*set_policy)(int);
+    memcpy(&set_policy, &function, sizeof function);
+    for (int policy = 0; policy < 3; policy++)
+        set_policy(policy);
     required(&b, "MaterialProperties");
     required(&b, "Parameters");
     return b;

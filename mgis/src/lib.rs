@@ -99,6 +99,11 @@ macro_rules! behaviour {
             symbol!($behaviour, "nInitializeFunctions", INITIALIZER_COUNT: u16 = 0);
             symbol!($behaviour, "nPostProcessings", POST_PROCESSING_COUNT: u16 = 0);
 
+            /// What a host does about values out of bounds: 0 nothing, 1 a warning, 2 an error. It has no effect: properties out of
+            /// bounds are always refused, since the law has no meaning there, and no variable has bounds.
+            #[unsafe(export_name = concat!($behaviour, "_setOutOfBoundsPolicy"))]
+            pub extern "C" fn set_out_of_bounds_policy(_policy: i32) {}
+
             #[cfg(target_arch = "x86_64")]
             const _: () = assert!(have_bounds(&$properties, &[$($property),*]), "the list of properties with bounds");
             $(
