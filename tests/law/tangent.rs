@@ -113,11 +113,10 @@ fn truth() {
     println!("{:<20}{:>12}{:>16}", "category", "error", "an ulp of F");
     for (category, (error, allowed)) in worst {
         println!("{category:<20}{error:>12.1e}{allowed:>16.1e}");
-        let bound = match category.as_str() {
-            "distortion" => f64::INFINITY,
-            _ => 1e-12,
-        };
-        assert!(error <= bound, "{category}: {error:e}");
+        // At the kinks of `distortion` an ulp of F decides: the bound of each case above.
+        if category != "distortion" {
+            assert!(error <= 1e-12, "{category}: {error:e}");
+        }
     }
 }
 
