@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs libtoron on Linux: static and shared library, headers for C and C++, the source of the Fortran module, and what
-# pkg-config and CMake find them by.
+# Installs libtoron on Linux: static and shared library, headers for C and C++, the source of the Fortran module, what
+# pkg-config and CMake find them by, and the licences.
 #
 #     ./install.sh [--prefix=/usr/local] [--destdir=DIR]
 #
@@ -30,7 +30,7 @@ built=${CARGO_TARGET_DIR:-target}/release
 # The build folder's own libtoron.so has no SONAME, so that programs find it there: the shared library is linked a second time with
 # one, and in the end the build folder's is made again.
 cargo build --release --locked --package toron-c
-mkdir -p "$to/include" "$to/lib/pkgconfig" "$to/lib/cmake/toron"
+mkdir -p "$to/include" "$to/lib/pkgconfig" "$to/lib/cmake/toron" "$to/share/doc/toron"
 cp "$built/libtoron.a" "$to/lib/"
 trap 'cargo build --release --locked --quiet --package toron-c' EXIT
 cargo rustc --release --locked --package toron-c --crate-type cdylib -- -C "link-arg=-Wl,-soname,$soname"
@@ -38,6 +38,7 @@ cp "$built/libtoron.so" "$to/lib/libtoron.so.$version"
 ln -sf "libtoron.so.$version" "$to/lib/$soname"
 ln -sf "$soname" "$to/lib/libtoron.so"
 cp include/toron.h include/toron.hpp include/toron.f90 "$to/include/"
+cp LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md "$to/share/doc/toron/"
 
 cat >"$to/lib/pkgconfig/toron.pc" <<END
 prefix=\${pcfiledir}/../..

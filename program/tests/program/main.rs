@@ -23,6 +23,7 @@ mod fabric_files;
 mod hexahedra;
 mod identify;
 mod impact;
+mod licences;
 mod load_paths;
 mod long;
 mod newton;
