@@ -279,14 +279,14 @@ impl<R: Real> Section<R> {
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
         // Of J_t² = (a·a)(b·b) − (a·b)² = (J/λ)² the former does not depend on what rounding F along a short fibre does to both J
-        // and λ, and near the reference its difference from 1 has more correct digits. It is taken where its terms cancel by no
-        // more than two thirds, and less where the two disagree: those of images that are almost parallel are meaningless.
+        // and λ, and near the reference its difference from 1 has more correct digits. It is taken there and for short fibres, where
+        // its terms cancel by no more than two thirds, and the two agree: the sides of images that are almost parallel are
+        // meaningless.
         let growth = d.sigma.mul_add(sum, x22.mul_add(x33, -x23_square));
         let (sides, ratio) = (d.sigma + growth, d.jacobian * d.inverse_square * d.jacobian);
         let inverse = d.square * d.inverse_jacobian * d.inverse_jacobian;
         let apart = (-sides).mul_add(inverse, one);
-        let agreement = apart.abs().mul_add(R::splat(-4.0), R::splat(2.0)).max(R::splat(0.0));
-        let by_sides = x23_square.lt(agreement * sides);
+        let by_sides = (d.square - d.sigma).lt(R::splat(0.25)) & x23_square.lt(sides + sides) & apart.abs().lt(half);
         let area_square = R::select(by_sides, sides, ratio);
         // One step of Newton's method makes λ²/J² its reciprocal.
         let correction = R::select(by_sides, apart, R::splat(0.0));

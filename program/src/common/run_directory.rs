@@ -6,6 +6,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::error::Error;
+use super::folder;
 
 /// The file whose lock says that a run writes to its directory. The system releases it however the run ends; the file stays.
 const LOCK: &str = "toron.lock";
@@ -18,27 +19,12 @@ pub struct RunDirectory {
 }
 
 impl RunDirectory {
-    /// Checks the place of a directory, which need not be there.
-    ///
-    /// # Errors
-    /// It is a file.
-    pub fn check(path: &Path) -> Result<(), Error> {
-        if path.exists() && !path.is_dir() {
-            return Err(Error::Input(format!(
-                "output is {}, a file; allowed: a directory, new or not",
-                path.display()
-            )));
-        }
-        Ok(())
-    }
-
     /// Makes the directory, if it is new, and takes its lock.
     ///
     /// # Errors
     /// It is a file, it cannot be made, or another run writes there.
     pub fn open(path: &Path) -> Result<RunDirectory, Error> {
-        RunDirectory::check(path)?;
-        std::fs::create_dir_all(path).map_err(|error| file_error(path, &error))?;
+        folder::create(path)?;
         let file = path.join(LOCK);
         is_file(&file)?;
         let lock = OpenOptions::new().create(true).truncate(false).write(true).open(&file);

@@ -14,6 +14,7 @@ use super::summary::{self, Figures};
 use super::{model, output, panel_picture, plot, report};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
+use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
@@ -39,7 +40,7 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     if restart || scene.cases.iter().any(|case| case.checkpoints > 0) {
         build?;
     }
-    RunDirectory::check(output)?;
+    folder::check(output)?;
     // Before hours are spent on the first one.
     let mut found = false;
     for case in &scene.cases {
