@@ -51,6 +51,8 @@ pub trait Axes<R: Real>: Copy {
     fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3];
     /// `v + s n`, n being the axis with the index `axis`, counted from 0.
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
+    /// det F, given the images of the axes and the square of that of the fibre.
+    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R;
     /// The scalar product of the images of two different axes; `y` is that of the axis with the index `axis`.
     fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R;
 }
@@ -89,6 +91,10 @@ impl<R: Real> Axes<R> for FirstAxis {
             1 => [v[0], v[1] + s, v[2]],
             _ => [v[0], v[1], v[2] + s],
         }
+    }
+    #[inline(always)]
+    fn determinant(&self, f: &[[R; 3]; 3], _: [[R; 3]; 3], _: R) -> R {
+        triple_product(*f)
     }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, _: R, _: usize) -> R {
@@ -174,10 +180,26 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
         along(v, s, self.axis(axis))
     }
+    /// Of a short fibre from the images, whose rounding λ has too: in J/λ it is gone, while that of the columns would be magnified by
+    /// 1/λ. Else from the columns, which are not rounded.
+    #[inline(always)]
+    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R {
+        R::select(square.lt(R::splat(SHORT)), triple_product(images), triple_product(*f))
+    }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R {
         sigma.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
     }
+}
+
+/// A fibre is short below this λ².
+const SHORT: f64 = 1.0 / 16.0;
+
+/// u·(v × w). With accurate minors it is as accurate as the entries allow; with ordinary ones it would lose most of its digits if a
+/// section is sheared and compacted.
+#[inline(always)]
+fn triple_product<R: Real>([u, v, w]: [[R; 3]; 3]) -> R {
+    dot(u, accurate_cross(v, w))
 }
 
 /// The first stage: determinant, fibre stretch and longitudinal shear.
@@ -206,10 +228,6 @@ impl<R: Real> Stretch<R> {
     pub fn new<A: Axes<R>>(f: &[[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 3]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
 
-        // With accurate minors the determinant is as accurate as the entries of F allow; with ordinary ones it would lose most
-        // of its digits if the section is sheared and compacted.
-        let jacobian = dot(f[0], accurate_cross(f[1], f[2]));
-
         // All that follows waits for this choice: sums side by side.
         let [c1, c2, c3] = f;
         let apart = c1[1].mul_add(c1[1], c1[2] * c1[2])
@@ -222,6 +240,7 @@ impl<R: Real> Stretch<R> {
         let square = sigma + u11;
         let h = [n.product(&m, &t1, sigma, 1), n.product(&m, &t2, sigma, 2)];
         let inverse_square = one / square;
+        let jacobian = n.determinant(f, [m.whole, t1.whole, t2.whole], square);
         let stretch = Stretch {
             sigma,
             jacobian,
@@ -278,18 +297,11 @@ impl<R: Real> Section<R> {
         let x23 = n.product(&a, &b, d.sigma, 2);
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
-        // Of J_t² = (a·a)(b·b) − (a·b)² = (J/λ)² the former does not depend on what rounding F along a short fibre does to both J
-        // and λ, and near the reference its difference from 1 has more correct digits. It is taken there and for short fibres, where
-        // its terms cancel by no more than two thirds, and the two agree: the sides of images that are almost parallel are
-        // meaningless.
-        let growth = d.sigma.mul_add(sum, x22.mul_add(x33, -x23_square));
-        let (sides, ratio) = (d.sigma + growth, d.jacobian * d.inverse_square * d.jacobian);
-        let inverse = d.square * d.inverse_jacobian * d.inverse_jacobian;
-        let apart = (-sides).mul_add(inverse, one);
-        let by_sides = (d.square - d.sigma).lt(R::splat(0.25)) & x23_square.lt(sides + sides) & apart.abs().lt(half);
-        let area_square = R::select(by_sides, sides, ratio);
-        // One step of Newton's method makes λ²/J² its reciprocal.
-        let correction = R::select(by_sides, apart, R::splat(0.0));
+        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With σ = 0 `near` never holds.
+        let growth = sum + x22.mul_add(x33, -x23_square);
+        let ratio = d.jacobian * d.inverse_square * d.jacobian;
+        let near = sum.lt(d.sigma) & (-half).lt(growth);
+        let area_square = R::select(near, one + growth, ratio);
 
         let section = Section {
             delta,
@@ -299,8 +311,8 @@ impl<R: Real> Section<R> {
             half_trace: half.mul_add(sum, d.sigma),
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
-            inverse_area_square: inverse.mul_add(correction, inverse),
-            rounding: R::select(by_sides, growth - (sides - d.sigma), R::splat(0.0)),
+            inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
+            rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
     }
