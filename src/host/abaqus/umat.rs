@@ -190,35 +190,29 @@ struct Umat<'a> {
 }
 
 impl Umat<'_> {
-    /// The energy per current volume. One that does not fit the number format, which only the old energies of a failed point can
-    /// give, makes the point one that cannot be evaluated; its stress is 0 in any case.
+    /// Whether the energy per reference volume fits the number format. The old energies of a point that has failed may not.
     #[inline(always)]
-    fn energy(&self, point: &mut Point<f64>) -> f64 {
+    fn energy(point: &Point<f64>) -> (f64, bool) {
         let [w_el, w_tc, w_td, w_ld, ..] = point.state;
         let energy = ((w_el + w_tc) + w_td) + w_ld;
-        if point.status == status::OK && !energy.is_finite() {
-            point.status = status::OVERFLOW;
-            point.stress = [0.0; 6];
-        }
-        current_density(energy, determinant(self.f))
+        (energy, energy.is_finite())
     }
 
-    /// Stores all results except DDSDDE.
+    /// Stores all results except DDSDDE. A point whose energy does not fit is one that cannot be evaluated; its stress is 0 in any case.
     #[inline(always)]
-    fn put(self, point: &Point<f64>, energy: f64) {
+    fn put(self, point: &Point<f64>) {
         let [s11, s22, s33, s12, s23, s31] = point.stress;
-        *self.status = point.status;
+        let (energy, fits) = Self::energy(point);
+        *self.status = if point.status == status::OK && !fits { status::OVERFLOW } else { point.status };
         // SAFETY: ntens entries, for ntens = 6 or 4, and as many state variables as the law has.
         unsafe {
             *self.stress.cast() = [s11, s22, s33, s12];
             if self.shear == 3 {
                 *self.stress.add(4).cast() = [s31, s23];
             }
-            if point.status == status::OK {
-                for (c, &variable) in point.state.iter().enumerate() {
-                    *self.statev.add(c) = variable;
-                }
-                *self.sse = energy;
+            if *self.status == status::OK {
+                *self.statev.cast() = point.state;
+                *self.sse = current_density(energy, determinant(self.f));
             } else {
                 *self.pnewdt = (*self.pnewdt).min(CUTBACK);
             }
@@ -228,19 +222,14 @@ impl Umat<'_> {
 
 impl Sink<f64, 0> for Umat<'_> {
     #[inline(always)]
-    fn take(self, mut point: Point<f64>, _: [f64; 0]) {
-        let energy = self.energy(&mut point);
-        self.put(&point, energy);
+    fn take(self, point: Point<f64>, _: [f64; 0]) {
+        self.put(&point);
     }
 }
 
 impl Sink<f64, 21> for Umat<'_> {
     #[inline(always)]
-    fn take(self, mut point: Point<f64>, mut moduli: [f64; 21]) {
-        let energy = self.energy(&mut point);
-        if point.status == status::OVERFLOW {
-            moduli = [0.0; 21];
-        }
+    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
         let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix();
         let [r1, r2, r3, r4] = [abaqus_order(r1), abaqus_order(r2), abaqus_order(r3), abaqus_order(r4)];
         let [r5, r6] = [abaqus_order(r5), abaqus_order(r6)];
@@ -254,7 +243,7 @@ impl Sink<f64, 21> for Umat<'_> {
                 }
             }
         }
-        self.put(&point, energy);
+        self.put(&point);
     }
 }
 

@@ -100,17 +100,18 @@ struct Element<'a, T> {
 
 impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
     #[inline(always)]
-    fn take(self, mut point: Point<T>, _: [T; 0]) {
+    fn take(self, point: Point<T>, _: [T; 0]) {
         *self.status = point.status;
-        if point.status != status::OK {
-            point.state[FAILED] = T::splat(1.0);
-            point.state[ALIVE] = T::splat(0.0);
-        }
         // SAFETY: `scalar` makes this from pointers to arrays of these sizes, as its caller promises.
         unsafe {
             *self.sig.cast() = point.stress;
             *self.hsv.cast() = point.state;
             *self.failel = c_int::from(!point.state[FAILED].lt(T::splat(0.5)));
+            if point.status != status::OK {
+                *self.hsv.add(FAILED) = T::splat(1.0);
+                *self.hsv.add(ALIVE) = T::splat(0.0);
+                *self.failel = 1;
+            }
         }
     }
 }
