@@ -181,10 +181,12 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
         along(v, s, self.axis(axis))
     }
     /// Of a short fibre from the images, whose rounding λ has too: in J/λ it is gone, while that of the columns would be magnified by
-    /// 1/λ. Else from the columns, which are not rounded.
+    /// 1/λ. Else, and where the sign is in question, from the columns, which are not rounded.
     #[inline(always)]
     fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R {
-        R::select(square.lt(R::splat(SHORT)), triple_product(images), triple_product(*f))
+        let (columns, images) = (triple_product(*f), triple_product(images));
+        let sure = R::splat(0.0).lt(columns.min(images));
+        R::select(square.lt(R::splat(SHORT)) & sure, images, columns)
     }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R {

@@ -13,10 +13,13 @@ use crate::library::{BUILD, LIBRARY, ROOT, SYSTEM, folder, run};
 /// Options for double and for single precision.
 pub const PRECISIONS: [&[&str]; 2] = [&[], &["-DSINGLE"]];
 
-/// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads.
+/// The truth's cases, a line each, in the order that `ffi-tests/c/check.h` reads. Those pressed flat are left to `toron eval`, which
+/// calls the same entries: the bounds of the programs for tangents and for S by mode are relative to the values, some of which are 0
+/// there.
 pub static CASES: LazyLock<PathBuf> = LazyLock::new(|| {
     let table = std::fs::read_to_string(Path::new(ROOT).join("tests/truth/points.jsonl")).expect("points.jsonl");
-    let lines: String = table.lines().map(|line| case(&serde_json::from_str(line).expect("JSON"))).collect();
+    let cases = table.lines().map(|line| serde_json::from_str(line).expect("JSON"));
+    let lines: String = cases.filter(|line: &Value| line["category"] != "flattened").map(|line| case(&line)).collect();
     let path = Path::new(BUILD).join("cases.txt");
     std::fs::write(&path, lines).expect("cases.txt is writable");
     path

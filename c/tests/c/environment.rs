@@ -30,12 +30,12 @@ fn lines(output: &Output) -> Vec<String> {
 /// The shared libraries.
 const SHARED: [&str; 3] = ["libtoron.so", "libtoron_calculix.so", "libtoron_mgis.so"];
 
-/// The functions that they give to the outside.
+/// The functions that they give to the outside, but for those of behaviours that take a policy, which is without effect.
 fn exported() -> BTreeSet<String> {
     let mut nm = Command::new("nm");
     let output = run(nm.args(["-D", "--defined-only"]).args(SHARED.map(|name| LIBRARY.join(name))), "binutils");
     let function = |line: &String| Some(line.split_once(" T ")?.1.to_string());
-    lines(&output).iter().filter_map(function).collect()
+    lines(&output).iter().filter_map(function).filter(|name| !name.ends_with("_setOutOfBoundsPolicy")).collect()
 }
 
 /// Entries that compute nothing: they need no environment of their own.

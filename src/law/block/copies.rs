@@ -7,6 +7,7 @@ use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
 
+use super::kernel::STAGED;
 use super::linear::{LinearPointers, LinearStrides};
 use super::pointers::{Pointers, Strides, components, components_mut};
 use crate::law::number::real::{Lanes, Scalar, WIDEST};
@@ -145,30 +146,33 @@ fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Point
     }
 }
 
-/// Room for a register of points that has `N` components.
-pub(super) struct Rest<T, R, const N: usize> {
+/// Room for a group of [`STAGED`] registers of points: `N` registers, STAGED for each component.
+pub(super) struct Room<T, R, const N: usize> {
     values: [MaybeUninit<R>; N],
-    codes: [i32; WIDEST],
+    codes: [i32; STAGED * WIDEST],
     of: PhantomData<T>,
 }
 
-impl<T: Scalar, R: Lanes<T>, const N: usize> Rest<T, R, N> {
+impl<T: Scalar, R: Lanes<T>, const N: usize> Room<T, R, N> {
+    /// The points of a component.
+    const POINTS: usize = STAGED * R::COUNT;
+
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Rest { values: [const { MaybeUninit::uninit() }; N], codes: [status::OK; WIDEST], of: PhantomData }
+        Room { values: [const { MaybeUninit::uninit() }; N], codes: [status::OK; STAGED * WIDEST], of: PhantomData }
     }
 
-    /// Copies `count` points from `first` on to the first lanes; the other lanes get points at rest. Returns the block of this register,
-    /// which lives in `self`.
+    /// Copies the points from `first` on, which do not fill their last register; its other lanes get points at rest. Returns the block of
+    /// the copies, which lives in `self`.
     ///
     /// # Safety
     /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of a block with points next to each
-    /// other and its state in place; `N` is enough for what it has arrays for; 0 < count < COUNT.
+    /// other and its state in place; `N` is enough for what it has arrays for; there are fewer points than STAGED registers have.
     #[inline(always)]
-    pub(super) unsafe fn copy_in(&mut self, block: &Pointers<T>, first: usize, count: usize) -> Pointers<T> {
+    pub(super) unsafe fn copy_in(&mut self, block: &Pointers<T>, first: usize) -> Pointers<T> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let room: *mut T = self.values.as_mut_ptr().cast();
-        let state = block.leading_dimension;
+        let (state, count) = (block.leading_dimension, block.n - first);
         // The new flag of activity is not read, and the index only beside a new one.
         let failure = match (block.failure_old.is_null(), block.failure.is_null()) {
             (true, _) => 0..0,
@@ -176,33 +180,31 @@ impl<T: Scalar, R: Lanes<T>, const N: usize> Rest<T, R, N> {
             (false, false) => 0..2,
         };
         // Loops and no closures, which would be called, without the processor's instructions.
-        // SAFETY: the caller's promise; the room has a register for each component.
+        // SAFETY: the caller's promise; the room has STAGED registers for each component.
         unsafe {
             for c in 0..9 {
                 let fill = if c % 4 == 0 { one } else { zero };
-                R::load_first(block.deformation_gradient[c].add(first), count, fill)
-                    .store(room.add((F + c) * R::COUNT));
+                column_in(block.deformation_gradient[c].add(first), room.add((F + c) * Self::POINTS), count, fill);
             }
             if !block.fibre[0].is_null() {
                 for c in 0..3 {
                     let fill = if c == 0 { one } else { zero };
-                    R::load_first(block.fibre[c].add(first), count, fill).store(room.add((FIBRE + c) * R::COUNT));
+                    column_in(block.fibre[c].add(first), room.add((FIBRE + c) * Self::POINTS), count, fill);
                 }
             }
             for (old, to) in [(block.energies, ENERGIES), (block.invariants, INVARIANTS)] {
                 if !old.is_null() {
                     for c in 0..4 {
-                        let old = R::load_first(old.add(c * state + first), count, zero);
-                        old.store(room.add((to + c) * R::COUNT));
+                        column_in(old.add(c * state + first), room.add((to + c) * Self::POINTS), count, zero);
                     }
                 }
             }
             for c in failure {
-                let old = R::load_first(block.failure_old.add(c * state + first), count, zero);
-                old.store(room.add((FAILURE + c) * R::COUNT));
+                let old = block.failure_old.add(c * state + first);
+                column_in(old, room.add((FAILURE + c) * Self::POINTS), count, zero);
             }
         }
-        block_in(room, R::COUNT, self.codes.as_mut_ptr(), block)
+        block_in(room, Self::POINTS, self.codes.as_mut_ptr(), block)
     }
 
     /// Copies the results of [`copy_in`](Self::copy_in)'s block back.
@@ -210,13 +212,13 @@ impl<T: Scalar, R: Lanes<T>, const N: usize> Rest<T, R, N> {
     /// # Safety
     /// As for `copy_in`, whose arguments these are; the results are there.
     #[inline(always)]
-    pub(super) unsafe fn copy_out(copies: &Pointers<T>, block: &Pointers<T>, first: usize, count: usize) {
-        let state = block.leading_dimension;
+    pub(super) unsafe fn copy_out(copies: &Pointers<T>, block: &Pointers<T>, first: usize) {
+        let (state, count) = (block.leading_dimension, block.n - first);
         // SAFETY: the caller's promise.
         unsafe {
             if !block.stress[0].is_null() {
                 for c in 0..6 {
-                    R::copy_first(copies.stress[c], 0, block.stress[c].add(first), 0, 1, count);
+                    columns_out::<T, R>(copies.stress[c], 0, block.stress[c].add(first), 0, 1, count);
                 }
             }
             let arrays = [
@@ -230,15 +232,60 @@ impl<T: Scalar, R: Lanes<T>, const N: usize> Rest<T, R, N> {
             ];
             for (from, to, next, columns) in arrays {
                 if !to.is_null() {
-                    R::copy_first(from, R::COUNT, to.add(first), next, columns, count);
+                    columns_out::<T, R>(from, Self::POINTS, to.add(first), next, columns, count);
                 }
             }
             if !block.status.is_null() {
-                for lane in 0..count {
-                    *block.status.add(first + lane) = *copies.status.add(lane);
+                for point in 0..count {
+                    *block.status.add(first + point) = *copies.status.add(point);
                 }
             }
         }
+    }
+}
+
+/// Copies `count` values, which do not fill their last register, to registers; the last lanes are those of `fill`.
+///
+/// # Safety
+/// `from` points to so many values, `to` has room for the registers.
+#[inline(always)]
+unsafe fn column_in<T, R: Lanes<T>>(from: *const T, to: *mut T, count: usize, fill: R) {
+    let whole = count - count % R::COUNT;
+    let mut i = 0;
+    // SAFETY: the caller's promise.
+    unsafe {
+        while i < whole {
+            R::load(from.add(i)).store(to.add(i));
+            i += R::COUNT;
+        }
+        R::load_first(from.add(whole), count - whole, fill).store(to.add(whole));
+    }
+}
+
+/// Copies the first `count` values of `columns` columns, which are `from_next` and `to_next` apart, from registers that they do not fill.
+///
+/// # Safety
+/// Each column has so many values at both places.
+#[inline(always)]
+unsafe fn columns_out<T, R: Lanes<T>>(
+    from: *const T,
+    from_next: usize,
+    to: *mut T,
+    to_next: usize,
+    columns: usize,
+    count: usize,
+) {
+    let whole = count - count % R::COUNT;
+    // SAFETY: the caller's promise.
+    unsafe {
+        let mut i = 0;
+        while i < whole {
+            for c in 0..columns {
+                R::load(from.add(c * from_next + i)).store(to.add(c * to_next + i));
+            }
+            i += R::COUNT;
+        }
+        R::copy_first(from.add(whole), from_next, to.add(whole), to_next, columns, count - whole);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use core::mem::MaybeUninit;
 
-use super::copies::{COMPONENTS, Rest, USUAL_COMPONENTS};
+use super::copies::{COMPONENTS, Room, USUAL_COMPONENTS};
 use super::pointers::Pointers;
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -42,14 +42,14 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
     // SAFETY: the caller's promise.
     unsafe {
         match WANT & ANY {
-            0 => sweep_in::<T, R, WANT, USUAL_COMPONENTS>(law, block),
-            _ => sweep_in::<T, R, WANT, COMPONENTS>(law, block),
+            0 => sweep_in::<T, R, WANT, { STAGED * USUAL_COMPONENTS }>(law, block),
+            _ => sweep_in::<T, R, WANT, { STAGED * COMPONENTS }>(law, block),
         }
     }
 }
 
-/// As [`sweep`], with room for `N` components of the points that do not fill a register. They are copied to a register of their own
-/// and go through the stages beside the others: a pass of their own would take as long as one of several registers.
+/// As [`sweep`], with room for `N` registers. If there are points that do not fill a register, the last group of registers is
+/// evaluated there: a pass of their own would take as long as one of several registers.
 ///
 /// # Safety
 /// As for [`sweep`].
@@ -60,53 +60,23 @@ unsafe fn sweep_in<T: Scalar, R: Lanes<T>, const WANT: u8, const N: usize>(
 ) -> i32 {
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
-    let rest = block.n % R::COUNT;
-    let whole = block.n - rest;
-    let mut room = Rest::<T, R, N>::new();
+    let mut room = Room::<T, R, N>::new();
     let mut copies = MaybeUninit::uninit();
-    // SAFETY: the points from `whole` on are those of the block that do not fill a register.
-    let apart = if rest > 0 { copies.write(unsafe { room.copy_in(block, whole, rest) }) } else { block };
-    // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
-    // than a test at every store.
-    let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
-    let mut no_active = [const { MaybeUninit::<T>::uninit() }; STAGED * WIDEST];
     let mut first = 0;
     while first < block.n {
-        let (mut places, mut count) = (Stage::new(), 0);
-        while count < STAGED && first < block.n {
-            let (block, i) = if first < whole { (block, first) } else { (apart, 0) };
-            let scratch = count * WIDEST;
-            let status = if block.status.is_null() {
-                no_status.as_mut_ptr().cast::<i32>().wrapping_add(scratch)
-            } else {
-                block.status.wrapping_add(i)
-            };
-            let active = if block.active.is_null() {
-                no_active.as_mut_ptr().cast::<T>().wrapping_add(scratch)
-            } else {
-                block.active.wrapping_add(i)
-            };
-            // SAFETY: count < STAGED.
-            unsafe { places.put(count, Place { block, i, status, active }) };
-            (first, count) = (first + R::COUNT, count + 1);
+        let count = STAGED.min((block.n - first).div_ceil(R::COUNT));
+        let copied = first + count * R::COUNT > block.n;
+        // SAFETY: the points from `first` on are the last ones, and fill no more than STAGED registers; the caller's promise.
+        unsafe {
+            let (group, i) = if copied { (&*copies.write(room.copy_in(block, first)), 0) } else { (block, first) };
+            evaluate::<T, R, WANT>(&lanes, group, i, count, &mut worst);
+            if copied {
+                Room::<T, R, N>::copy_out(group, block, first);
+            }
         }
-        // SAFETY: each place has a register's points, and the caller's promise.
-        unsafe { evaluate::<T, R, WANT>(&lanes, &places, count, &mut worst) };
-    }
-    if rest > 0 {
-        // SAFETY: as above; the block that `copy_in` has returned has been evaluated.
-        unsafe { Rest::<T, R, N>::copy_out(apart, block, whole, rest) };
+        first += count * R::COUNT;
     }
     least_code(worst)
-}
-
-/// Where the points of a register are: from `i` on in a block.
-struct Place<'a, T> {
-    block: &'a Pointers<T>,
-    i: usize,
-    /// Their status codes and whether they are active: in the block, or in a scratch array.
-    status: *mut i32,
-    active: *mut T,
 }
 
 /// The least (worst) of the status codes in the lanes, or 0.
@@ -163,14 +133,15 @@ union Step<R: Real> {
     powered: R,
 }
 
-/// Evaluates `count` registers of points, in the axes that the kernel is built for.
+/// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
 ///
 /// # Safety
-/// As for [`sweep`]; `places` has the first `count`, at most STAGED.
+/// As for [`sweep`], with i + count COUNT ≤ n and count ≤ STAGED.
 #[inline(always)]
 unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    places: &Stage<Place<'_, T>>,
+    block: &Pointers<T>,
+    i: usize,
     count: usize,
     worst: &mut R,
 ) {
@@ -178,32 +149,32 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     // SAFETY: the caller's promise; each stage reads what the one before has put.
     unsafe {
         if WANT & ALIGNED != 0 {
-            staged::<T, R, FirstAxis, WANT>(law, places, count, |_| (FirstAxis, None), worst);
+            staged::<T, R, FirstAxis, WANT>(law, block, i, count, |_| (FirstAxis, None), worst);
         } else if WANT & (FIBRES | ANY) != 0 {
             for k in 0..count {
-                let &Place { block, i, .. } = places.get(k);
-                frames.put(k, frame::<T, R, WANT>(law, block, i));
+                frames.put(k, frame::<T, R, WANT>(law, block, i + k * R::COUNT));
             }
             let fibre = |k: usize| {
                 let (frame, usable) = *frames.get(k);
                 (frame, Some(usable))
             };
-            staged::<T, R, FibreFrame<R>, WANT>(law, places, count, fibre, worst);
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, fibre, worst);
         } else {
-            staged::<T, R, FibreFrame<R>, WANT>(law, places, count, |_| (law.frame, None), worst);
+            staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |_| (law.frame, None), worst);
         }
     }
 }
 
-/// Evaluates `count` registers of points, stage by stage. `axes` gives the axes of a register, and where they are usable, `None` for
-/// everywhere.
+/// Evaluates `count` registers of points from `i` on, stage by stage. `axes` gives the axes of a register, and where they are
+/// usable, `None` for everywhere.
 ///
 /// # Safety
 /// As for [`evaluate`].
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     law: &Hyperelastic<R>,
-    places: &Stage<Place<'_, T>>,
+    block: &Pointers<T>,
+    i: usize,
     count: usize,
     axes: impl Fn(usize) -> (A, Option<R::Mask>),
     worst: &mut R,
@@ -212,18 +183,26 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
     let mut check = zero;
-    // SAFETY: the pointers that a place's block has are valid for its register; k < count ≤ STAGED, and each stage reads what the ones
-    // before have put.
+    let at = |k: usize| i + k * R::COUNT;
+    // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
+    // than a test at every store.
+    let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
+    let status =
+        if block.status.is_null() { no_status.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
+    let mut no_active = [const { MaybeUninit::<T>::uninit() }; STAGED * WIDEST];
+    let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
+    // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
+    // what the ones before have put.
     unsafe {
         for k in 0..count {
-            let (n, &Place { block, i, .. }) = (axes(k).0, places.get(k));
-            let (stretch, vectors) = Stretch::new(&gradient(block, i), &n);
+            let n = axes(k).0;
+            let (stretch, vectors) = Stretch::new(&gradient(block, at(k)), &n);
             stretches.put(k, stretch);
             kept.put(k, n.keep(vectors));
         }
         for k in 0..count {
-            let (n, d, &Place { block, i, .. }) = (axes(k).0, stretches.get(k), places.get(k));
-            let (section, vectors) = Section::new(d, n.recall(kept.get(k), &gradient(block, i), d), &n);
+            let (n, d) = (axes(k).0, stretches.get(k));
+            let (section, vectors) = Section::new(d, n.recall(kept.get(k), &gradient(block, at(k)), d), &n);
             sections.put(k, section);
             images.put(k, vectors);
         }
@@ -231,73 +210,62 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
             steps.put(k, Step { logarithms: Logarithms::new(stretches.get(k), sections.get(k)) });
         }
         for k in 0..count {
-            let &Place { block, i, .. } = places.get(k);
             strains.put(k, Strain::new(stretches.get(k), sections.get(k), &steps.get(k).logarithms));
             for column in block.stress {
-                R::prefetch(column.wrapping_add(i));
+                R::prefetch(column.wrapping_add(at(k)));
             }
         }
         for k in 0..count {
-            let &Place { block, i, .. } = places.get(k);
             steps.put(k, Step { power: law.compaction(strains.get(k)) });
-            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.energies, block.leading_dimension, i);
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.energies, block.leading_dimension, at(k));
         }
         for k in 0..count {
-            let &Place { block, i, .. } = places.get(k);
             steps.put(k, Step { reduced: steps.get(k).power.reduce(&law.exponent) });
-            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.invariants, block.leading_dimension, i);
+            prefetch::<T, R, 4>(WANT & (STATE | ANY) != 0, block.invariants, block.leading_dimension, at(k));
         }
         for k in 0..count {
-            let &Place { block, i, .. } = places.get(k);
             steps.put(k, Step { powered: steps.get(k).reduced.finish() });
-            prefetch::<T, R, 3>(WANT & (STATE | ANY) != 0, block.failure, block.leading_dimension, i);
+            prefetch::<T, R, 3>(WANT & (STATE | ANY) != 0, block.failure, block.leading_dimension, at(k));
         }
         for k in 0..count {
-            let &Place { block, i, status, .. } = places.get(k);
             let nan_if_invalid = match axes(k).1 {
                 Some(usable) => R::select(usable, strains.get(k).nan_if_invalid, R::splat(f64::NAN)),
                 None => strains.get(k).nan_if_invalid,
             };
             let d = stretches.get(k);
-            let [fibre, ..] = axes(k).0.recall(kept.get(k), &gradient(block, i), d);
+            let [fibre, ..] = axes(k).0.recall(kept.get(k), &gradient(block, at(k)), d);
             let &[a, b] = images.get(k);
             let kinematics =
                 Kinematics { stretch: d, section: sections.get(k), images: [fibre, a, b], strain: strains.get(k) };
-            let outcome = respond::<T, R, WANT>(law, block, i, kinematics, steps.get(k).powered, nan_if_invalid);
-            zero.store_integers(status);
+            let outcome = respond::<T, R, WANT>(law, block, at(k), kinematics, steps.get(k).powered, nan_if_invalid);
+            zero.store_integers(status.wrapping_add(at(k)));
             outcomes.put(k, outcome);
         }
         for k in 0..count {
-            let &Place { block, i, .. } = places.get(k);
-            check = add_to_check::<T, R, WANT>(block, i, outcomes.get(k).latch_or_nan, check);
+            check = add_to_check::<T, R, WANT>(block, at(k), outcomes.get(k).latch_or_nan, check);
         }
         // Invalid points are rare, so that there is one test for all. A number minus itself is 0, unless it is NaN or infinite.
         #[allow(clippy::eq_op)]
         let all_finite = (check - check).le(zero);
         if R::any(!all_finite) {
             for k in 0..count {
-                let &Place { block, i, status, .. } = places.get(k);
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
-                let code = reset_invalid::<T, R, WANT>(law, block, i, stretches.get(k), usable, outcomes.get(k));
-                code.store_integers(status);
+                let code = reset_invalid::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k));
+                code.store_integers(status.wrapping_add(at(k)));
                 *worst = R::select(code.lt(*worst), code, *worst);
             }
         }
         if WANT & (STATE | ANY) != 0 {
             for k in 0..count {
-                let &Place { block, i, active, .. } = places.get(k);
                 let (d, strain) = (stretches.get(k), strains.get(k));
                 let power = steps.get(k).powered;
-                let is_active = store_state::<T, R, WANT>(law, block, i, d, strain, power, outcomes.get(k));
-                is_active.store(active);
+                let is_active = store_state::<T, R, WANT>(law, block, at(k), d, strain, power, outcomes.get(k));
+                is_active.store(active.wrapping_add(at(k)));
             }
         }
-        if WANT & ANY != 0 && WANT & ALIGNED == 0 {
+        if wants_tangent::<T, WANT>(block) {
             for k in 0..count {
-                let &Place { block, i, .. } = places.get(k);
-                if wants_tangent::<T, WANT>(block) {
-                    clear_tangent(block, i, outcomes.get(k));
-                }
+                clear_tangent(block, at(k), outcomes.get(k));
             }
         }
     }
