@@ -185,8 +185,8 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     #[inline(always)]
     fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R {
         let (columns, images) = (triple_product(*f), triple_product(images));
-        let sure = R::splat(0.0).lt(columns.min(images));
-        R::select(square.lt(R::splat(SHORT)) & sure, images, columns)
+        let sure = R::splat(0.0).lt(columns) & R::splat(0.0).lt(images);
+        R::select(sure & square.lt(R::splat(SHORT)), images, columns)
     }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R {
