@@ -1,4 +1,4 @@
-"""A preset's file, as `toron fit` writes it: docs/load-paths.md of the repository has its keys."""
+"""A preset's file, as `toron fit` writes it: docs/guides/load-paths.md of the repository has its keys."""
 
 import os
 import tomllib
