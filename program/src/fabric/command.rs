@@ -212,8 +212,7 @@ impl CaseObserver<'_> {
 }
 
 impl Observer for CaseObserver<'_> {
-    fn sample(&mut self, fraction: f64, sample: &Sample, imbalance: f64) -> Result<(), Error> {
-        self.history.add(&output::line(sample))?;
+    fn progress(&mut self, fraction: f64, sample: &Sample, imbalance: f64) {
         let (name, speed) = (self.name, number(sample.speed));
         self.bar.set_position((fraction * TICKS as f64) as u64);
         self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance:.0e}"));
@@ -223,7 +222,10 @@ impl Observer for CaseObserver<'_> {
             let speed = format!("speed {speed} {of_speed}, energy off by {imbalance:.0e}");
             print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
-        Ok(())
+    }
+
+    fn sample(&mut self, sample: &Sample) -> Result<(), Error> {
+        self.history.add(&output::line(sample))
     }
 
     fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {

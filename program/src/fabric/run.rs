@@ -12,15 +12,14 @@ use super::scene::Case;
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::archive::Archive;
-use crate::explicit::energies::Cost;
+use crate::explicit::energies::{Balance, Cost};
+use crate::explicit::judgement::MEASURED_EVERY;
 use crate::explicit::lanes::Number;
 use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use crate::weave::model::Model;
 
-/// A run whose total energy moves by more than this part of itself is not stable.
-const LARGEST_IMBALANCE: f64 = 0.05;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
 
@@ -43,7 +42,11 @@ pub enum End {
 /// What came of a case.
 #[derive(Debug)]
 pub struct Outcome {
-    pub samples: Vec<Sample>,
+    /// Measured every [`MEASURED_EVERY`] steps: what is said of the run comes from these.
+    pub measured: Vec<Sample>,
+    pub balance: Balance,
+    /// Measured when it was asked for.
+    pub history: Vec<Sample>,
     pub snapshots: Vec<Snapshot>,
     pub end: End,
     /// When the first element failed.
@@ -56,27 +59,16 @@ pub struct Outcome {
     pub wall: Duration,
 }
 
-impl Outcome {
-    /// How far the total energy has moved at most, as a part of what it was.
-    pub fn imbalance(&self) -> f64 {
-        imbalance(&self.samples)
-    }
-}
-
-fn imbalance(samples: &[Sample]) -> f64 {
-    let Some(first) = samples.first() else { return 0.0 };
-    let start = first.energies.total();
-    let off = samples.iter().map(|sample| (sample.energies.total() - start).abs() / start);
-    off.fold(0.0, crate::explicit::lanes::largest)
-}
-
 /// Receives what a run has to tell on its way.
 pub trait Observer {
-    /// After each sample.
+    /// How far the run is: the part of its time, what was measured, and how far the total energy has moved.
+    fn progress(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) {}
+
+    /// A line of the history.
     ///
     /// # Errors
     /// What ends the run.
-    fn sample(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) -> Result<(), Error> {
+    fn sample(&mut self, _sample: &Sample) -> Result<(), Error> {
         Ok(())
     }
 
@@ -232,7 +224,9 @@ struct Run<'a, T> {
 /// What a run has recorded, and what it is going to.
 #[derive(Debug, Default)]
 struct Record {
-    samples: Vec<Sample>,
+    measured: Vec<Sample>,
+    balance: Balance,
+    history: Vec<Sample>,
     snapshots: Vec<Snapshot>,
     /// When the frames were written.
     frames: Vec<f64>,
@@ -249,7 +243,9 @@ struct Record {
 
 impl Record {
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.samples)?;
+        archive.keep(&mut self.measured)?;
+        archive.keep(&mut self.balance)?;
+        archive.keep(&mut self.history)?;
         archive.keep(&mut self.snapshots)?;
         archive.keep(&mut self.frames)?;
         archive.keep(&mut self.failed)?;
@@ -326,13 +322,15 @@ impl<'a, T: Number> Run<'a, T> {
         if let Some(checkpoint) = checkpoint {
             self.read(checkpoint)?;
             let fraction = self.solver.time / self.plan.end;
-            observer.resumed(fraction, &self.record.samples, &self.record.frames)?;
+            observer.resumed(fraction, &self.record.history, &self.record.frames)?;
         }
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
         let end = rayon::scope(|_| self.steps(observer));
         Ok(Outcome {
-            samples: self.record.samples,
+            measured: self.record.measured,
+            balance: self.record.balance,
+            history: self.record.history,
             snapshots: self.record.snapshots,
             failed: self.record.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
@@ -347,13 +345,13 @@ impl<'a, T: Number> Run<'a, T> {
     fn steps(&mut self, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let share = share(self.case);
         let threshold = self.case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
-        let Plan { end: last, sample, frames, checkpoints, .. } = self.plan;
+        let Plan { end: last, frames, checkpoints, .. } = self.plan;
         let (frame, between_checkpoints) = (interval(last, frames), interval(last, checkpoints));
         loop {
             let time = self.solver.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
             let end = self.end(reached(last), time - self.record.last_contact);
-            if observer.interrupts() && end.is_none() && !self.record.samples.is_empty() {
+            if observer.interrupts() && end.is_none() && !self.record.measured.is_empty() {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
                 return Ok(End::Interrupted);
@@ -363,11 +361,13 @@ impl<'a, T: Number> Run<'a, T> {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
+            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
             let sampled = reached(self.record.next_sample) || end.is_some();
             let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
             let framed = frames > 0 && reached(self.record.next_frame);
             let left = if reached(last) { last } else { last - time };
-            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
+            let energies = measured || sampled || drawn || framed;
+            self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
                 self.record.last_contact = time;
             }
@@ -375,16 +375,9 @@ impl<'a, T: Number> Run<'a, T> {
             if self.record.failed.is_none() && failed() {
                 self.record.failed = Some(time);
             }
-            if sampled {
-                let measured = measure(self.panel, &self.solver, share, self.record.start, threshold);
-                self.record.samples.push(measured);
-                self.record.next_sample += sample;
-                let imbalance = imbalance(&self.record.samples);
-                observer.sample(time / last, &measured, imbalance)?;
-                if imbalance.is_nan() || imbalance > LARGEST_IMBALANCE {
-                    let moved = number(100.0 * imbalance);
-                    return Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")));
-                }
+            if measured || sampled {
+                let sample = measure(self.panel, &self.solver, share, self.record.start, threshold);
+                self.record(sample, [measured, sampled], observer)?;
             }
             if drawn {
                 self.record.pictures.remove(0);
@@ -400,6 +393,34 @@ impl<'a, T: Number> Run<'a, T> {
             }
             self.solver.displace();
         }
+    }
+
+    /// Keeps a measurement for what is said of the run, for its history, or for both.
+    ///
+    /// # Errors
+    /// The balance of energy is lost, or the observer's.
+    fn record(
+        &mut self,
+        sample: Sample,
+        [measured, sampled]: [bool; 2],
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), Error> {
+        let Record { measured: kept, balance, history, next_sample, .. } = &mut self.record;
+        if measured {
+            kept.push(sample);
+            balance.add(&sample.energies);
+            observer.progress(sample.time / self.plan.end, &sample, balance.imbalance());
+        }
+        let lost = balance.lost();
+        if sampled || lost.is_some() {
+            history.push(sample);
+            *next_sample += self.plan.sample;
+            observer.sample(&sample)?;
+        }
+        lost.map_or(Ok(()), |moved| {
+            let moved = number(moved);
+            Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")))
+        })
     }
 
     /// Whether the run is over; `free` is how long nothing has touched the sphere.

@@ -334,6 +334,30 @@ fn a_wrong_scene_does_not_look_right() {
     assert!(summary.lines().skip(1).zip(verdicts).all(|(line, verdict)| line.contains(verdict)), "{summary}");
 }
 
+/// What is said of a run, and when it ends, does not depend on how often its history is written.
+#[test]
+fn a_verdict_does_not_depend_on_the_history() {
+    let keys = "failure = \"uniaxial\"\nhyperelastic.properties = { k_ld = 126.0, eps_lim = 0.02 }\n\
+                [[case]]\nname = \"torn\"\n[[case]]\nname = \"needle\"\nradius = 0.05\nend = 0.006\n";
+    let of = |name: &str, sample: &str| {
+        let (answer, output) = strike(name, &scene(20.0, keys).replace("sample = 0.0005", sample), 2);
+        assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+        let read = |name: &str| std::fs::read_to_string(output.join(name)).expect("a file");
+        // But for the computing times.
+        let said = |line: &str| line.split_once(",ns_per_zone_cycle").map_or(line, |(before, _)| before).to_string();
+        let summary: Vec<String> = read("summary.csv").lines().map(said).collect();
+        let columns = summary[0].split(',').count();
+        let summary: Vec<String> =
+            summary.iter().map(|line| line.split(',').take(columns).collect::<Vec<_>>().join(",")).collect();
+        let warnings = String::from_utf8_lossy(&answer.stdout).matches("warning: case needle").count();
+        let last = read("torn.csv").lines().last().expect("a line").to_string();
+        (summary, warnings, last, read("torn.csv").lines().count())
+    };
+    let (often, seldom) = (of("often", "sample = 0.0001"), of("seldom", "sample = 0.006"));
+    assert_eq!((&often.0, often.1, &often.2), (&seldom.0, seldom.1, &seldom.2));
+    assert!(often.0[2].contains(",mesh; ") && often.1 > 2 && often.3 > 10 * seldom.3, "{often:?} {seldom:?}");
+}
+
 /// The default yarn of the other law beside one's own is most likely an oversight.
 #[test]
 fn a_default_yarn_beside_one_s_own_is_refused() {
