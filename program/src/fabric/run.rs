@@ -24,7 +24,7 @@ use crate::weave::model::Model;
 const ROUNDING: f64 = 1e-9;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
     Time,
     /// The sphere has stopped, and the run ends with it.
@@ -57,6 +57,25 @@ pub struct Outcome {
     pub cost: Cost,
     pub searches: u64,
     pub wall: Duration,
+}
+
+impl Outcome {
+    /// What stands in the file of a case that has ended, from which its report and its plots come.
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let mut failure = self.failure.as_ref().map(Error::to_string);
+        archive.keep(&mut failure)?;
+        self.failure = failure.map(Error::Evaluation);
+        archive.keep(&mut self.measured)?;
+        archive.keep(&mut self.balance)?;
+        archive.keep(&mut self.history)?;
+        archive.keep(&mut self.snapshots)?;
+        archive.keep(&mut self.end)?;
+        archive.keep(&mut self.failed)?;
+        archive.keep(&mut self.elements)?;
+        archive.keep(&mut self.cost)?;
+        archive.keep(&mut self.searches)?;
+        archive.keep(&mut self.wall)
+    }
 }
 
 /// Receives what a run has to tell on its way.
@@ -104,7 +123,7 @@ pub trait Observer {
 
 impl Observer for () {}
 
-/// Runs a case, from a checkpoint on if there is one.
+/// Runs a case, from a checkpoint on if there is one; one of a case that has ended is its outcome.
 ///
 /// # Errors
 /// A material that the host cannot use; a checkpoint that is not this case's.
@@ -114,6 +133,9 @@ pub fn run(
     checkpoint: Option<&[u8]>,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Outcome, Error> {
+    if let Some(outcome) = checkpoint.map(|bytes| ended(case, bytes)).transpose()?.flatten() {
+        return Ok(outcome);
+    }
     if case.single_precision {
         Run::new(case, panel, solver::<f32>(case, panel)?).resume(checkpoint, observer)
     } else {
@@ -170,6 +192,19 @@ impl Plan {
 pub struct Head {
     time: f64,
     plan: Plan,
+    /// How the case has ended, where its outcome follows and nothing from which it could go on.
+    pub ended: Option<End>,
+}
+
+impl Head {
+    /// Whether a case that has ended would go on now.
+    fn is_too_early(&self, case: &Case) -> bool {
+        match self.ended {
+            None | Some(End::Left | End::Failed | End::Interrupted) => false,
+            Some(End::Stopped) => case.rebounds,
+            Some(End::Time | End::Rebounded) => case.end > self.plan.end * (1.0 + ROUNDING),
+        }
+    }
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
@@ -195,6 +230,11 @@ pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), 
     }
     let mut head = Head::default();
     archive.keep(&mut head).map_err(|_| damaged())?;
+    if head.is_too_early(case) {
+        let allowed = "allowed: end and until as they were, or another directory";
+        let reason = format!("of its end at {}, from which it cannot go on", number(head.time));
+        return Err(Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", case.name)));
+    }
     if head.time > case.end * (1.0 + ROUNDING) {
         let [end, time] = [case.end, head.time].map(number);
         let message =
@@ -204,6 +244,58 @@ pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), 
     match archive {
         Archive::Reads(rest) => Ok((head, rest)),
         Archive::Writes(_) => Err(damaged()), // not reached
+    }
+}
+
+/// The outcome of a case that has ended, if its checkpoint is one of its end.
+fn ended(case: &Case, checkpoint: &[u8]) -> Result<Option<Outcome>, Error> {
+    let (head, rest) = check(case, checkpoint)?;
+    let Some(end) = head.ended else { return Ok(None) };
+    let mut outcome = Outcome {
+        measured: Vec::new(),
+        balance: Balance::default(),
+        history: Vec::new(),
+        snapshots: Vec::new(),
+        end,
+        failed: None,
+        failure: None,
+        elements: 0,
+        cost: Cost::default(),
+        searches: 0,
+        wall: Duration::ZERO,
+    };
+    let read = outcome.archive(&mut Archive::Reads(rest));
+    read.map_err(|_| refused(case, "damaged"))?;
+    Ok(Some(outcome))
+}
+
+/// The checkpoint of a case that has ended: small, since it has the outcome and no state.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn checkpoint_of_end(case: &Case, outcome: &mut Outcome) -> Result<Vec<u8>, Error> {
+    let time = outcome.measured.last().map_or(0.0, |sample| sample.time);
+    let head = Head { time, plan: Plan::of(case), ended: Some(outcome.end) };
+    write(case, head, |archive| outcome.archive(archive))
+}
+
+/// A checkpoint: of which case, its head, what `contents` adds, and a checksum.
+fn write(
+    case: &Case,
+    mut head: Head,
+    contents: impl FnOnce(&mut Archive<'_>) -> Result<(), postcard::Error>,
+) -> Result<Vec<u8>, Error> {
+    let mut archive = Archive::Writes(Vec::new());
+    let mut identity = identity(case)?;
+    let written =
+        archive.keep(&mut identity).and_then(|()| archive.keep(&mut head)).and_then(|()| contents(&mut archive));
+    written.map_err(|error| Error::Evaluation(format!("case {}: {error}", case.name)))?;
+    match archive {
+        Archive::Writes(mut bytes) => {
+            bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+            Ok(bytes)
+        }
+        Archive::Reads(_) => Ok(Vec::new()), // not reached
     }
 }
 
@@ -270,20 +362,9 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
-        let mut archive = Archive::Writes(Vec::new());
-        let mut identity = identity(self.case)?;
-        let mut head = Head { time: self.solver.time, plan: self.plan.clone() };
-        let written = archive.keep(&mut identity).and_then(|()| archive.keep(&mut head));
-        let written = written.and_then(|()| self.record.archive(&mut archive));
-        let written = written.and_then(|()| self.solver.archive(&mut archive));
-        written.map_err(|error| self.error(&error.to_string()))?;
-        match archive {
-            Archive::Writes(mut bytes) => {
-                bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-                Ok(bytes)
-            }
-            Archive::Reads(_) => Ok(Vec::new()), // not reached
-        }
+        let head = Head { time: self.solver.time, plan: self.plan.clone(), ended: None };
+        let Run { record, solver, .. } = self;
+        write(self.case, head, |archive| record.archive(archive).and_then(|()| solver.archive(archive)))
     }
 
     fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
