@@ -16,7 +16,10 @@ use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::progress;
+use crate::common::run_directory::RunDirectory;
 
+/// The file for the identification.
+const FIT: &str = "fit.toml";
 /// Ticks of the progress bar for each load.
 const TICKS: f64 = 1000.0;
 /// Lines for each load where there is no terminal for the bar.
@@ -44,12 +47,10 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>) -> Result<PathBuf, Er
             "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
         return Err(Error::Input(message.to_string()));
     }
-    std::fs::create_dir_all(output).map_err(|error| Error::Input(format!("{}: {error}", output.display())))?;
-    let fit = output.join("fit.toml");
+    let directory = RunDirectory::open(output)?;
     // One of an earlier run would stand beside other tables.
-    if fit.exists() {
-        std::fs::remove_file(&fit).map_err(|error| Error::Input(format!("{}: {error}", fit.display())))?;
-    }
+    directory.remove(FIT)?;
+    let fit = output.join(FIT);
     let runs = run_loads(program.as_deref(), &scene, &model, output);
     let (mut outcomes, mut failures) = (Vec::new(), Vec::new());
     for run in runs {

@@ -40,32 +40,43 @@ impl RunDirectory {
         Ok(RunDirectory { path: path.to_path_buf(), _lock: lock })
     }
 
-    /// Removes a file that is of an earlier run, if it is there.
+    /// Removes a file that is of an earlier run, if it is there; whether it was.
     ///
     /// # Errors
     /// It cannot be removed.
-    pub fn remove(&self, name: &str) -> Result<(), Error> {
+    pub fn remove(&self, name: &str) -> Result<bool, Error> {
         let file = self.path.join(name);
         match std::fs::remove_file(&file) {
-            Err(error) if error.kind() != ErrorKind::NotFound => Err(file_error(&file, &error)),
-            _ => Ok(()),
+            Ok(()) => Ok(true),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+            Err(error) => Err(file_error(&file, &error)),
         }
     }
 
     /// Removes what an earlier run has written for this case: histories, plots, pictures, which have `pictures` between name and
-    /// number, and the files for ParaView from the number `frames` on. Its checkpoint stays.
+    /// number, and the files for ParaView from the number `frames` on. Its checkpoint stays. Returns how many there were.
     ///
     /// # Errors
     /// The directory cannot be read, or a file not be removed.
-    pub fn remove_files_of(&self, case: &str, pictures: &str, frames: usize) -> Result<(), Error> {
+    pub fn remove_files_of(&self, case: &str, pictures: &str, frames: usize) -> Result<usize, Error> {
+        let mut removed = 0;
         let entries = std::fs::read_dir(&self.path).map_err(|error| file_error(&self.path, &error))?;
         for entry in entries {
             let name = entry.map_err(|error| file_error(&self.path, &error))?.file_name();
             if let Some(name) = name.to_str().filter(|name| is_of(name, case, pictures, frames)) {
-                self.remove(name)?;
+                removed += usize::from(self.remove(name)?);
             }
         }
-        Ok(())
+        Ok(removed)
+    }
+
+    /// What to say of files that were removed; nothing of none.
+    pub fn removal(&self, files: usize) -> String {
+        match files {
+            0 => String::new(),
+            1 => format!("1 file of an earlier run is removed from {}\n", self.path.display()),
+            _ => format!("{files} files of an earlier run are removed from {}\n", self.path.display()),
+        }
     }
 }
 

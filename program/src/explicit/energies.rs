@@ -4,6 +4,11 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::lanes::largest;
+
+/// A run whose total energy moves by more than this part of itself is not stable.
+const LARGEST_IMBALANCE: f64 = 0.05;
+
 /// The energies of the body and of the projectile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
@@ -32,6 +37,36 @@ impl Energies {
     }
 }
 
+/// How the total energy has moved since the first measurement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    start: Option<f64>,
+    most: f64,
+    /// The energy that was there at first or the work from outside, the largest of both so far.
+    pub scale: f64,
+}
+
+impl Balance {
+    /// Takes a measurement.
+    pub fn add(&mut self, energies: &Energies) {
+        let total = energies.total();
+        let start = *self.start.get_or_insert(total);
+        self.most = largest(self.most, (total - start).abs());
+        self.scale = largest(self.scale, largest(start.abs(), energies.external.abs()));
+    }
+
+    /// How far the total energy has moved at most, as a part of the scale.
+    pub fn imbalance(&self) -> f64 {
+        if self.most == 0.0 { 0.0 } else { self.most / self.scale }
+    }
+
+    /// By how much the energy has moved, in per cent, where that is too much for a run to go on.
+    pub fn lost(&self) -> Option<f64> {
+        let imbalance = self.imbalance();
+        (imbalance.is_nan() || imbalance > LARGEST_IMBALANCE).then_some(100.0 * imbalance)
+    }
+}
+
 /// Computing time by part.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Cost {
@@ -45,5 +80,26 @@ pub struct Cost {
 impl Cost {
     pub fn total(&self) -> Duration {
         self.elements + self.contact + self.nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_balance_keeps_the_worst_of_what_it_was_given() {
+        let of = |energies: &[[f64; 2]]| {
+            let mut balance = Balance::default();
+            for &[kinetic, external] in energies {
+                balance.add(&Energies { kinetic, external, ..Energies::default() });
+            }
+            (balance.imbalance(), balance.lost())
+        };
+        assert_eq!(of(&[[2.0, 0.0], [1.9, 0.0], [2.0, 0.0]]).0, (2.0_f64 - 1.9) / 2.0);
+        assert_eq!(of(&[[0.0, 0.0], [4.0, 4.0]]), (0.0, None));
+        // Of the work from outside, which is more than what was there.
+        assert_eq!(of(&[[1.0, 0.0], [5.5, 4.0]]), (0.125, Some(12.5)));
+        assert!(of(&[[2.0, 0.0], [f64::NAN, 0.0], [2.0, 0.0]]).1.is_some_and(f64::is_nan));
     }
 }

@@ -5,6 +5,9 @@ use crate::material::fibre_wave::FibreWave;
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 
+/// Steps from one measurement to the next, whatever the history is asked for: what is said of a run, and whether it goes on, must
+/// not depend on that. The fastest vibration has at least π steps a period; what is looked for lasts longer.
+pub const MEASURED_EVERY: u64 = 16;
 /// The largest part of the internal energy that hourglass modes may hold.
 const LARGEST_HOURGLASS: f64 = 0.1;
 /// A contact that stores more than this part of the energy is a spring between what strikes and what is struck.

@@ -122,6 +122,12 @@ pub fn largest(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
+/// The smaller one; NaN where one is.
+#[inline(always)]
+pub fn smallest(a: f64, b: f64) -> f64 {
+    -largest(-a, -b)
+}
+
 /// An operator, lane by lane.
 macro_rules! lanewise {
     ($operator:ident, $method:ident, $symbol:tt) => {

@@ -13,6 +13,7 @@ pub mod control_keys;
 pub mod element;
 pub mod energies;
 pub mod friction;
+pub mod hexahedron;
 pub mod instructions;
 pub mod judgement;
 pub mod lanes;

@@ -58,7 +58,7 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         return Err(Error::Input(format!("no case has a checkpoint in {}; {allowed}", output.display())));
     }
     let directory = RunDirectory::open(output)?;
-    directory.remove(SUMMARY)?;
+    print_error(&clear(&scene, output, &directory, restart)?);
     let interrupt = Interrupt::listen()?;
     print_error("Ctrl-C ends the run with a checkpoint, from which --restart goes on\n");
     let (mut results, mut failures) = (Vec::new(), Vec::new());
@@ -66,6 +66,10 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
         let panel = case.woven.model();
         let mut outcome = run_case(&scene, case, &panel, output, &directory, restart, &interrupt)?;
         write_case(&scene, case, &panel, &outcome, output)?;
+        // Who goes on after an interruption of a later case finds that this one has ended.
+        if case.checkpoints == 0 && outcome.end != End::Interrupted && run::build().is_ok() {
+            Checkpoint::of(case, output).write(&run::checkpoint_of_end(case, &mut outcome)?)?;
+        }
         failures.extend(outcome.failure.take().map(|error| error.to_string()));
         let interrupted = outcome.end == End::Interrupted;
         let figures = Figures::of(&scene.units, case, &panel, &outcome);
@@ -85,6 +89,32 @@ pub fn run(path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     if failures.is_empty() { Ok(()) } else { Err(Error::Evaluation(failures.join("\n"))) }
 }
 
+/// Removes what an earlier run has left of the cases that begin, before the first of them does; returns what there is to say of it.
+/// Their checkpoints get another name: who has forgotten `--restart` has them still.
+fn clear(scene: &Scene, output: &Path, directory: &RunDirectory, restart: bool) -> Result<String, Error> {
+    // A restart writes it again.
+    let mut removed = usize::from(directory.remove(SUMMARY)? && !restart);
+    let mut said = String::new();
+    for case in &scene.cases {
+        let checkpoint = Checkpoint::of(case, output);
+        let found = checkpoint.read()?;
+        if restart && found.is_some() {
+            continue;
+        }
+        removed += directory.remove_files_of(&case.name, PICTURES, 0)?;
+        let Some(bytes) = found else { continue };
+        // One of a case that has ended is nothing without the files that go.
+        if run::check(case, &bytes).is_ok_and(|(head, _)| head.ended.is_some()) {
+            std::fs::remove_file(&checkpoint.place).map_err(|error| file_error(&checkpoint.place, &error))?;
+            removed += 1;
+        } else {
+            let old = checkpoint.set_aside()?;
+            said += &format!("the checkpoint of an earlier run of case {} is now {}\n", case.name, old.display());
+        }
+    }
+    Ok(directory.removal(removed) + &said)
+}
+
 /// Runs a case, from its checkpoint on if it has one and goes on at all.
 fn run_case(
     scene: &Scene,
@@ -97,13 +127,16 @@ fn run_case(
 ) -> Result<Outcome, Error> {
     let checkpoint = Checkpoint::of(case, output);
     let bytes = if restart { checkpoint.read()? } else { None };
-    if restart {
-        let how = if bytes.is_some() { "goes on from its checkpoint" } else { "has none, from the beginning" };
-        print_error(&format!("case {}: {how}\n", case.name));
-    }
     let history = output.join(format!("{}.csv", case.name));
-    let elements = panel.elements.len();
-    print_error(&format!("case {}: {elements} elements, its history grows in {}\n", case.name, history.display()));
+    let grows = format!("{} elements, its history grows in {}", panel.elements.len(), history.display());
+    let head = bytes.as_deref().map(|bytes| run::check(case, bytes)).transpose()?;
+    let how = match head {
+        None if restart => format!("has no checkpoint, from the beginning; {grows}"),
+        None => grows,
+        Some((head, _)) if head.ended.is_some() => "has ended, its files stay".to_string(),
+        Some(_) => format!("goes on from its checkpoint; {grows}"),
+    };
+    print_error(&format!("case {}: {how}\n", case.name));
     print_error(&warnings([(case.name.as_str(), &before(&scene.units, case, panel)[..])]));
     let bar = progress::bar(TICKS, "{msg} {wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let mut observer = CaseObserver {
@@ -118,7 +151,7 @@ fn run_case(
         interrupt,
     };
     if bytes.is_none() {
-        observer.begin(&[], 0)?;
+        observer.history.begin(&[])?;
     }
     let result = run::run(case, panel, bytes.as_deref(), &mut observer);
     bar.finish_and_clear();
@@ -136,6 +169,13 @@ impl Checkpoint {
         let [place, new] =
             ["checkpoint", "checkpoint-new"].map(|ending| output.join(format!("{}.{ending}", case.name)));
         Checkpoint { place, new }
+    }
+
+    /// Gives it another name; returns that.
+    fn set_aside(&self) -> Result<PathBuf, Error> {
+        let old = self.place.with_extension("checkpoint-old");
+        std::fs::rename(&self.place, &old).map_err(|error| file_error(&old, &error))?;
+        Ok(old)
     }
 
     fn files(&self) -> [&Path; 2] {
@@ -203,17 +243,8 @@ struct CaseObserver<'a> {
     interrupt: &'a Interrupt,
 }
 
-impl CaseObserver<'_> {
-    /// Removes what another run has left, but for so many frames, and begins the history.
-    fn begin(&mut self, samples: &[Sample], frames: usize) -> Result<(), Error> {
-        self.directory.remove_files_of(self.name, PICTURES, frames)?;
-        self.history.begin(samples)
-    }
-}
-
 impl Observer for CaseObserver<'_> {
-    fn sample(&mut self, fraction: f64, sample: &Sample, imbalance: f64) -> Result<(), Error> {
-        self.history.add(&output::line(sample))?;
+    fn progress(&mut self, fraction: f64, sample: &Sample, imbalance: f64) {
         let (name, speed) = (self.name, number(sample.speed));
         self.bar.set_position((fraction * TICKS as f64) as u64);
         self.bar.set_message(format!("{name}: speed {speed}, energy off by {imbalance:.0e}"));
@@ -223,7 +254,10 @@ impl Observer for CaseObserver<'_> {
             let speed = format!("speed {speed} {of_speed}, energy off by {imbalance:.0e}");
             print_error(&format!("case {name}: {percent:.0} %, time {time} {of_time}, {speed}\n"));
         }
-        Ok(())
+    }
+
+    fn sample(&mut self, sample: &Sample) -> Result<(), Error> {
+        self.history.add(&output::line(sample))
     }
 
     fn frame(&mut self, time: f64, text: &str) -> Result<(), Error> {
@@ -236,7 +270,9 @@ impl Observer for CaseObserver<'_> {
 
     fn resumed(&mut self, fraction: f64, samples: &[Sample], frames: &[f64]) -> Result<(), Error> {
         self.lines = Lines::from(fraction);
-        self.begin(samples, frames.len())?;
+        // What the run has written after the checkpoint.
+        self.directory.remove_files_of(self.name, PICTURES, frames.len())?;
+        self.history.begin(samples)?;
         self.frames.resume(frames)
     }
 

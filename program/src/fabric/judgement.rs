@@ -5,12 +5,12 @@
 
 use nalgebra::Vector3;
 
-use super::measure::{Sample, smallest};
+use super::measure::Sample;
 use super::run::Outcome;
 use super::scene::Case;
 use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
-use crate::explicit::lanes::largest;
+use crate::explicit::lanes::{largest, smallest};
 use crate::weave::figures::Figures as WeaveFigures;
 use crate::weave::model::Model;
 use crate::weave::report::areal_density_warning;
@@ -46,11 +46,11 @@ pub struct Measures {
 impl Measures {
     pub fn of(outcome: &Outcome) -> Measures {
         let end = outcome.failed.unwrap_or(f64::INFINITY);
-        let samples = || outcome.samples.iter().take_while(|sample| sample.time <= end);
+        let samples = || outcome.measured.iter().take_while(|sample| sample.time <= end);
         let most = |of: fn(&Sample) -> f64| samples().map(of).fold(0.0, largest);
         let share = |part: f64, whole: f64| if part == 0.0 { 0.0 } else { part / whole };
         let internal = most(|sample| sample.energies.internal);
-        let start = outcome.samples.first().map_or(0.0, |sample| sample.energies.total());
+        let start = outcome.measured.first().map_or(0.0, |sample| sample.energies.total());
         Measures {
             hourglass: share(most(|sample| sample.energies.hourglass), internal),
             shear: share(most(|sample| sample.parts[3]), most(|sample| sample.parts.iter().sum())),
@@ -97,7 +97,7 @@ pub fn judge(
     findings.extend(collapsed(case, measures));
     findings.extend(judgement::contact(measures.contact, case.sphere.stiffness));
     findings.extend(sunk(units, case, measures));
-    findings.extend(judgement::balance(outcome.imbalance()));
+    findings.extend(judgement::balance(outcome.balance.imbalance()));
     findings
 }
 
@@ -200,6 +200,7 @@ fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::explicit::energies::{Balance, Energies};
     use crate::explicit::judgement::verdict;
     use crate::fabric::run::End;
     use crate::fabric::scene::Scene;
@@ -226,13 +227,14 @@ mod tests {
         );
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
         let (case, panel) = (&scene.cases[0], scene.cases[0].woven.model());
-        let sample = |total: f64| {
-            let mut sample = Sample::default();
-            sample.energies.projectile = total;
-            sample
-        };
+        let mut balance = Balance::default();
+        for projectile in [1.0, 1.0 - off] {
+            balance.add(&Energies { projectile, ..Energies::default() });
+        }
         let outcome = Outcome {
-            samples: vec![sample(1.0), sample(1.0 - off)],
+            measured: Vec::new(),
+            balance,
+            history: Vec::new(),
             snapshots: Vec::new(),
             end: End::Time,
             failed: None,

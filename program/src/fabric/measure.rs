@@ -1,12 +1,15 @@
 //! What is measured of a panel: energies, deflection, the front of the transverse wave, torn yarns, how far sections tilt.
 
 use nalgebra::Vector3;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::explicit::body::Body;
 use crate::explicit::energies::Energies;
-use crate::explicit::lanes::{Number, largest};
+use crate::explicit::hexahedron::Edges;
+use crate::explicit::lanes::{Number, largest, smallest};
+use crate::explicit::medium::Medium;
 use crate::explicit::solver::Solver;
-use crate::weave::figures::{corners, scaled_jacobian};
 use crate::weave::model::{Model, Yarn};
 
 /// The state at an instant. Energies are those of the whole panel.
@@ -45,23 +48,44 @@ pub struct Sample {
 /// stretched straight before it comes.
 pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64, threshold: f64) -> Sample {
     let whole = 1.0 / share;
-    let mut sample =
-        Sample { time: solver.time, least_volume_ratio: 1.0, least_scaled_jacobian: 1.0, ..Sample::default() };
+    // Collected, since the order of a parallel sum is not always the same.
+    let yarns: Vec<Sample> = panel
+        .yarns
+        .par_iter()
+        .zip(&solver.bodies)
+        .map(|(yarn, body)| Sample::of_yarn(yarn, body, &solver.media, whole))
+        .collect();
+    let mut sample = yarns.iter().fold(Sample::at_rest(), Sample::with);
+    sample.time = solver.time;
     if let Some(sphere) = &solver.projectile {
         sample.speed = -sphere.velocity;
         sample.travel = start - sphere.position;
         sample.force = sphere.force * whole;
     }
     sample.energies = times(whole, &solver.energies);
-    for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
-        sample.deleted += body.deleted.len();
-        sample.collapsed += body.collapsed;
+    sample.front = front(panel, solver, threshold);
+    sample
+}
+
+impl Sample {
+    fn at_rest() -> Sample {
+        Sample { least_volume_ratio: 1.0, least_scaled_jacobian: 1.0, ..Sample::default() }
+    }
+
+    /// A yarn's part of what is summed, and its largest and smallest values.
+    fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>, media: &[Medium<T>], whole: f64) -> Sample {
         let torn = is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i));
-        sample.torn += usize::from(torn);
+        let mut sample = Sample {
+            deleted: body.deleted.len(),
+            collapsed: body.collapsed,
+            torn: usize::from(torn),
+            ..Sample::at_rest()
+        };
         for i in 0..body.mesh.elements.len() {
-            let densities = body.energy_densities(&solver.media, i);
+            let densities = body.energy_densities(media, i);
+            let volume = whole * body.volume(i);
             for (part, density) in sample.parts.iter_mut().zip(densities) {
-                *part += whole * density * body.volume(i);
+                *part += density * volume;
             }
             if !body.is_intact(i) {
                 continue;
@@ -69,51 +93,59 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
             for (most, density) in sample.largest.iter_mut().zip(densities) {
                 *most = largest(*most, density);
             }
-            sample.index = largest(sample.index, body.failure_index(&solver.media, i));
+            sample.index = largest(sample.index, body.failure_index(media, i));
             let nodes = body.mesh.elements[i].map(|node| node as usize);
             for node in nodes.into_iter().filter(|_| !torn) {
                 sample.deflection = largest(sample.deflection, -body.displacement[node][2].into());
             }
-            let (ratio, scaled) =
-                quality(|corner| body.mesh.nodes[nodes[corner]], |corner| body.position(nodes[corner]));
-            sample.least_volume_ratio = smallest(sample.least_volume_ratio, ratio);
-            sample.least_scaled_jacobian = smallest(sample.least_scaled_jacobian, scaled);
+            let (mut at_rest, mut now) = ([[0.0; 3]; 8], [[0.0; 3]; 8]);
+            for corner in 0..8 {
+                at_rest[corner] = body.mesh.nodes[nodes[corner]];
+                now[corner] = body.position(nodes[corner]);
+            }
+            let (at_rest, now) = (Edges::of(&at_rest), Edges::of(&now));
+            sample.least_volume_ratio = smallest(sample.least_volume_ratio, now.volume() / at_rest.volume());
+            sample.least_scaled_jacobian = smallest(sample.least_scaled_jacobian, now.least_scaled_jacobian());
         }
+        sample.measure_sections(yarn, body);
+        sample
+    }
+
+    /// Of the sections whose elements are all there.
+    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, body: &Body<T>) {
         let lines = yarn.elements_per_layer();
         let whole_at = |layer: usize| (layer * lines..(layer + 1) * lines).all(|element| body.is_intact(element));
+        let at_rest = Sections::of(yarn, |node| Vector3::from(body.mesh.nodes[node]));
+        let now = Sections::of(yarn, |node| Vector3::from(body.position(node)));
         for section in 0..=yarn.layers {
-            if !(section.saturating_sub(1)..(section + 1).min(yarn.layers)).all(whole_at) {
-                continue;
+            if (section.saturating_sub(1)..(section + 1).min(yarn.layers)).all(whole_at) {
+                let [at_rest, now] = [at_rest.tilt_and_slip(section), now.tilt_and_slip(section)];
+                self.tilt = largest(self.tilt, (now.0 - at_rest.0).abs());
+                self.slip = largest(self.slip, (now.1 - at_rest.1).abs());
             }
-            let at_rest = section_of(yarn, section, |node| Vector3::from(body.mesh.nodes[node]));
-            let now = section_of(yarn, section, |node| Vector3::from(body.position(node)));
-            sample.tilt = largest(sample.tilt, (now.0 - at_rest.0).abs());
-            sample.slip = largest(sample.slip, (now.1 - at_rest.1).abs());
         }
     }
-    sample.front = front(panel, solver, threshold);
-    sample
-}
 
-/// The smaller one; NaN where one is.
-pub fn smallest(a: f64, b: f64) -> f64 {
-    -largest(-a, -b)
-}
-
-/// An element's volume over that at rest, both taken from the means of its edges along each axis, and its least scaled Jacobian.
-fn quality(at_rest: impl Fn(usize) -> [f64; 3], position: impl Fn(usize) -> [f64; 3]) -> (f64, f64) {
-    let volume = |node: &dyn Fn(usize) -> Vector3<f64>| {
-        let mut axes = [Vector3::zeros(); 3];
-        for edges in corners(node) {
-            for (axis, edge) in axes.iter_mut().zip(edges) {
-                *axis += edge;
-            }
+    /// With what another yarn has.
+    fn with(self, other: &Sample) -> Sample {
+        let both = |of: fn(&Sample) -> [f64; 5], join: fn(f64, f64) -> f64| {
+            std::array::from_fn(|mode| join(of(&self)[mode], of(other)[mode]))
+        };
+        Sample {
+            parts: both(|sample| sample.parts, |a, b| a + b),
+            largest: both(|sample| sample.largest, largest),
+            index: largest(self.index, other.index),
+            deflection: largest(self.deflection, other.deflection),
+            deleted: self.deleted + other.deleted,
+            collapsed: self.collapsed + other.collapsed,
+            torn: self.torn + other.torn,
+            least_volume_ratio: smallest(self.least_volume_ratio, other.least_volume_ratio),
+            least_scaled_jacobian: smallest(self.least_scaled_jacobian, other.least_scaled_jacobian),
+            tilt: largest(self.tilt, other.tilt),
+            slip: largest(self.slip, other.slip),
+            ..self
         }
-        axes[0].cross(&axes[1]).dot(&axes[2])
-    };
-    let now = |corner: usize| Vector3::from(position(corner));
-    let scaled = corners(now).map(|edges| scaled_jacobian(&edges));
-    (volume(&now) / volume(&|corner| Vector3::from(at_rest(corner))), scaled.fold(1.0, smallest))
+    }
 }
 
 fn times(factor: f64, energies: &Energies) -> Energies {
@@ -153,23 +185,37 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
     farthest
 }
 
-/// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
-/// side along the yarn.
-fn section_of(yarn: &Yarn, section: usize, position: impl Fn(usize) -> Vector3<f64>) -> (f64, f64) {
-    let (per, rows, columns) = (yarn.nodes_per_section(), yarn.rows, yarn.columns);
-    let mean = |section: usize| -> Vector3<f64> {
-        (section * per..(section + 1) * per).map(&position).sum::<Vector3<f64>>() / per as f64
-    };
-    let (before, after) = (section.saturating_sub(1), (section + 1).min(yarn.layers));
-    let along = (mean(after) - mean(before)).normalize();
-    let node = |column: usize, row: usize| position(section * per + column * (rows + 1) + row);
-    let height = |column: usize| node(column, rows) - node(column, 0);
-    // The axis of a yarn that a plane of symmetry halves is at the side where it is highest.
-    let axis = if yarn.halved { [0, columns] } else { [columns / 2, columns.div_ceil(2)] };
-    let column = if height(axis[0]).norm() > height(axis[1]).norm() { axis[0] } else { axis[1] };
-    let upright = height(column);
-    let tilt = (along.dot(&upright) / upright.norm()).clamp(-1.0, 1.0).asin().to_degrees();
-    let core = 0.5 * (node(column, rows / 2) + node(column, rows.div_ceil(2)));
-    let sides = 0.5 * (node(column, rows) + node(column, 0));
-    (tilt, along.dot(&(core - sides)))
+/// The sections of a yarn, in the places that `position` gives its nodes.
+struct Sections<'a, P> {
+    yarn: &'a Yarn,
+    position: P,
+    means: Vec<Vector3<f64>>,
+}
+
+impl<'a, P: Fn(usize) -> Vector3<f64>> Sections<'a, P> {
+    fn of(yarn: &'a Yarn, position: P) -> Self {
+        let per = yarn.nodes_per_section();
+        let sum = |section: usize| (section * per..(section + 1) * per).map(&position).sum::<Vector3<f64>>();
+        let means = (0..=yarn.layers).map(|section| sum(section) / per as f64).collect();
+        Sections { yarn, position, means }
+    }
+
+    /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
+    /// side along the yarn.
+    fn tilt_and_slip(&self, section: usize) -> (f64, f64) {
+        let Yarn { rows, columns, layers, halved, .. } = *self.yarn;
+        let (before, after) = (section.saturating_sub(1), (section + 1).min(layers));
+        let along = (self.means[after] - self.means[before]).normalize();
+        let first = section * self.yarn.nodes_per_section();
+        let node = |column: usize, row: usize| (self.position)(first + column * (rows + 1) + row);
+        let height = |column: usize| node(column, rows) - node(column, 0);
+        // The axis of a yarn that a plane of symmetry halves is at the side where it is highest.
+        let axis = if halved { [0, columns] } else { [columns / 2, columns.div_ceil(2)] };
+        let column = if height(axis[0]).norm() > height(axis[1]).norm() { axis[0] } else { axis[1] };
+        let upright = height(column);
+        let tilt = (along.dot(&upright) / upright.norm()).clamp(-1.0, 1.0).asin().to_degrees();
+        let core = 0.5 * (node(column, rows / 2) + node(column, rows.div_ceil(2)));
+        let sides = 0.5 * (node(column, rows) + node(column, 0));
+        (tilt, along.dot(&(core - sides)))
+    }
 }

@@ -21,7 +21,7 @@ const MODES: [&str; 5] = ["elongation", "compaction", "distortion", "shear", "wo
 pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, outcome: &Outcome) -> Result<(), Error> {
     let abscissa = Abscissa {
         label: format!("time ({})", unit(&scene.units, TIME)),
-        values: outcome.samples.iter().map(|sample| sample.time).collect(),
+        values: outcome.history.iter().map(|sample| sample.time).collect(),
         failure: outcome.failed,
     };
     history::write(svg, png, [&scene.title, &case.name], panels(scene, outcome), &abscissa)
@@ -31,7 +31,7 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_string(),
         colour: COLOURS[colour % COLOURS.len()],
-        values: outcome.samples.iter().map(of).collect(),
+        values: outcome.history.iter().map(of).collect(),
     };
     let panel = |title, dimension, series: Vec<Series>| Panel {
         title,

@@ -12,20 +12,19 @@ use super::scene::Case;
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::archive::Archive;
-use crate::explicit::energies::Cost;
+use crate::explicit::energies::{Balance, Cost};
+use crate::explicit::judgement::MEASURED_EVERY;
 use crate::explicit::lanes::Number;
 use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
 use crate::explicit::vtu;
 use crate::weave::model::Model;
 
-/// A run whose total energy moves by more than this part of itself is not stable.
-const LARGEST_IMBALANCE: f64 = 0.05;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum End {
     Time,
     /// The sphere has stopped, and the run ends with it.
@@ -43,7 +42,11 @@ pub enum End {
 /// What came of a case.
 #[derive(Debug)]
 pub struct Outcome {
-    pub samples: Vec<Sample>,
+    /// Measured every [`MEASURED_EVERY`] steps: what is said of the run comes from these.
+    pub measured: Vec<Sample>,
+    pub balance: Balance,
+    /// Measured when it was asked for.
+    pub history: Vec<Sample>,
     pub snapshots: Vec<Snapshot>,
     pub end: End,
     /// When the first element failed.
@@ -57,26 +60,34 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// How far the total energy has moved at most, as a part of what it was.
-    pub fn imbalance(&self) -> f64 {
-        imbalance(&self.samples)
+    /// What stands in the file of a case that has ended, from which its report and its plots come.
+    fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
+        let mut failure = self.failure.as_ref().map(Error::to_string);
+        archive.keep(&mut failure)?;
+        self.failure = failure.map(Error::Evaluation);
+        archive.keep(&mut self.measured)?;
+        archive.keep(&mut self.balance)?;
+        archive.keep(&mut self.history)?;
+        archive.keep(&mut self.snapshots)?;
+        archive.keep(&mut self.end)?;
+        archive.keep(&mut self.failed)?;
+        archive.keep(&mut self.elements)?;
+        archive.keep(&mut self.cost)?;
+        archive.keep(&mut self.searches)?;
+        archive.keep(&mut self.wall)
     }
-}
-
-fn imbalance(samples: &[Sample]) -> f64 {
-    let Some(first) = samples.first() else { return 0.0 };
-    let start = first.energies.total();
-    let off = samples.iter().map(|sample| (sample.energies.total() - start).abs() / start);
-    off.fold(0.0, crate::explicit::lanes::largest)
 }
 
 /// Receives what a run has to tell on its way.
 pub trait Observer {
-    /// After each sample.
+    /// How far the run is: the part of its time, what was measured, and how far the total energy has moved.
+    fn progress(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) {}
+
+    /// A line of the history.
     ///
     /// # Errors
     /// What ends the run.
-    fn sample(&mut self, _fraction: f64, _sample: &Sample, _imbalance: f64) -> Result<(), Error> {
+    fn sample(&mut self, _sample: &Sample) -> Result<(), Error> {
         Ok(())
     }
 
@@ -112,7 +123,7 @@ pub trait Observer {
 
 impl Observer for () {}
 
-/// Runs a case, from a checkpoint on if there is one.
+/// Runs a case, from a checkpoint on if there is one; one of a case that has ended is its outcome.
 ///
 /// # Errors
 /// A material that the host cannot use; a checkpoint that is not this case's.
@@ -122,6 +133,9 @@ pub fn run(
     checkpoint: Option<&[u8]>,
     observer: &mut (dyn Observer + Send),
 ) -> Result<Outcome, Error> {
+    if let Some(outcome) = checkpoint.map(|bytes| ended(case, bytes)).transpose()?.flatten() {
+        return Ok(outcome);
+    }
     if case.single_precision {
         Run::new(case, panel, solver::<f32>(case, panel)?).resume(checkpoint, observer)
     } else {
@@ -178,6 +192,19 @@ impl Plan {
 pub struct Head {
     time: f64,
     plan: Plan,
+    /// How the case has ended, where its outcome follows and nothing from which it could go on.
+    pub ended: Option<End>,
+}
+
+impl Head {
+    /// Whether a case that has ended would go on now.
+    fn is_too_early(&self, case: &Case) -> bool {
+        match self.ended {
+            None | Some(End::Left | End::Failed | End::Interrupted) => false,
+            Some(End::Stopped) => case.rebounds,
+            Some(End::Time | End::Rebounded) => case.end > self.plan.end * (1.0 + ROUNDING),
+        }
+    }
 }
 
 fn refused(case: &Case, reason: &str) -> Error {
@@ -203,6 +230,11 @@ pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), 
     }
     let mut head = Head::default();
     archive.keep(&mut head).map_err(|_| damaged())?;
+    if head.is_too_early(case) {
+        let allowed = "allowed: end and until as they were, or another directory";
+        let reason = format!("of its end at {}, from which it cannot go on", number(head.time));
+        return Err(Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", case.name)));
+    }
     if head.time > case.end * (1.0 + ROUNDING) {
         let [end, time] = [case.end, head.time].map(number);
         let message =
@@ -212,6 +244,58 @@ pub fn check<'a>(case: &Case, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), 
     match archive {
         Archive::Reads(rest) => Ok((head, rest)),
         Archive::Writes(_) => Err(damaged()), // not reached
+    }
+}
+
+/// The outcome of a case that has ended, if its checkpoint is one of its end.
+fn ended(case: &Case, checkpoint: &[u8]) -> Result<Option<Outcome>, Error> {
+    let (head, rest) = check(case, checkpoint)?;
+    let Some(end) = head.ended else { return Ok(None) };
+    let mut outcome = Outcome {
+        measured: Vec::new(),
+        balance: Balance::default(),
+        history: Vec::new(),
+        snapshots: Vec::new(),
+        end,
+        failed: None,
+        failure: None,
+        elements: 0,
+        cost: Cost::default(),
+        searches: 0,
+        wall: Duration::ZERO,
+    };
+    let read = outcome.archive(&mut Archive::Reads(rest));
+    read.map_err(|_| refused(case, "damaged"))?;
+    Ok(Some(outcome))
+}
+
+/// The checkpoint of a case that has ended: small, since it has the outcome and no state.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn checkpoint_of_end(case: &Case, outcome: &mut Outcome) -> Result<Vec<u8>, Error> {
+    let time = outcome.measured.last().map_or(0.0, |sample| sample.time);
+    let head = Head { time, plan: Plan::of(case), ended: Some(outcome.end) };
+    write(case, head, |archive| outcome.archive(archive))
+}
+
+/// A checkpoint: of which case, its head, what `contents` adds, and a checksum.
+fn write(
+    case: &Case,
+    mut head: Head,
+    contents: impl FnOnce(&mut Archive<'_>) -> Result<(), postcard::Error>,
+) -> Result<Vec<u8>, Error> {
+    let mut archive = Archive::Writes(Vec::new());
+    let mut identity = identity(case)?;
+    let written =
+        archive.keep(&mut identity).and_then(|()| archive.keep(&mut head)).and_then(|()| contents(&mut archive));
+    written.map_err(|error| Error::Evaluation(format!("case {}: {error}", case.name)))?;
+    match archive {
+        Archive::Writes(mut bytes) => {
+            bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+            Ok(bytes)
+        }
+        Archive::Reads(_) => Ok(Vec::new()), // not reached
     }
 }
 
@@ -232,7 +316,9 @@ struct Run<'a, T> {
 /// What a run has recorded, and what it is going to.
 #[derive(Debug, Default)]
 struct Record {
-    samples: Vec<Sample>,
+    measured: Vec<Sample>,
+    balance: Balance,
+    history: Vec<Sample>,
     snapshots: Vec<Snapshot>,
     /// When the frames were written.
     frames: Vec<f64>,
@@ -249,7 +335,9 @@ struct Record {
 
 impl Record {
     fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.samples)?;
+        archive.keep(&mut self.measured)?;
+        archive.keep(&mut self.balance)?;
+        archive.keep(&mut self.history)?;
         archive.keep(&mut self.snapshots)?;
         archive.keep(&mut self.frames)?;
         archive.keep(&mut self.failed)?;
@@ -274,20 +362,9 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
-        let mut archive = Archive::Writes(Vec::new());
-        let mut identity = identity(self.case)?;
-        let mut head = Head { time: self.solver.time, plan: self.plan.clone() };
-        let written = archive.keep(&mut identity).and_then(|()| archive.keep(&mut head));
-        let written = written.and_then(|()| self.record.archive(&mut archive));
-        let written = written.and_then(|()| self.solver.archive(&mut archive));
-        written.map_err(|error| self.error(&error.to_string()))?;
-        match archive {
-            Archive::Writes(mut bytes) => {
-                bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
-                Ok(bytes)
-            }
-            Archive::Reads(_) => Ok(Vec::new()), // not reached
-        }
+        let head = Head { time: self.solver.time, plan: self.plan.clone(), ended: None };
+        let Run { record, solver, .. } = self;
+        write(self.case, head, |archive| record.archive(archive).and_then(|()| solver.archive(archive)))
     }
 
     fn read(&mut self, checkpoint: &[u8]) -> Result<(), Error> {
@@ -326,13 +403,15 @@ impl<'a, T: Number> Run<'a, T> {
         if let Some(checkpoint) = checkpoint {
             self.read(checkpoint)?;
             let fraction = self.solver.time / self.plan.end;
-            observer.resumed(fraction, &self.record.samples, &self.record.frames)?;
+            observer.resumed(fraction, &self.record.history, &self.record.frames)?;
         }
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
         let end = rayon::scope(|_| self.steps(observer));
         Ok(Outcome {
-            samples: self.record.samples,
+            measured: self.record.measured,
+            balance: self.record.balance,
+            history: self.record.history,
             snapshots: self.record.snapshots,
             failed: self.record.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
@@ -347,13 +426,13 @@ impl<'a, T: Number> Run<'a, T> {
     fn steps(&mut self, observer: &mut (dyn Observer + Send)) -> Result<End, Error> {
         let share = share(self.case);
         let threshold = self.case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
-        let Plan { end: last, sample, frames, checkpoints, .. } = self.plan;
+        let Plan { end: last, frames, checkpoints, .. } = self.plan;
         let (frame, between_checkpoints) = (interval(last, frames), interval(last, checkpoints));
         loop {
             let time = self.solver.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
             let end = self.end(reached(last), time - self.record.last_contact);
-            if observer.interrupts() && end.is_none() && !self.record.samples.is_empty() {
+            if observer.interrupts() && end.is_none() && !self.record.measured.is_empty() {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
                 return Ok(End::Interrupted);
@@ -363,11 +442,13 @@ impl<'a, T: Number> Run<'a, T> {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
+            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
             let sampled = reached(self.record.next_sample) || end.is_some();
             let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
             let framed = frames > 0 && reached(self.record.next_frame);
             let left = if reached(last) { last } else { last - time };
-            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
+            let energies = measured || sampled || drawn || framed;
+            self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
                 self.record.last_contact = time;
             }
@@ -375,16 +456,9 @@ impl<'a, T: Number> Run<'a, T> {
             if self.record.failed.is_none() && failed() {
                 self.record.failed = Some(time);
             }
-            if sampled {
-                let measured = measure(self.panel, &self.solver, share, self.record.start, threshold);
-                self.record.samples.push(measured);
-                self.record.next_sample += sample;
-                let imbalance = imbalance(&self.record.samples);
-                observer.sample(time / last, &measured, imbalance)?;
-                if imbalance.is_nan() || imbalance > LARGEST_IMBALANCE {
-                    let moved = number(100.0 * imbalance);
-                    return Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")));
-                }
+            if measured || sampled {
+                let sample = measure(self.panel, &self.solver, share, self.record.start, threshold);
+                self.record(sample, [measured, sampled], observer)?;
             }
             if drawn {
                 self.record.pictures.remove(0);
@@ -400,6 +474,34 @@ impl<'a, T: Number> Run<'a, T> {
             }
             self.solver.displace();
         }
+    }
+
+    /// Keeps a measurement for what is said of the run, for its history, or for both.
+    ///
+    /// # Errors
+    /// The balance of energy is lost, or the observer's.
+    fn record(
+        &mut self,
+        sample: Sample,
+        [measured, sampled]: [bool; 2],
+        observer: &mut (dyn Observer + Send),
+    ) -> Result<(), Error> {
+        let Record { measured: kept, balance, history, next_sample, .. } = &mut self.record;
+        if measured {
+            kept.push(sample);
+            balance.add(&sample.energies);
+            observer.progress(sample.time / self.plan.end, &sample, balance.imbalance());
+        }
+        let lost = balance.lost();
+        if sampled || lost.is_some() {
+            history.push(sample);
+            *next_sample += self.plan.sample;
+            observer.sample(&sample)?;
+        }
+        lost.map_or(Ok(()), |moved| {
+            let moved = number(moved);
+            Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")))
+        })
     }
 
     /// Whether the run is over; `free` is how long nothing has touched the sphere.

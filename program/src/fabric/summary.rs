@@ -4,14 +4,14 @@ use std::path::Path;
 use std::time::Duration;
 
 use super::judgement::{Measures, judge};
-use super::measure::{Sample, smallest};
+use super::measure::Sample;
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
 use crate::common::units::number;
 use crate::explicit::judgement::{Finding, verdict};
-use crate::explicit::lanes::largest;
+use crate::explicit::lanes::{largest, smallest};
 use crate::material::model;
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
@@ -40,7 +40,7 @@ pub struct Figures {
 
 impl Figures {
     pub fn of(units: &UnitSystem, case: &Case, panel: &Model, outcome: &Outcome) -> Figures {
-        let samples = &outcome.samples;
+        let samples = &outcome.measured;
         let most = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, largest);
         let least = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(1.0, smallest);
         let deflection = most(|sample| sample.deflection);
@@ -134,7 +134,7 @@ fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str
         ("torn_yarns", last.torn.to_string()),
         ("deleted", last.deleted.to_string()),
         ("collapsed", last.collapsed.to_string()),
-        ("imbalance", format!("{:.1e}", outcome.imbalance())),
+        ("imbalance", format!("{:.1e}", outcome.balance.imbalance())),
         ("hourglass_share", format!("{:.4}", figures.hourglass)),
         ("tilt_at_end", format!("{:.1}", last.tilt)),
         ("slip_at_end", number(last.slip)),

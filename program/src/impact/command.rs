@@ -9,7 +9,7 @@ use super::outcome::Outcome;
 use super::run::{self, Observer};
 use super::scene::{Case, Scene};
 use super::{plot, report, summary, yarn_picture};
-use crate::common::console::print;
+use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress;
 use crate::common::run_directory::RunDirectory;
@@ -33,12 +33,14 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
     let directory = RunDirectory::open(output)?;
     let comparisons = COMPARISON.map(|ending| format!("residual-speed.{ending}"));
+    let mut removed = 0;
     for name in comparisons.iter().map(String::as_str).chain([SUMMARY]) {
-        directory.remove(name)?;
+        removed += usize::from(directory.remove(name)?);
     }
     for case in &scene.cases {
-        directory.remove_files_of(&case.name, PICTURES, 0)?;
+        removed += directory.remove_files_of(&case.name, PICTURES, 0)?;
     }
+    print_error(&directory.removal(removed));
     let length = TICKS * scene.cases.len() as u64;
     let bar = progress::bar(length, "{wide_bar} {percent} %, {eta} left", ProgressDrawTarget::stderr());
     let runs: Vec<_> = scene.cases.par_iter().map(|case| run_case(&scene, case, output, &bar)).collect();

@@ -10,7 +10,7 @@ pub fn judge(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<Finding> 
     let mut findings = judgement::units(case.zones.materials(), units);
     findings.extend(hourglass(case, result));
     findings.extend(contact(case, result));
-    findings.extend(judgement::balance(result.imbalance()));
+    findings.extend(judgement::balance(result.balance.imbalance()));
     findings
 }
 

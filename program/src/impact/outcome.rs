@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::explicit::energies::{Cost, Energies};
+use crate::explicit::energies::{Balance, Cost, Energies};
 use crate::explicit::lanes::largest;
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
@@ -62,7 +62,11 @@ pub enum End {
 /// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    pub samples: Vec<Sample>,
+    /// Measured every [`MEASURED_EVERY`](crate::explicit::judgement::MEASURED_EVERY) steps: all figures come from these.
+    pub measured: Vec<Sample>,
+    pub balance: Balance,
+    /// Measured when it was asked for.
+    pub history: Vec<Sample>,
     pub snapshots: Vec<Snapshot>,
     pub mesh: Mesh,
     pub end: End,
@@ -78,20 +82,15 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The last sample.
+    /// The last measurement.
     pub fn last(&self) -> Sample {
-        self.samples.last().copied().unwrap_or_default()
+        self.measured.last().copied().unwrap_or_default()
     }
 
-    /// The sample at a time or the first one after.
+    /// The measurement at a time or the first one after.
     pub fn at(&self, time: f64) -> Sample {
-        let found = self.samples.iter().find(|sample| sample.time >= time);
+        let found = self.measured.iter().find(|sample| sample.time >= time);
         found.copied().unwrap_or_else(|| self.last())
-    }
-
-    /// The largest difference of the total energy from what it was, over the work from outside or the energy that was there.
-    pub fn imbalance(&self) -> f64 {
-        imbalance(&self.samples)
     }
 
     /// The projectile's residual speed; none where the run has ended before the projectile stopped or left, or where the speed is
@@ -104,13 +103,13 @@ impl Outcome {
         }
     }
 
-    /// The largest of a quantity in the samples up to the break.
+    /// The largest of a quantity up to the break.
     fn largest_before_break(&self, of: impl Fn(&Sample) -> f64) -> f64 {
         let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
-        self.samples.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
+        self.measured.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
     }
 
-    /// The largest failure index of the samples up to the break.
+    /// The largest failure index up to the break.
     pub fn largest_index(&self) -> f64 {
         self.largest_before_break(|sample| sample.index)
     }
@@ -125,7 +124,7 @@ impl Outcome {
     /// The largest energy in the contact up to the break, over the energy that was there or the work from outside.
     pub fn contact_share(&self) -> f64 {
         let contact = self.largest_before_break(|sample| sample.energies.contact);
-        energy(&self.samples).filter(|_| contact > 0.0).map_or(0.0, |(_, scale)| contact / scale)
+        if contact == 0.0 { 0.0 } else { contact / self.balance.scale }
     }
 
     /// The largest energy densities of elongation, compaction and distortion up to the break.
@@ -135,18 +134,18 @@ impl Outcome {
 
     /// How much wider the section is than at rest when the transverse wave is at the clamp: the most of the stations.
     pub fn widening(&self, half_length: f64) -> Option<f64> {
-        let rest = self.samples.first()?.widths;
+        let rest = self.measured.first()?.widths;
         let then = self.at(self.transverse_at_clamp(half_length)?).widths;
         let growth = then.iter().zip(rest).map(|(then, rest)| then / rest - 1.0);
         growth.reduce(f64::max)
     }
 
-    /// The samples in which the wave of elongation passes the middle of half the span.
+    /// The measurements in which the wave of elongation passes the middle of half the span.
     fn passing(&self, half_length: f64) -> &[Sample] {
         let [from, to] = FITTED.map(|fraction| fraction * half_length);
-        let Some(end) = self.samples.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
-        let start = self.samples[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
-        &self.samples[start..end]
+        let Some(end) = self.measured.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
+        let start = self.measured[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
+        &self.measured[start..end]
     }
 
     /// Speed of a front while the wave of elongation passes the middle of half the span: the slope of a fitted line.
@@ -171,7 +170,7 @@ impl Outcome {
     pub fn transverse_at_clamp(&self, half_length: f64) -> Option<f64> {
         let [a, b] = AT_CLAMP.map(|fraction| {
             let place = fraction * half_length;
-            self.samples.iter().find(|sample| sample.transverse >= place).map(|sample| sample.time)
+            self.measured.iter().find(|sample| sample.transverse >= place).map(|sample| sample.time)
         });
         let (a, b) = (a?, b?);
         Some(b + (b - a) * (1.0 - AT_CLAMP[1]) / (AT_CLAMP[1] - AT_CLAMP[0]))
@@ -181,19 +180,4 @@ impl Outcome {
     pub fn zone_cycles(&self) -> f64 {
         self.cost.steps as f64 * self.mesh.elements.len() as f64
     }
-}
-
-/// The largest difference of the total energy from what it was, over the largest of: the energy that was there, the work
-/// from outside.
-pub fn imbalance(samples: &[Sample]) -> f64 {
-    let Some((first, scale)) = energy(samples) else { return 0.0 };
-    let difference = samples.iter().map(|sample| (sample.energies.total() - first).abs()).fold(0.0, largest);
-    if difference > 0.0 || difference.is_nan() { difference / scale } else { 0.0 }
-}
-
-/// The energy at the start, and the largest of it and of the work from outside.
-fn energy(samples: &[Sample]) -> Option<(f64, f64)> {
-    let first = samples.first()?.energies.total();
-    let scale = samples.iter().map(|sample| sample.energies.external.abs()).fold(first.abs(), largest);
-    Some((first, scale))
 }

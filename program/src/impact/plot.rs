@@ -23,7 +23,7 @@ const COMPARISON: [u32; 2] = [760, 480];
 pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
     let abscissa = panel::Abscissa {
         label: format!("time ({})", unit(&scene.units, TIME)),
-        values: result.samples.iter().map(|sample| sample.time).collect(),
+        values: result.history.iter().map(|sample| sample.time).collect(),
         failure: result.broken.map(|(time, _)| time),
     };
     history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result), &abscissa)
@@ -33,7 +33,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
     let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
         name: name.to_string(),
         colour: COLOURS[colour % COLOURS.len()],
-        values: result.samples.iter().map(of).collect(),
+        values: result.history.iter().map(of).collect(),
     };
     let panel = |title, dimension, series: Vec<Series>| Panel {
         title,

@@ -128,7 +128,7 @@ fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
 /// The error of the energy balance, and the time that a run took.
 fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
     [
-        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.imbalance())),
+        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.balance.imbalance())),
         column(cases, ["run", "s"], |_, result| format!("{:.1}", result.cost.total().as_secs_f64())),
     ]
 }

@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
-use super::outcome::{End, Outcome, STATIONS, Sample, imbalance};
+use super::outcome::{End, Outcome, STATIONS, Sample};
 use super::scene::{Case, Outputs, Precision, Striker, Zones};
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::Contact;
-use crate::explicit::energies::Energies;
+use crate::explicit::energies::{Balance, Energies};
+use crate::explicit::judgement::MEASURED_EVERY;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::projectile::Projectile;
@@ -22,8 +23,6 @@ use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 const PLATEAU: [f64; 2] = [0.3, 0.7];
-/// A run whose total energy moves by more than this part of itself is not stable.
-const LARGEST_IMBALANCE: f64 = 0.05;
 /// The failure index of an element that has failed, but for the rounding of single precision.
 const FAILED: f64 = 1.0 - 1e-6;
 /// Times closer than this part of a case's time are the same.
@@ -61,7 +60,9 @@ struct Run<'a, T> {
     case: &'a Case,
     solver: Solver<T>,
     smith: Smith,
-    samples: Vec<Sample>,
+    measured: Vec<Sample>,
+    balance: Balance,
+    history: Vec<Sample>,
     snapshots: Vec<Snapshot>,
     failed: Option<f64>,
     broken: Option<(f64, f64)>,
@@ -99,7 +100,9 @@ impl<'a, T: Number> Run<'a, T> {
             case,
             solver,
             smith,
-            samples: Vec::new(),
+            measured: Vec::new(),
+            balance: Balance::default(),
+            history: Vec::new(),
             snapshots: Vec::new(),
             failed: None,
             broken: None,
@@ -121,15 +124,23 @@ impl<'a, T: Number> Run<'a, T> {
             let time = self.solver.time;
             let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
             end = end.or(reached(self.case.end).then_some(End::Time));
+            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
             let sampled = reached(next_sample) || end.is_some();
             let drawn = pictures.last().is_some_and(|&picture| reached(picture));
             let framed = self.case.frames > 0 && reached(next_frame);
             let left = if end.is_some() { self.case.end } else { self.case.end - time };
-            self.solver.accelerate(sampled || drawn || framed, left).map_err(|error| self.error(&error.to_string()))?;
-            if sampled {
-                self.sample(time)?;
-                next_sample += self.case.sample;
-                observer.progress(time / self.case.end);
+            let energies = measured || sampled || drawn || framed;
+            self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
+            if measured || sampled {
+                let sample = self.sample(time);
+                if sampled {
+                    self.history.push(sample);
+                    next_sample += self.case.sample;
+                }
+                if measured {
+                    self.measure(sample)?;
+                    observer.progress(time / self.case.end);
+                }
             }
             if drawn {
                 pictures.pop();
@@ -148,7 +159,9 @@ impl<'a, T: Number> Run<'a, T> {
         };
         observer.progress(1.0);
         Ok(Outcome {
-            samples: self.samples,
+            measured: self.measured,
+            balance: self.balance,
+            history: self.history,
             snapshots: self.snapshots,
             end,
             own_speed: matches!(self.case.striker, Striker::Cylinder { held: false, .. }),
@@ -218,9 +231,20 @@ impl<'a, T: Number> Run<'a, T> {
         Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
     }
 
+    /// What all figures come from.
+    ///
     /// # Errors
     /// The balance of energy is lost.
-    fn sample(&mut self, time: f64) -> Result<(), Error> {
+    fn measure(&mut self, sample: Sample) -> Result<(), Error> {
+        self.measured.push(sample);
+        self.balance.add(&sample.energies);
+        self.balance.lost().map_or(Ok(()), |moved| {
+            let moved = number(moved);
+            Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")))
+        })
+    }
+
+    fn sample(&self, time: f64) -> Sample {
         let (deleted, collapsed) = (self.yarn().deleted.len(), self.yarn().collapsed);
         let mut sample = Sample { time, speed: self.speed(), deleted, collapsed, ..Sample::default() };
         if let Some(projectile) = &self.solver.projectile {
@@ -233,14 +257,7 @@ impl<'a, T: Number> Run<'a, T> {
         self.measure_densities(&mut sample);
         self.measure_fronts(&mut sample);
         sample.widths = STATIONS.map(|station| self.width(station));
-        self.samples.push(sample);
-        let imbalance = imbalance(&self.samples);
-        if imbalance <= LARGEST_IMBALANCE {
-            return Ok(());
-        }
-        let energy = number(sample.energies.total());
-        let bound = 100.0 * LARGEST_IMBALANCE;
-        Err(self.error(&format!("total energy {energy}, more than {bound} % from what it was: the run is not stable")))
+        sample
     }
 
     fn measure_densities(&self, sample: &mut Sample) {

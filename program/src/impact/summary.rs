@@ -67,7 +67,7 @@ fn cells(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<(&'static str
         Striker::Driven => smith_cells(length, result, &mut cells),
     }
     cells.extend([
-        ("imbalance", format!("{:.0e}", result.imbalance())),
+        ("imbalance", format!("{:.0e}", result.balance.imbalance())),
         ("steps", result.cost.steps.to_string()),
         ("seconds", decimals(result.cost.total().as_secs_f64(), 2)),
         ("ns_per_zone_cycle", decimals(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
@@ -181,7 +181,7 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             "width_4",
         ])
         .map_err(file_error)?;
-    for sample in &result.samples {
+    for sample in &result.history {
         let e = sample.energies;
         let line = (
             [sample.time, sample.speed, sample.travel, sample.force],

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::geometry::{Family, Geometry};
 use super::model::{Model, Yarn};
+use crate::explicit::hexahedron::Edges;
 
 /// Lengths are in the units of the weave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,28 +41,17 @@ impl Figures {
             shortest_edge: f64::INFINITY,
         };
         for element in &model.elements {
-            for edges in corners(|corner| Vector3::from(model.nodes[element[corner] as usize])) {
-                figures.least_jacobian = figures.least_jacobian.min(determinant(&edges));
-                figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(scaled_jacobian(&edges));
-                figures.shortest_edge = edges.iter().map(|edge| edge.norm()).fold(figures.shortest_edge, f64::min);
+            let mut nodes = [[0.0; 3]; 8];
+            for (place, &node) in nodes.iter_mut().zip(element) {
+                *place = model.nodes[node as usize];
             }
+            let edges = Edges::of(&nodes);
+            figures.least_jacobian = edges.jacobians().into_iter().fold(figures.least_jacobian, f64::min);
+            figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(edges.least_scaled_jacobian());
+            figures.shortest_edge = edges.lengths().into_iter().flatten().fold(figures.shortest_edge, f64::min);
         }
         figures
     }
-}
-
-/// The three edges at each corner of a hexahedron, each in the direction of its axis.
-pub fn corners(node: impl Fn(usize) -> Vector3<f64>) -> impl Iterator<Item = [Vector3<f64>; 3]> {
-    (0..8).map(move |corner| [0, 1, 2].map(|axis| node(corner | 1 << axis) - node(corner & !(1 << axis))))
-}
-
-fn determinant([a, b, c]: &[Vector3<f64>; 3]) -> f64 {
-    a.cross(b).dot(c)
-}
-
-/// The Jacobian at a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside out.
-pub fn scaled_jacobian(edges: &[Vector3<f64>; 3]) -> f64 {
-    determinant(edges) / edges.iter().map(Vector3::norm).product::<f64>()
 }
 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.

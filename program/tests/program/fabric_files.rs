@@ -139,6 +139,25 @@ fn wrong_keys_are_named() {
     }
 }
 
+/// One run writes to a directory at a time, whichever command it is of.
+#[test]
+fn a_directory_has_one_run_at_a_time() {
+    let output = folder("locked");
+    let lock = std::fs::File::create(output.join("toron.lock")).expect("a file");
+    lock.lock().expect("nobody else has it");
+    let scenes = [
+        ("fabric", "examples/fabric_impact/coarse.toml"),
+        ("impact", "examples/yarn_impact/impact.toml"),
+        ("cell", "examples/identification/random.toml"),
+    ];
+    for (command, scene) in scenes {
+        let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let answer = program.args([command, scene, "-o"]).arg(&output).current_dir(ROOT).output().expect("it starts");
+        let error = String::from_utf8_lossy(&answer.stderr).into_owned();
+        assert!(answer.status.code() == Some(2) && error.contains("to which another run writes"), "{command}: {error}");
+    }
+}
+
 /// What an earlier run of the scene has left goes when a case begins, and nothing else.
 #[test]
 fn nothing_of_an_earlier_run_stays() {

@@ -52,7 +52,7 @@ fn assert_between(value: f64, low: f64, high: f64) {
 /// The demand of every scene: what central differences leave of the balance.
 #[track_caller]
 fn assert_balanced(result: &Outcome) {
-    assert_between(result.imbalance(), 0.0, 5e-3);
+    assert_between(result.balance.imbalance(), 0.0, 5e-3);
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn waves_spread_the_section_outside_the_contact() {
     assert_between(last.largest[0], 25.0, 60.0);
     // Where neither the projectile nor the clamp touches it, the section swells without energy.
     let most = |mode: usize, of: fn(&Sample) -> [f64; 5]| {
-        result.samples.iter().map(|sample| of(sample)[mode]).fold(0.0, f64::max)
+        result.measured.iter().map(|sample| of(sample)[mode]).fold(0.0, f64::max)
     };
     for (mode, share) in [(1, 1e-3), (2, 0.02)] {
         let (free, largest) = (most(mode, |sample| sample.free), most(mode, |sample| sample.largest));
@@ -160,7 +160,7 @@ fn two_laws_share_a_yarn() {
     (full.yarn.rows, full.yarn.columns, full.end) = (1, 2, 0.006);
     let Zones::Two(materials, _) = hybrid.zones else { panic!("it has two zones") };
     hybrid.zones = Zones::Two(materials, hybrid.yarn.length);
-    assert_eq!(run(&hybrid).samples, run(&full).samples);
+    assert_eq!(run(&hybrid).measured, run(&full).measured);
 }
 
 /// √(E1/ρ) = 7666 m/s.
@@ -195,7 +195,7 @@ fn events_of_the_short_period_are_in_order() {
     case.end = 0.0018;
     let result = run(&case);
     // Both peak before 0.25 µs, the largest densities and the energies of the whole yarn; and not again.
-    let until = |time: f64| result.samples.iter().take_while(move |sample| sample.time <= time);
+    let until = |time: f64| result.measured.iter().take_while(move |sample| sample.time <= time);
     for mode in [1, 2] {
         for of in [|sample: &Sample| sample.largest, |sample: &Sample| sample.parts] {
             let peak = |time: f64| until(time).map(|sample| of(sample)[mode]).fold(0.0, f64::max);
@@ -208,7 +208,7 @@ fn events_of_the_short_period_are_in_order() {
         peaking[0] < 0.1 * (peaking[1] + peaking[2]) && late[0] > 5.0 * (late[1] + late[2]),
         "{peaking:?} {late:?}"
     );
-    let leading = result.samples.iter().find(|sample| sample.largest[0] > sample.largest[1].max(sample.largest[2]));
+    let leading = result.measured.iter().find(|sample| sample.largest[0] > sample.largest[1].max(sample.largest[2]));
     assert_between(leading.expect("elongation comes to lead").time, 0.0004, 0.0006);
     // Compaction falls to nothing; distortion and elongation stay.
     let peak = until(0.00025).map(|sample| sample.largest[1]).fold(0.0, f64::max);
@@ -216,9 +216,9 @@ fn events_of_the_short_period_are_in_order() {
     assert!(last.largest[1] < 0.06 * peak && last.parts[1] < 0.01 * result.at(0.0002).parts[1], "{:?}", last.parts);
     assert!(last.largest[0] > 1.0 && last.largest[2] > 0.5, "{:?}", last.largest);
     // The wave of elongation is at the clamp, 12.7 mm away, at 1.6 to 1.7 µs: something of it stirs there.
-    let arrived = result.samples.iter().find(|sample| sample.least > 1e-3).expect("it arrives");
+    let arrived = result.measured.iter().find(|sample| sample.least > 1e-3).expect("it arrives");
     assert_between(arrived.time, 0.0016, 0.0017);
-    let front = result.samples.iter().find(|sample| sample.longitudinal > 12.6).expect("it arrives");
+    let front = result.measured.iter().find(|sample| sample.longitudinal > 12.6).expect("it arrives");
     assert_between(front.time, 0.0016, 0.0018);
     assert_balanced(&result);
 }
@@ -230,13 +230,13 @@ fn a_coarse_section_has_the_events_too() {
     case.end = 0.001;
     let result = run(&case);
     let peak = |mode: usize, until: f64| {
-        let early = result.samples.iter().take_while(|sample| sample.time <= until);
+        let early = result.measured.iter().take_while(|sample| sample.time <= until);
         early.map(|sample| sample.largest[mode]).fold(0.0, f64::max)
     };
     assert!(peak(1, 0.00025) == peak(1, 0.001) && peak(1, 0.00025) > 1.0, "compaction peaks before 0.25 µs");
     let [early, late] = [0.00015, 0.001].map(|time| result.at(time).parts);
     assert!(early[0] < 0.1 * (early[1] + early[2]) && late[0] > 5.0 * (late[1] + late[2]), "{early:?} {late:?}");
-    let leading = result.samples.iter().find(|sample| sample.largest[0] > sample.largest[1].max(sample.largest[2]));
+    let leading = result.measured.iter().find(|sample| sample.largest[0] > sample.largest[1].max(sample.largest[2]));
     assert_between(leading.expect("elongation comes to lead").time, 0.0004, 0.0006);
     let last = result.last().largest;
     assert!(last[1] < 0.02 * peak(1, 0.00025) && last[0] > 1.0 && last[2] > 0.5, "{last:?}");
@@ -298,7 +298,7 @@ fn much_hourglass_energy_is_warned_of() {
     let mut result = run(&case);
     assert_eq!(hourglass(&case, &result), None, "{}", result.hourglass_share());
     let largest = result.last().energies.internal;
-    result.samples.last_mut().expect("there are samples").energies.hourglass = 0.14 * largest;
+    result.measured.last_mut().expect("there are samples").energies.hourglass = 0.14 * largest;
     let warning = hourglass(&case, &result).expect("it is more than a tenth");
     assert_eq!(
         warning.text,
@@ -306,8 +306,8 @@ fn much_hourglass_energy_is_warned_of() {
          take a finer mesh, or another hourglass than 0.1"
     );
     // There and back, 25.4 mm at 7806 m/s are 3.25 µs.
-    result.samples.retain(|sample| sample.time < 0.0032);
-    result.samples.last_mut().expect("some are left").energies.hourglass = largest;
+    result.measured.retain(|sample| sample.time < 0.0032);
+    result.measured.last_mut().expect("some are left").energies.hourglass = largest;
     assert_eq!(hourglass(&case, &result), None);
 }
 
@@ -318,8 +318,8 @@ fn a_soft_contact_is_warned_of() {
     case.end = 0.004;
     let mut result = run(&case);
     assert_eq!(contact(&case, &result), None, "{}", result.contact_share());
-    let energy = result.samples[0].energies.total();
-    result.samples.last_mut().expect("there are samples").energies.contact = 0.06 * energy;
+    let energy = result.measured[0].energies.total();
+    result.measured.last_mut().expect("there are samples").energies.contact = 0.06 * energy;
     assert_eq!(
         contact(&case, &result).map(|Finding { text, .. }| text).expect("it is more than a twentieth"),
         "the contact stored 6.0 % of the energy, more than 5 %:\n  \
@@ -335,7 +335,7 @@ fn runs_repeat_and_outputs_do_not_matter() {
     let first = run(&case);
     let (failed, broken) = (first.failed.expect("it fails"), first.broken.expect("it breaks").0);
     assert!(0.0 < failed && failed <= broken && first.last().deleted > 0, "{failed} {broken}");
-    assert_eq!(run(&case).samples, first.samples);
+    assert_eq!(run(&case).measured, first.measured);
     case.outputs = Outputs::Stress;
     assert_eq!(run(&case).residual_speed(), first.residual_speed());
     (case.outputs, case.precision) = (Outputs::Full, Precision::F32);
@@ -343,6 +343,18 @@ fn runs_repeat_and_outputs_do_not_matter() {
     assert_eq!(single.end, End::Left);
     assert_balanced(&single);
     assert!((single.last().speed - first.last().speed).abs() < 0.02 * first.last().speed, "{}", single.last().speed);
+}
+
+/// What is said of a run does not depend on how often its history is written.
+#[test]
+fn figures_do_not_depend_on_the_history() {
+    let mut case = tiny("table_4_5.toml", "mf-120", 1);
+    let often = run(&case);
+    case.sample = case.end;
+    let seldom = run(&case);
+    assert!(seldom.history.len() == 2 && often.history.len() > 100, "{}", often.history.len());
+    assert_eq!((&seldom.measured, seldom.balance), (&often.measured, often.balance));
+    assert!(seldom.largest_index() > 0.9 && seldom.transverse_at_clamp(case.yarn.length).is_some());
 }
 
 /// A run that is not stable has no result, and says why.
