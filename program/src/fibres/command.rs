@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 
+use super::beside::Beside;
 use super::lammps::Lammps;
 use super::model::Model;
 use super::outcome::Outcome;
@@ -51,6 +52,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let scene = Scene::read(&arguments.scene)?;
     let models: Result<Vec<Model>, Error> = scene.cases.iter().map(|case| Model::new(&scene.units, case)).collect();
     let models = models?;
+    // One that cannot be read is said before hours of computation.
+    scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
     let directory = RunDirectory::open(output)?;
     let mut folders = Vec::new();
@@ -144,7 +147,8 @@ impl Observer<'_> {
 fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
     let file = |ending: &str| output.join(format!("{}{ending}", case.name));
     summary::write_history(&file(".csv"), result)?;
-    plot::write_history(&file(".svg"), &file(".png"), scene, case, result)?;
+    let law = case.law.as_deref().map(Beside::read).transpose()?;
+    plot::write_history(&file(".svg"), &file(".png"), scene, case, result, law.as_ref())?;
     for (number, frame) in (1..).zip(&result.frames) {
         let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
         picture::write(&svg, &png, scene, case, result, frame)?;

@@ -75,6 +75,7 @@ pub struct CaseFile {
     pub sample: Option<Spanned<f64>>,
     pub pictures: Option<Spanned<Vec<f64>>>,
     pub step: Option<Spanned<f64>>,
+    pub law: Option<String>,
 }
 
 impl FibreFile {
@@ -157,6 +158,7 @@ impl CaseFile {
             sample: own.sample.or(base.sample),
             pictures: own.pictures.or(base.pictures),
             step: own.step.or(base.step),
+            law: own.law.or(base.law),
         }
     }
 }

@@ -80,8 +80,8 @@ fn head(text: &mut String, model: &Model) {
     let fibres = model.centres.len();
     let beads = model.all_beads();
     let skin = SKIN * model.diameter;
-    // A bond's beads must know each other across a border between two processors, stretched as it may be.
-    let reach = 1.5 * model.longest.unwrap_or(1.2 * model.spacing).max(model.diameter) + skin;
+    // Where a truss breaks near a border between two processors, both must know the beads around it to the third neighbour.
+    let reach = 3.5 * model.longest.unwrap_or(1.2 * model.spacing).max(model.diameter) + skin;
     let _ = write!(
         text,
         "# {fibres} fibres as rows of {} beads: x along the yarn from mid-span, y against the blow, z across\n\

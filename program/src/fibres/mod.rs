@@ -4,6 +4,7 @@
 //! is found and run ([`lammps`], [`run`]), and what becomes of what it writes: [`history`] and [`frame`] read it, [`outcome`] has
 //! the quantities that are computed from it.
 
+pub mod beside;
 pub mod command;
 pub mod file;
 pub mod frame;

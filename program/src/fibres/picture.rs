@@ -123,15 +123,19 @@ impl<'a> Drawing<'a> {
         let Striking::Cylinder { radius, height, .. } = self.model.striker else { return Ok(()) };
         let low = self.lowest_at_middle(height - radius);
         let centre = [0.0, self.length * (low + radius)];
-        // The quarter beside the yarn, as far as the view goes.
+        // The half beside the plane of symmetry, as far as the view goes.
         let radius = self.length * radius;
-        let points = (0..=60).map(|i| f64::from(i) / 60.0 * std::f64::consts::FRAC_PI_2);
+        let points = (0..=120).map(|i| f64::from(i) / 120.0 * std::f64::consts::PI);
         let points = points.map(|angle| [radius * angle.sin(), centre[1] - radius * angle.cos()]);
         let mut arc: Vec<(i32, i32)> =
-            points.filter(|point| point[1] <= view.high[1]).map(|point| view.place(point)).collect();
-        let Some(&(last, _)) = arc.last() else { return Ok(()) };
-        let top = view.place(view.high).1;
-        arc.extend([(last, top), (view.place([0.0, 0.0]).0, top)]);
+            points.take_while(|point| point[1] <= view.high[1]).map(|point| view.place(point)).collect();
+        let Some(&(last, top)) = arc.last() else { return Ok(()) };
+        if centre[1] + radius > view.high[1] {
+            let top = view.place(view.high).1;
+            arc.extend([(last, top), (view.place([0.0, 0.0]).0, top)]);
+        } else {
+            arc.push((view.place([0.0, 0.0]).0, top));
+        }
         root.draw(&Polygon::new(arc, PROJECTILE.filled()))?;
         Ok(())
     }

@@ -1,5 +1,7 @@
 //! A scene: fibres, how they lie, what strikes them, and the cases that differ from one another. All in the scene's units.
 
+use std::path::PathBuf;
+
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
 
@@ -36,6 +38,8 @@ pub struct Case {
     pub pictures: Vec<f64>,
     /// The step, as a part of the largest that is stable.
     pub step: f64,
+    /// A history of `toron impact` that is drawn beside.
+    pub law: Option<PathBuf>,
 }
 
 /// A fibre: a truss whose tension is linear in its stretch.
