@@ -11,6 +11,7 @@
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
+//! - the fibres of a yarn under impact, as rows of beads in LAMMPS (`toron fibres`): [`fibres`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
@@ -24,6 +25,7 @@ pub mod entries;
 pub mod eval;
 pub mod explicit;
 pub mod fabric;
+pub mod fibres;
 pub mod identify;
 pub mod impact;
 pub mod load_path;

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use toron_program::common::console::{keep, lost, print, print_error};
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, cell, deck, eval, fabric, identify, impact, load_path, params, weave};
+use toron_program::{bench, cell, deck, eval, fabric, fibres, identify, impact, load_path, params, weave};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -60,6 +60,8 @@ enum Command {
         #[arg(long)]
         restart: bool,
     },
+    /// Strike a yarn whose fibres are rows of beads, in LAMMPS; write histories, plots, pictures and a table of them.
+    Fibres(fibres::command::Arguments),
     /// Find the properties of a yarn from measured data, and how sure they are; write a preset of them.
     Fit {
         /// The data and what is known besides (see docs/guides/identification.md and examples/identification/).
@@ -144,6 +146,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),
+        Command::Fibres(arguments) => fibres::command::run(&arguments),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),

@@ -8,7 +8,6 @@
 //! of the size that CalculiX's tolerances are made for.
 
 pub mod arrangement;
-mod bound_child;
 pub mod command;
 pub mod deck;
 pub mod disc;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use super::bound_child;
 use super::printed::{self, Table};
+use crate::common::bound_child;
 use crate::common::error::Error;
 
 /// The variable that names the program where no option does.

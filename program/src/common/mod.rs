@@ -1,6 +1,7 @@
 //! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
 //! measured data.
 
+pub mod bound_child;
 pub mod console;
 pub mod data_table;
 pub mod error;

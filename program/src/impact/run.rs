@@ -20,9 +20,9 @@ use crate::material::model::Material;
 use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
-const FRONT: f64 = 0.5;
+pub const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
-const PLATEAU: [f64; 2] = [0.3, 0.7];
+pub const PLATEAU: [f64; 2] = [0.3, 0.7];
 /// The failure index of an element that has failed, but for the rounding of single precision.
 const FAILED: f64 = 1.0 - 1e-6;
 /// Times closer than this part of a case's time are the same.
@@ -336,7 +336,7 @@ impl<'a, T: Number> Run<'a, T> {
 }
 
 /// The outermost place, counted in entries, at which the values fall below a threshold.
-fn front(values: &[f64], threshold: f64) -> Option<f64> {
+pub fn front(values: &[f64], threshold: f64) -> Option<f64> {
     let last = values.iter().rposition(|&value| value >= threshold)?;
     let Some(&next) = values.get(last + 1) else { return Some(last as f64) };
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))

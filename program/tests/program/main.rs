@@ -19,6 +19,7 @@ mod eval;
 mod examples;
 mod fabric;
 mod fabric_files;
+mod fibres;
 #[allow(dead_code)]
 mod hexahedra;
 mod identify;

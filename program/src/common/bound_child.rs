@@ -1,4 +1,4 @@
-//! A child process that ends with this one, however this one ends: CalculiX would compute on for hours, for nobody.
+//! A child process that ends with this one, however this one ends: a solver would compute on for hours, for nobody.
 
 use std::process::Command;
 

@@ -1,0 +1,158 @@
+//! `toron fibres`: from the file of a scene to what LAMMPS reads, to its runs, and to what they have come to.
+
+use std::path::{Path, PathBuf};
+
+use indicatif::{ProgressBar, ProgressDrawTarget};
+
+use super::beside::Beside;
+use super::lammps::Lammps;
+use super::model::Model;
+use super::outcome::Outcome;
+use super::reader::PICTURES;
+use super::run::Folder;
+use super::scene::{Case, Scene};
+use super::{picture, plot, report, summary};
+use crate::common::console::{print, print_error};
+use crate::common::error::Error;
+use crate::common::progress::{self, Lines};
+use crate::common::run_directory::RunDirectory;
+
+const SUMMARY: &str = "summary.csv";
+/// Between a case's name and the number of a table of strains.
+const STRAINS: &str = "-strain-";
+/// Ticks of the progress bar for each case.
+const TICKS: f64 = 1000.0;
+
+/// How the cases are run.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The scene (see docs/guides/fibres.md and examples/fibre_scale/).
+    scene: PathBuf,
+    /// Where the files go.
+    #[arg(short, long, default_value = "toron-out")]
+    output: PathBuf,
+    /// Write what LAMMPS reads, and do not run it.
+    #[arg(long)]
+    write_only: bool,
+    /// Processes of LAMMPS.
+    #[arg(long, default_value = "1", value_parser = clap::value_parser!(u16).range(1..))]
+    ranks: u16,
+    /// The program lmp of LAMMPS; without it, that of the variable TORON_LMP, or the one in PATH.
+    #[arg(long)]
+    lmp: Option<PathBuf>,
+}
+
+/// Runs the cases of a scene and writes what came of them.
+///
+/// A case that has no result keeps no other from having one.
+///
+/// # Errors
+/// The input, no LAMMPS, a file that cannot be written, or the cases that have no result.
+pub fn run(arguments: &Arguments) -> Result<(), Error> {
+    let scene = Scene::read(&arguments.scene)?;
+    let models: Result<Vec<Model>, Error> = scene.cases.iter().map(|case| Model::new(&scene.units, case)).collect();
+    let models = models?;
+    // One that cannot be read is said before hours of computation.
+    scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
+    let output = &arguments.output;
+    let directory = RunDirectory::open(output)?;
+    let mut folders = Vec::new();
+    for (case, model) in scene.cases.iter().zip(&models) {
+        folders.push(Folder::write(output.join(&case.name), model)?);
+    }
+    if arguments.write_only {
+        print(&written(&scene, output));
+        return Ok(());
+    }
+    // Those that are there already need no LAMMPS.
+    let lammps = if folders.iter().all(Folder::is_done) { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
+    directory.remove(SUMMARY)?;
+    for case in &scene.cases {
+        directory.remove_files_of(&case.name, PICTURES, 0)?;
+        let strains = (1..).map(|number| format!("{}{STRAINS}{number}.csv", case.name));
+        for table in strains.take_while(|table| output.join(table).exists()) {
+            directory.remove(&table)?;
+        }
+    }
+    let bar = progress::bar(
+        TICKS as u64 * scene.cases.len() as u64,
+        "{wide_bar} {percent} %, {eta} left",
+        ProgressDrawTarget::stderr(),
+    );
+    let (mut results, mut errors) = (Vec::new(), Vec::new());
+    for (number, ((case, model), folder)) in scene.cases.iter().zip(&models).zip(&folders).enumerate() {
+        let mut observer = Observer { bar: &bar, number, case, lines: Lines::from(0.0) };
+        let mut run = || -> Result<Outcome, Error> {
+            let seconds = match &lammps {
+                Some(lammps) if !folder.is_done() => {
+                    Some(folder.run(lammps, arguments.ranks.into(), &mut |part| observer.progress(part))?)
+                }
+                _ => None,
+            };
+            let result = Outcome::new(&scene.units, case, model.clone(), folder.read(seconds)?);
+            write_case(&scene, case, &result, output)?;
+            Ok(result)
+        };
+        match run() {
+            Ok(result) => results.push((case, result)),
+            Err(error) => errors.push((case, error)),
+        }
+    }
+    bar.finish_and_clear();
+    if !results.is_empty() {
+        summary::write(&output.join(SUMMARY), &scene, &results)?;
+        print(&report::report(&scene, &results, output));
+    }
+    combine(&errors)
+}
+
+/// What there is to run by hand, and how.
+fn written(scene: &Scene, output: &Path) -> String {
+    let folders: Vec<String> =
+        scene.cases.iter().map(|case| format!("  {}\n", output.join(&case.name).display())).collect();
+    format!(
+        "What LAMMPS reads is in\n{}Run it in each of them, for instance: mpirun -n 64 lmp -in in.lmp, and to go on from a restart \
+         file, lmp -in in.lmp -var restart restart-1.lmp. Then give this command again without --write-only: it reads what is there.\n",
+        folders.concat()
+    )
+}
+
+/// The errors of the cases that have no result as one.
+fn combine(errors: &[(&Case, Error)]) -> Result<(), Error> {
+    let messages: Vec<String> = errors.iter().map(|(case, error)| format!("case {}: {error}", case.name)).collect();
+    match errors.first() {
+        None => Ok(()),
+        Some((_, Error::Input(_))) => Err(Error::Input(messages.join("\n"))),
+        Some((_, Error::Evaluation(_))) => Err(Error::Evaluation(messages.join("\n"))),
+    }
+}
+
+/// Moves the bar; where there is none, writes lines.
+struct Observer<'a> {
+    bar: &'a ProgressBar,
+    number: usize,
+    case: &'a Case,
+    lines: Lines,
+}
+
+impl Observer<'_> {
+    fn progress(&mut self, part: f64) {
+        self.bar.set_position((TICKS * (self.number as f64 + part)) as u64);
+        if self.bar.is_hidden() && self.lines.are_due(part) {
+            print_error(&format!("{}: {:.0} %\n", self.case.name, 100.0 * part));
+        }
+    }
+}
+
+fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
+    let file = |ending: &str| output.join(format!("{}{ending}", case.name));
+    summary::write_history(&file(".csv"), result)?;
+    let law = case.law.as_deref().map(Beside::read).transpose()?;
+    plot::write_history(&file(".svg"), &file(".png"), scene, case, result, law.as_ref())?;
+    for (number, frame) in (1..).zip(&result.frames) {
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
+        picture::write(&svg, &png, scene, case, result, frame)?;
+        summary::write_strains(&file(&format!("{STRAINS}{number}.csv")), &scene.units, &result.model, frame)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! Plots of a case's history.
+
+use std::path::Path;
+
+use super::beside::Beside;
+use super::model::Striking;
+use super::outcome::{Outcome, Sample};
+use super::scene::{Case, Scene};
+use crate::common::error::Error;
+use crate::common::units::{ENERGY, SPEED, TIME, unit};
+use crate::impact::outcome::STATIONS;
+use crate::picture::history;
+use crate::picture::panel::{self, Panel, Series, tidy};
+use crate::picture::style::{COLOURS, INK};
+
+/// Speed, energies, strain and widths of a case over time, as far as they change.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write_history(
+    svg: &Path,
+    png: &Path,
+    scene: &Scene,
+    case: &Case,
+    result: &Outcome,
+    law: Option<&Beside>,
+) -> Result<(), Error> {
+    let abscissa = panel::Abscissa {
+        label: format!("time ({})", unit(&scene.units, TIME)),
+        values: result.samples.iter().map(|sample| sample.time).collect(),
+        failure: result.first_break(),
+    };
+    history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result, law), &abscissa)
+}
+
+fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) -> [Panel; 6] {
+    let line = |colour: usize, name: &str, of: &dyn Fn(&Sample) -> f64| Series {
+        name: name.to_string(),
+        colour: COLOURS[colour % COLOURS.len()],
+        values: result.samples.iter().map(of).collect(),
+    };
+    let panel = |title, dimension, series: Vec<Series>| Panel {
+        title,
+        unit: unit(&scene.units, dimension),
+        series: tidy(series),
+        limit: None,
+    };
+    let beside = |colour: usize, name: &str, columns: &[&str]| {
+        law.map(|law| {
+            let of = |sample: &Sample| columns.iter().map(|column| law.at(column, sample.time)).sum();
+            line(colour, &format!("{name}, law"), &of)
+        })
+    };
+    let mut energies = vec![
+        line(1, "fibres, kinetic", &|s| s.kinetic),
+        line(2, "elongation", &|s| s.elongation),
+        line(3, "broken", &|s| s.broken),
+        line(4, "friction", &Sample::friction),
+    ];
+    if let Striking::Cylinder { held: false, .. } = result.model.striker {
+        energies.insert(0, line(0, "projectile", &|s| s.projectile));
+    } else {
+        energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.external) });
+    }
+    if law.is_some() {
+        energies.retain(|series| !["broken", "external work", "projectile"].contains(&series.name.as_str()));
+    }
+    energies.extend(beside(3, "kinetic", &["kinetic_energy"]));
+    energies.extend(beside(0, "elongation", &["elongation_energy"]));
+    let mut section = vec![
+        line(0, "contact", &|s| s.contact),
+        line(1, "contact, projectile", &|s| s.pressed),
+        line(2, "friction, fibres", &|s| s.friction_fibres),
+        line(3, "friction, projectile", &|s| s.friction_projectile),
+    ];
+    if law.is_some() {
+        section.retain(|series| series.name != "contact, projectile");
+    }
+    section.extend(beside(4, "W_tc + W_td", &["compaction_energy", "distortion_energy"]));
+    let length = scene.units.names()[0];
+    let station = |i: usize| format!("{:.2} {length}", STATIONS[i] * case.half_length);
+    let limit = case.fibre.strain_at_failure.map(|strain| 100.0 * strain);
+    let speeds = [line(0, "speed", &|s| s.speed)].into_iter().chain(beside(1, "speed", &["speed"])).collect();
+    // The law's width is that between outermost points, which of an ellipse that is full is the same.
+    let mut widths: Vec<Series> = (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.spreads[i])).collect();
+    widths.extend(beside(4, "first", &["width_1"]));
+    [
+        panel("Speed of the projectile", SPEED, speeds),
+        panel("Energies", ENERGY, energies),
+        panel("Energies of the section", ENERGY, section),
+        Panel { limit, ..panel_of("Largest strain of a fibre", "%", vec![line(0, "strain", &|s| 100.0 * s.strain)]) },
+        panel("Fastest bead", SPEED, vec![line(0, "speed", &|s| s.fastest)]),
+        panel_of("Width of the section by place", length, widths),
+    ]
+}
+
+fn panel_of(title: &'static str, unit: &str, series: Vec<Series>) -> Panel {
+    Panel { title, unit: unit.to_string(), series, limit: None }
+}

@@ -1,0 +1,124 @@
+//! The report of a scene: tables that a terminal has room for, and where the files are.
+
+use std::path::Path;
+
+use super::model::Striking;
+use super::outcome::{Fronts, Outcome};
+use super::scene::{Case, Scene};
+use super::summary::{cost, outcome};
+use crate::common::text_table::{Column, files, or_dash, shortened, table};
+use crate::common::units::{ENERGY, SPEED, TIME, number, unit};
+
+/// Columns of a terminal.
+const WIDTH: usize = 100;
+/// A case's name of more letters is cut in the table.
+const LONGEST_NAME: usize = 24;
+
+type Results<'a> = [(&'a Case, Outcome)];
+
+/// Title, tables and the files in `output`.
+pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
+    let parts = [
+        table(struck(scene, results), WIDTH),
+        table(driven(scene, results), WIDTH),
+        sections(scene, results),
+        list_files(results, output),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    format!("{}\n\n{}", scene.title, parts.join("\n"))
+}
+
+fn is_driven(result: &Outcome) -> bool {
+    matches!(result.model.striker, Striking::Driven { .. })
+}
+
+/// Builds a column of the cases that belong to a table.
+fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn(&Case, &Outcome) -> String) -> Column {
+    let entries = cases.iter().map(|(case, result)| entry(case, result)).collect();
+    Column { heading: [above.to_string(), below.to_string()], entries }
+}
+
+/// The columns for what a projectile has struck, the most important first.
+fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
+    let cases: Vec<_> = results.iter().filter(|(_, result)| !is_driven(result)).collect();
+    let [time, speed, energy] = [TIME, SPEED, ENERGY].map(|dimension| unit(&scene.units, dimension));
+    let at_end = |result: &Outcome| result.residual_speed().is_none().then(|| result.last().speed);
+    let mut columns = vec![
+        column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
+        column(&cases, ["how it", "ended"], |_, result| outcome(result).to_string()),
+        column(&cases, ["first", &format!("break, {time}")], |_, result| or_dash(result.first_break(), number)),
+        column(&cases, ["torn at", &time], |_, result| or_dash(result.torn(), number)),
+        column(&cases, ["residual", &speed], |_, result| or_dash(result.residual_speed(), number)),
+        column(&cases, ["at end", &speed], |_, result| or_dash(at_end(result), number)),
+        column(&cases, ["friction,", &energy], |_, result| number(result.last().friction())),
+    ];
+    columns.extend(costs(&cases));
+    columns
+}
+
+/// The columns for fibres whose middle is driven, beside Smith's theory.
+fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
+    let cases: Vec<_> = results.iter().filter(|(_, result)| is_driven(result)).collect();
+    let speed = unit(&scene.units, SPEED);
+    let front = |result: &Outcome, place: fn(&Fronts) -> f64| or_dash(result.front_speed(place), number);
+    let percent = |strain: f64| number(100.0 * strain);
+    let theory = |result: &Outcome, of: fn(&crate::material::smith::Smith) -> f64| {
+        result.smith.filter(|_| result.plateau().is_some()).map(|smith| of(&smith))
+    };
+    let mut columns = vec![
+        column(&cases, ["case", ""], |case, _| shortened(&case.name, LONGEST_NAME)),
+        column(&cases, ["strain", "%"], |_, result| or_dash(result.plateau(), percent)),
+        column(&cases, ["theory", "%"], |_, result| or_dash(theory(result, |smith| smith.strain), percent)),
+        column(&cases, ["longitudinal", &speed], |_, result| front(result, |front| front.longitudinal)),
+        column(&cases, ["theory", &speed], |_, result| or_dash(theory(result, |smith| smith.fastest), number)),
+        column(&cases, ["transverse", &speed], |_, result| front(result, |front| front.transverse)),
+        column(&cases, ["theory", &speed], |_, result| or_dash(theory(result, |smith| smith.transverse), number)),
+        column(&cases, ["first", &format!("break, {}", unit(&scene.units, TIME))], |_, result| {
+            or_dash(result.first_break(), number)
+        }),
+    ];
+    columns.extend(costs(&cases));
+    columns
+}
+
+/// The error of the energy balance, and what the run took.
+fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 3] {
+    [
+        column(cases, ["energy", "off by"], |_, result| format!("{:.0e}", result.imbalance())),
+        column(cases, ["run", "s"], |_, result| or_dash(result.seconds, |seconds| format!("{seconds:.1}"))),
+        column(cases, ["a bead and", "step, ns"], |_, result| or_dash(cost(result), |cost| format!("{cost:.0}"))),
+    ]
+}
+
+/// The sections, each once.
+fn sections(scene: &Scene, results: &Results) -> String {
+    let length = scene.units.names()[0];
+    let mut lines: Vec<String> = Vec::new();
+    for (case, result) in results {
+        let [width, height] = result.model.section.size.map(|size| number(size * case.fibre.diameter));
+        let beads = result.model.all_beads();
+        let line = format!(
+            "{} fibres, {beads} beads; the section is {width} × {height} {length}, filled to {:.3}\n",
+            case.fibres,
+            result.model.section.fraction()
+        );
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines.concat()
+}
+
+/// The names of what was written, with `NAME` for the cases.
+fn list_files(results: &Results, output: &Path) -> String {
+    let pictures = results.iter().any(|(_, result)| !result.frames.is_empty());
+    let written = [
+        (true, "summary.csv", "a line for every case, with all that is known of it"),
+        (true, "NAME.csv", "the history of case NAME"),
+        (true, "NAME.svg, .png", "plots of it"),
+        (pictures, "NAME-fibres-1.svg, .png, …", "the fibres at the times of pictures"),
+        (pictures, "NAME-strain-1.csv, …", "the strain along the yarn then"),
+        (true, "NAME/", "what LAMMPS has read and written"),
+    ];
+    files(output, &written)
+}

