@@ -327,16 +327,12 @@ impl<R: Real> Section<R> {
     }
 }
 
-/// The third stage: the logarithms up to their last step, which needs four reciprocals; these share one division.
+/// The third stage: the logarithms up to their last step.
 #[derive(Clone, Copy)]
 pub struct Logarithms<R: Real> {
     stretch: Logarithm<R>,
     area: Logarithm<R>,
     distortion: Asinh<R>,
-    /// The products of the first two and of the first three denominators, and the reciprocal of the product of all four.
-    product_2: R,
-    product_3: R,
-    inverse: R,
     /// 0 where F is finite, has a positive determinant, and is neither too large nor too small for its strains to be computed,
     /// else NaN.
     pub nan_if_invalid: R,
@@ -348,16 +344,10 @@ impl<R: Real> Logarithms<R> {
         let (least, most) = (R::splat(R::SQUARES.0), R::splat(R::SQUARES.1));
         let (stretch, area) = (Logarithm::new(d.square), Logarithm::new(section.area_square));
         let (distortion, growth) = Asinh::new(section.distortion, section.half_trace, section.inverse_area_square);
-        let [d_3, d_4] = distortion.denominators();
-        let product_2 = stretch.denominator() * area.denominator();
-        let product_3 = product_2 * d_3;
         Logarithms {
             stretch,
             area,
             distortion,
-            product_2,
-            product_3,
-            inverse: R::splat(1.0) / (product_3 * d_4),
             // A NaN in F makes `growth` NaN, and with it the largest value, in which `growth` comes last. If the three images
             // are almost parallel, a and b may vanish by cancellation although J does not. With a·a and `growth` in range J_t²
             // is a normal number.
@@ -391,21 +381,14 @@ impl<R: Real> Strain<R> {
     #[inline(always)]
     pub fn new(d: &Stretch<R>, section: &Section<R>, logarithms: &Logarithms<R>) -> Self {
         let l = logarithms;
-        let [d_3, d_4] = l.distortion.denominators();
-        let ([ln_stretch, ln_area], over) = if R::WAITS {
-            let both = l.stretch.pair(&l.area);
+        let [ln_stretch, ln_area] = if R::PAIRS {
             let over_both = d.inverse_square.pair(section.inverse_area_square);
-            let logarithms = both.finish(both.denominator().reciprocal(), d.rounding.pair(section.rounding), over_both);
-            (logarithms.apart(), [d_3.reciprocal(), d_4.reciprocal()])
+            l.stretch.pair(&l.area).finish(d.rounding.pair(section.rounding), over_both).apart()
         } else {
-            let inverse_3 = l.inverse * d_4;
-            let inverse_2 = inverse_3 * d_3;
-            let (over_1, over_2) = (inverse_2 * l.area.denominator(), inverse_2 * l.stretch.denominator());
-            let stretch = l.stretch.finish(over_1, d.rounding, d.inverse_square);
-            let area = l.area.finish(over_2, section.rounding, section.inverse_area_square);
-            ([stretch, area], [inverse_3 * l.product_2, l.inverse * l.product_3])
+            let area = l.area.finish(section.rounding, section.inverse_area_square);
+            [l.stretch.finish(d.rounding, d.inverse_square), area]
         };
-        let (i_td, distortion_ratio) = l.distortion.finish(over);
+        let (i_td, distortion_ratio) = l.distortion.finish();
         Strain {
             i_el: R::splat(0.5) * ln_stretch,
             i_tc: R::splat(0.25) * ln_area,

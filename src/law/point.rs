@@ -86,7 +86,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
     ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
-        let evaluated = evaluate::<T, T, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
+        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // only wrong properties are an error, and those of a law are right
         (point, entries)
     }
@@ -190,7 +190,7 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
 
     #[inline(always)]
     fn power_and_failure<R: Single<T>>(&self, law: &Hyperelastic<R>, strain: &Strain<R>) -> (R, Failure<R>) {
-        if !R::WAITS {
+        if !R::PAIRS {
             let failure = Hyperelastic::prepare_failure(self).map(|x| R::of(x));
             return (law.compaction(strain).reduce(&law.exponent).finish(), failure);
         }
@@ -202,34 +202,63 @@ impl<T: Real + Into<f64>> Source<T> for &[T] {
     }
 }
 
+/// The deformation gradient of a point, wherever its entries are.
+pub(crate) trait Columns<T> {
+    fn columns(&self) -> [[T; 3]; 3];
+}
+
+impl<T: Copy> Columns<T> for &[[T; 3]; 3] {
+    #[inline(always)]
+    fn columns(&self) -> [[T; 3]; 3] {
+        **self
+    }
+}
+
+/// The old state of a point, wherever its entries are. Only the latch is read at every point, and nothing once the sink has taken
+/// the new state, which may be in the same place.
+pub(crate) trait OldState<T> {
+    /// An entry, in the order of [`state::HYPERELASTIC`](super::state::HYPERELASTIC).
+    fn entry(&self, c: usize) -> T;
+}
+
+impl<T: Copy> OldState<T> for &[Cell<T>; HYPERELASTIC_STATE] {
+    #[inline(always)]
+    fn entry(&self, c: usize) -> T {
+        self[c].get()
+    }
+}
+
 /// The law at one point, computed in the number type `R`; see [`Hyperelastic::point_with`].
 ///
 /// # Errors
 /// The first property that is wrong; the sink is not called.
 #[inline(always)]
 #[allow(clippy::too_many_arguments)]
-pub(super) fn evaluate<
+fn evaluate<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
     L: Source<T>,
+    F: Columns<T>,
+    O: OldState<T>,
     D: Derivative<N>,
     S: Sink<T, N>,
     const N: usize,
 >(
     source: L,
-    f: &[[T; 3]; 3],
+    f: F,
     fibre: Option<[T; 3]>,
-    state: &[Cell<T>; HYPERELASTIC_STATE],
+    state: O,
     tangent: D,
     sink: S,
 ) -> Result<(), Error> {
     let vector = |v: [T; 3]| [R::of(v[0]), R::of(v[1]), R::of(v[2])];
-    let f = [vector(f[0]), vector(f[1]), vector(f[2])];
+    let [c1, c2, c3] = f.columns();
+    let f = [vector(c1), vector(c2), vector(c3)];
     let everywhere = R::splat(0.0).le(R::splat(0.0));
     let own = source.frame();
     if own.aligned && fibre.is_none() {
         let frame = FibreFrame::first_axis();
-        return point_in(source, &own, &f, &FirstAxis, &frame, everywhere, state, tangent, sink);
+        return point_in(source, &own, &f, &FirstAxis, &frame, everywhere, &state, tangent, sink);
     }
     let (frame, usable) = match fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
@@ -238,24 +267,30 @@ pub(super) fn evaluate<
             (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
         }
     };
-    point_in(source, &own, &f, &frame, &frame, usable, state, tangent, sink)
+    point_in(source, &own, &f, &frame, &frame, usable, &state, tangent, sink)
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
-pub(crate) struct Call<'a, T, L, D, S, const N: usize> {
+pub(crate) struct Call<T, L, F, O, D, S, const N: usize> {
     pub source: L,
-    /// Columns of F.
-    pub f: &'a [[T; 3]; 3],
+    pub f: F,
     /// A fibre direction of any length, or `None` for that of the properties.
     pub fibre: Option<[T; 3]>,
-    /// The old state, in cells since the sink may overwrite it with the new one.
-    pub state: &'a [Cell<T>; HYPERELASTIC_STATE],
+    /// If it is an array, in cells, since the sink may overwrite it with the new one.
+    pub state: O,
     pub tangent: D,
     pub sink: S,
 }
 
-impl<T: Real<Mask = bool> + Into<f64>, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>
-    Call<'_, T, L, D, S, N>
+impl<
+    T: Real<Mask = bool> + Into<f64>,
+    L: Source<T>,
+    F: Columns<T>,
+    O: OldState<T>,
+    D: Derivative<N>,
+    S: Sink<T, N>,
+    const N: usize,
+> Call<T, L, F, O, D, S, N>
 {
     /// Prepares the law and evaluates it in the number type `R`.
     ///
@@ -264,7 +299,7 @@ impl<T: Real<Mask = bool> + Into<f64>, L: Source<T>, D: Derivative<N>, S: Sink<T
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
-        evaluate::<T, R, L, D, S, N>(self.source, self.f, self.fibre, self.state, self.tangent, self.sink)
+        evaluate::<T, R, L, F, O, D, S, N>(self.source, self.f, self.fibre, self.state, self.tangent, self.sink)
     }
 
     /// Prepares the law and evaluates it with the instructions that every processor of the architecture has.
@@ -274,8 +309,8 @@ impl<T: Real<Mask = bool> + Into<f64>, L: Source<T>, D: Derivative<N>, S: Sink<T
     #[inline(never)]
     pub(super) fn evaluate_baseline(self) -> Result<(), Error> {
         let law = self.source.whole()?;
-        let state = self.state.each_ref().map(Cell::get);
-        let (point, entries) = law.point_with(self.f, self.fibre, &state, self.tangent.general());
+        let state = core::array::from_fn(|c| self.state.entry(c));
+        let (point, entries) = law.point_with(&self.f.columns(), self.fibre, &state, self.tangent.general());
         self.sink.take(point, entries);
         Ok(())
     }
@@ -289,15 +324,31 @@ impl<T: Real<Mask = bool> + Into<f64>, L: Source<T>, D: Derivative<N>, S: Sink<T
 /// The first property that is wrong; the sink is not called.
 #[inline(always)]
 #[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // there is only one level
-pub(crate) fn evaluate_call<T: Registers, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-    call: Call<'_, T, L, D, S, N>,
+pub(crate) fn evaluate_call<
+    T: Registers,
+    L: Source<T>,
+    F: Columns<T>,
+    O: OldState<T>,
+    D: Derivative<N>,
+    S: Sink<T, N>,
+    const N: usize,
+>(
+    call: Call<T, L, F, O, D, S, N>,
     level: Level,
 ) -> Result<(), Error> {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx2,fma")]
-        fn with_fma<T: Registers, L: Source<T>, D: Derivative<N>, S: Sink<T, N>, const N: usize>(
-            call: Call<'_, T, L, D, S, N>,
+        fn with_fma<
+            T: Registers,
+            L: Source<T>,
+            F: Columns<T>,
+            O: OldState<T>,
+            D: Derivative<N>,
+            S: Sink<T, N>,
+            const N: usize,
+        >(
+            call: Call<T, L, F, O, D, S, N>,
         ) -> Result<(), Error> {
             call.evaluate::<T::Point>()
         }
@@ -349,6 +400,7 @@ fn point_in<
     R: Single<T>,
     L: Source<T>,
     A: Axes<R>,
+    O: OldState<T>,
     D: Derivative<N>,
     S: Sink<T, N>,
     const N: usize,
@@ -359,7 +411,7 @@ fn point_in<
     axes: &A,
     frame: &FibreFrame<R>,
     usable: R::Mask,
-    state: &[Cell<T>; HYPERELASTIC_STATE],
+    state: &O,
     tangent: D,
     sink: S,
 ) -> Result<(), Error> {
@@ -377,7 +429,7 @@ fn point_in<
     let k = law.kirchhoff(&stretch, &strain, power);
     let (request, may_overflow) = (tangent.request(), tangent.may_overflow::<R>(shear));
     let entries = tangent.of(&law, kinematics, &k, frame, A::ALONG_COORDINATES, &early, shear);
-    let latch = R::of(state[FAILED].get());
+    let latch = R::of(state.entry(FAILED));
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = law.respond(kinematics, &k, frame, nan_if_invalid, latch, request, shear);
     let h = law.history(&strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
@@ -421,12 +473,12 @@ impl<T: Real<Mask = bool>> Point<T> {
 
     /// A point without stress that keeps its old state. The latch is set to `failed`; entries that are not finite become 0.
     #[inline(never)]
-    fn unchanged(state: &[Cell<T>; HYPERELASTIC_STATE], failed: T, wave_modulus: T, status: i32) -> Self {
+    fn unchanged(state: &impl OldState<T>, failed: T, wave_modulus: T, status: i32) -> Self {
         let zero = T::splat(0.0);
         let mut point = Point { wave_modulus, status, ..Point::nothing() };
         // The caller has checked the latch, and `alive` is never read.
-        for (x, old) in point.state.iter_mut().zip(state).take(FAILED) {
-            let old = old.get();
+        for (c, x) in point.state.iter_mut().enumerate().take(FAILED) {
+            let old = state.entry(c);
             let finite = (old * zero).le(zero);
             *x = T::select(finite, old, zero);
             if !finite && point.status == status::OK {

@@ -6,14 +6,25 @@ use core::ptr::{null, null_mut};
 use libc::{c_char, size_t};
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure};
+use super::constants::TORON_LEVEL_BASELINE;
 use super::prepared::{HyperelasticLaw, numbers};
 use crate::host::border::{Message, entry, of_points, properties};
 use crate::host::structures::{read, structures};
 use crate::law::block::{Law, MOST, Pointers, Precision, Strides, components, components_mut, distances, raw_block_of};
+use crate::law::derivative::{NoTangent, Stress};
 use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::number::level::{Level, has_fma};
 use crate::law::number::real::Scalar;
+use crate::law::number::registers::Registers;
 use crate::law::parameters;
+use crate::law::point::{self, Call, Columns, OldState, Sink, evaluate_call};
+use crate::law::prepared::PreparedHyperelastic;
+use crate::law::response::Request;
+use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
+use crate::law::status;
 use crate::law::tangent::Measure;
+use crate::law::wave_speed;
 
 /// A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
 /// out, and an output that is left out is not computed.
@@ -108,6 +119,21 @@ impl<T: Scalar> Block<T> {
         others == 0 && self.leading_dimension <= MOST && self.n <= leading_dimension(self.leading_dimension, self.n)
     }
 
+    /// Whether it is a single point, and requests what most callers do, the stress with or without the state and the wave speed, at a
+    /// level whose lanes compute as a point on its own does.
+    #[inline(always)]
+    fn is_usual_point(&self) -> bool {
+        let no_state = self.energies.addr() | self.invariants.addr() | self.failure.addr() == 0;
+        let state = !(self.energies.is_null() | self.invariants.is_null() | self.failure.is_null());
+        let stress_alone = no_state & (self.failure_old.addr() | self.active.addr() | self.wave_speed.addr() == 0);
+        self.n == 1
+            && !(self.deformation_gradient[0].is_null() | self.stress[0].is_null())
+            && self.modes.addr() | self.tangent.addr() == 0
+            && state | stress_alone
+            && self.level != TORON_LEVEL_BASELINE
+            && has_fma()
+    }
+
     /// Checks what the law itself does not check, but for the layouts.
     #[inline(always)]
     fn check(&self) -> Result<(), Error> {
@@ -195,18 +221,123 @@ impl<T: Scalar> Block<T> {
 
 /// # Safety
 /// As for `toron_hyperelastic_block_f64`.
-unsafe fn evaluate<T: Precision>(law: Law<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
+#[inline(always)]
+unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
     let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
     unsafe {
         let block = read(block, &mut room)?;
         block.check()?;
-        let worst = if block.is_plain() {
-            raw_block_of(law, &block.plain_pointers())?
-        } else {
-            evaluate_in_layouts(law, block)?
+        let worst = match (block.is_plain(), law) {
+            (false, _) => evaluate_in_layouts(law, block)?,
+            (true, Law::Prepared(law)) if block.is_usual_point() => evaluate_point(law, block)?,
+            (true, Law::Properties(properties)) if block.is_usual_point() => {
+                // Prepared for one point, the law may differ in the last digits.
+                evaluate_point(&PreparedHyperelastic::from(&Hyperelastic::new(properties)?), block)?
+            }
+            (true, _) => raw_block_of(law, &block.plain_pointers())?,
         };
-        of_points(worst, block.status, block.n)
+        if worst == status::OK { Ok(worst) } else { of_points(worst, block.status, block.n) }
+    }
+}
+
+/// Evaluates a block of one point, which takes less time on its own than in a register, by the same operations. Returns its status.
+///
+/// # Errors
+/// None: the block and the law have been checked.
+///
+/// # Safety
+/// As for [`evaluate`], for a block that [is plain](Block::is_plain) and [a usual point](Block::is_usual_point).
+#[inline(always)]
+unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Block<T>) -> Result<i32, Error> {
+    let (source, f, state, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
+    // SAFETY: the caller's promise.
+    let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
+    let mut code = status::OK;
+    let sink = PointOfBlock { block, code: &mut code };
+    let level = Level::Avx512;
+    // What most callers want is compiled for them.
+    if !block.wave_speed.is_null() {
+        let tangent = NoTangent(Request { wave_modulus: true, ..Request::STRESS_AND_STATE });
+        evaluate_call(Call { source, f, fibre, state, tangent, sink }, level)?;
+    } else if block.energies.is_null() {
+        evaluate_call(Call { source, f, fibre, state, tangent: Stress::<false>, sink }, level)?;
+    } else {
+        evaluate_call(Call { source, f, fibre, state, tangent: Stress::<true>, sink }, level)?;
+    }
+    Ok(code)
+}
+
+/// The only point of a block, for its F and its old state.
+struct OnlyPoint<'a, T>(&'a Block<T>);
+
+impl<T: Scalar> OnlyPoint<'_, T> {
+    /// # Safety
+    /// `array` is one of the block's, with this component.
+    #[inline(always)]
+    unsafe fn read(&self, array: *const T, component: usize) -> T {
+        // SAFETY: the caller's promise.
+        unsafe { *array.add(component * leading_dimension(self.0.leading_dimension, 1)) }
+    }
+}
+
+impl<T: Scalar> Columns<T> for OnlyPoint<'_, T> {
+    #[inline(always)]
+    fn columns(&self) -> [[T; 3]; 3] {
+        // SAFETY: the block has an F; see `evaluate_point`.
+        let entry = |c: usize| unsafe { self.read(self.0.deformation_gradient[0], c) };
+        [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
+    }
+}
+
+impl<T: Scalar> OldState<T> for OnlyPoint<'_, T> {
+    #[inline(always)]
+    fn entry(&self, c: usize) -> T {
+        let (array, first) = match c {
+            INVARIANTS.. if c < FAILURE_INDEX => (self.0.invariants_old, INVARIANTS),
+            FAILURE_INDEX.. => (self.0.failure_old, FAILURE_INDEX),
+            _ => (self.0.energies_old, ENERGIES),
+        };
+        // SAFETY: an old state that the block has is valid for its components; see `evaluate_point`.
+        if array.is_null() { T::splat(0.0) } else { unsafe { self.read(array, c - first) } }
+    }
+}
+
+/// The sink for a block's only point.
+struct PointOfBlock<'a, T> {
+    block: &'a Block<T>,
+    code: &'a mut i32,
+}
+
+impl<T: Scalar> Sink<T, 0> for PointOfBlock<'_, T> {
+    #[inline(always)]
+    fn take(self, point: point::Point<T>, _: [T; 0]) {
+        let PointOfBlock { block, code } = self;
+        *code = point.status;
+        let next = leading_dimension(block.leading_dimension, 1);
+        // SAFETY: the block has these arrays; see `evaluate_point`.
+        let store = |values: &[T], array: *mut T| unsafe {
+            for (c, &value) in values.iter().enumerate() {
+                *array.add(c * next) = value;
+            }
+        };
+        store(&point.stress, block.stress[0]);
+        let [w_el, w_tc, w_td, w_ld, i_el, i_tc, i_td, i_ld, index, failed, alive] = point.state;
+        if !block.energies.is_null() {
+            store(&[w_el, w_tc, w_td, w_ld], block.energies);
+            store(&[i_el, i_tc, i_td, i_ld], block.invariants);
+            store(&[index, failed, alive], block.failure);
+            if !block.wave_speed.is_null() {
+                store(&[wave_speed::wave_speed(point.wave_modulus, T::splat(block.density))], block.wave_speed);
+            }
+            if !block.active.is_null() {
+                store(&[if point.status == status::OK { alive } else { T::splat(0.0) }], block.active);
+            }
+        }
+        if !block.status.is_null() {
+            // SAFETY: as above.
+            unsafe { *block.status = point.status };
+        }
     }
 }
 

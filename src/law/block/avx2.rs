@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::copies::padded;
 use super::instructions::Instructions;
 use super::kernel::sweep;
 use super::linear::{LinearPointers, sweep_linear};
@@ -19,6 +20,12 @@ impl Instructions for Avx2 {
     unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
         // SAFETY: the caller's promise.
         unsafe { sweep::<T, T::Avx2, WANT>(law, block) }
+    }
+
+    #[target_feature(enable = "avx2,fma")]
+    unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { padded::<T, T::Avx2>(block, run) }
     }
 
     #[target_feature(enable = "avx2,fma")]

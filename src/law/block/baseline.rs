@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::copies::padded;
 use super::instructions::Instructions;
 use super::kernel::sweep;
 use super::linear::{LinearPointers, sweep_linear};
@@ -18,6 +19,11 @@ impl Instructions for Baseline {
     unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
         // SAFETY: the caller's promise.
         unsafe { sweep::<T, T::Baseline, WANT>(law, block) }
+    }
+
+    unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { padded::<T, T::Baseline>(block, run) }
     }
 
     unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {

@@ -2,12 +2,10 @@
 //! and those that are not next to each other in memory. They go through the same operations as all others, so that the result of a
 //! point does not depend on where it is.
 
-use core::marker::PhantomData;
 use core::mem::MaybeUninit;
 use core::ops::Range;
 use core::ptr::{null, null_mut};
 
-use super::kernel::STAGED;
 use super::linear::{LinearPointers, LinearStrides};
 use super::pointers::{Pointers, Strides, components, components_mut};
 use crate::law::number::real::{Lanes, Scalar, WIDEST};
@@ -26,9 +24,8 @@ const WAVE_SPEED: usize = STRESS + 6;
 const ACTIVE: usize = WAVE_SPEED + 1;
 const MODES: usize = ACTIVE + 1;
 const TANGENT: usize = MODES + 24;
-/// The number of components without modes and tangent, and with the largest one.
-pub(super) const USUAL_COMPONENTS: usize = MODES;
-pub(super) const COMPONENTS: usize = TANGENT + 81;
+/// With the largest tangent.
+const COMPONENTS: usize = TANGENT + 81;
 /// F at both ends, fibre, second axis, axes, state at both ends, stress, wave speed and active of the linear elastic law.
 const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
@@ -146,149 +143,6 @@ fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Point
     }
 }
 
-/// Room for a group of [`STAGED`] registers of points: `N` registers, STAGED for each component.
-pub(super) struct Room<T, R, const N: usize> {
-    values: [MaybeUninit<R>; N],
-    codes: [i32; STAGED * WIDEST],
-    of: PhantomData<T>,
-}
-
-impl<T: Scalar, R: Lanes<T>, const N: usize> Room<T, R, N> {
-    /// The points of a component.
-    const POINTS: usize = STAGED * R::COUNT;
-
-    #[inline(always)]
-    pub(super) fn new() -> Self {
-        Room { values: [const { MaybeUninit::uninit() }; N], codes: [status::OK; STAGED * WIDEST], of: PhantomData }
-    }
-
-    /// Copies the points from `first` on, which do not fill their last register; its other lanes get points at rest. Returns the block of
-    /// the copies, which lives in `self`.
-    ///
-    /// # Safety
-    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of a block with points next to each
-    /// other and its state in place; `N` is enough for what it has arrays for; there are fewer points than STAGED registers have.
-    #[inline(always)]
-    pub(super) unsafe fn copy_in(&mut self, block: &Pointers<T>, first: usize) -> Pointers<T> {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let room: *mut T = self.values.as_mut_ptr().cast();
-        let (state, count) = (block.leading_dimension, block.n - first);
-        // The new flag of activity is not read, and the index only beside a new one.
-        let failure = match (block.failure_old.is_null(), block.failure.is_null()) {
-            (true, _) => 0..0,
-            (false, true) => 1..2,
-            (false, false) => 0..2,
-        };
-        // Loops and no closures, which would be called, without the processor's instructions.
-        // SAFETY: the caller's promise; the room has STAGED registers for each component.
-        unsafe {
-            for c in 0..9 {
-                let fill = if c % 4 == 0 { one } else { zero };
-                column_in(block.deformation_gradient[c].add(first), room.add((F + c) * Self::POINTS), count, fill);
-            }
-            if !block.fibre[0].is_null() {
-                for c in 0..3 {
-                    let fill = if c == 0 { one } else { zero };
-                    column_in(block.fibre[c].add(first), room.add((FIBRE + c) * Self::POINTS), count, fill);
-                }
-            }
-            for (old, to) in [(block.energies, ENERGIES), (block.invariants, INVARIANTS)] {
-                if !old.is_null() {
-                    for c in 0..4 {
-                        column_in(old.add(c * state + first), room.add((to + c) * Self::POINTS), count, zero);
-                    }
-                }
-            }
-            for c in failure {
-                let old = block.failure_old.add(c * state + first);
-                column_in(old, room.add((FAILURE + c) * Self::POINTS), count, zero);
-            }
-        }
-        block_in(room, Self::POINTS, self.codes.as_mut_ptr(), block)
-    }
-
-    /// Copies the results of [`copy_in`](Self::copy_in)'s block back.
-    ///
-    /// # Safety
-    /// As for `copy_in`, whose arguments these are; the results are there.
-    #[inline(always)]
-    pub(super) unsafe fn copy_out(copies: &Pointers<T>, block: &Pointers<T>, first: usize) {
-        let (state, count) = (block.leading_dimension, block.n - first);
-        // SAFETY: the caller's promise.
-        unsafe {
-            if !block.stress[0].is_null() {
-                for c in 0..6 {
-                    columns_out::<T, R>(copies.stress[c], 0, block.stress[c].add(first), 0, 1, count);
-                }
-            }
-            let arrays = [
-                (copies.energies, block.energies, state, 4),
-                (copies.invariants, block.invariants, state, 4),
-                (copies.failure, block.failure, state, 3),
-                (copies.wave_speed, block.wave_speed, 0, 1),
-                (copies.active, block.active, 0, 1),
-                (copies.modes, block.modes, block.modes_leading_dimension, 24),
-                (copies.tangent, block.tangent, block.tangent_leading_dimension, block.measure.components()),
-            ];
-            for (from, to, next, columns) in arrays {
-                if !to.is_null() {
-                    columns_out::<T, R>(from, Self::POINTS, to.add(first), next, columns, count);
-                }
-            }
-            if !block.status.is_null() {
-                for point in 0..count {
-                    *block.status.add(first + point) = *copies.status.add(point);
-                }
-            }
-        }
-    }
-}
-
-/// Copies `count` values, which do not fill their last register, to registers; the last lanes are those of `fill`.
-///
-/// # Safety
-/// `from` points to so many values, `to` has room for the registers.
-#[inline(always)]
-unsafe fn column_in<T, R: Lanes<T>>(from: *const T, to: *mut T, count: usize, fill: R) {
-    let whole = count - count % R::COUNT;
-    let mut i = 0;
-    // SAFETY: the caller's promise.
-    unsafe {
-        while i < whole {
-            R::load(from.add(i)).store(to.add(i));
-            i += R::COUNT;
-        }
-        R::load_first(from.add(whole), count - whole, fill).store(to.add(whole));
-    }
-}
-
-/// Copies the first `count` values of `columns` columns, which are `from_next` and `to_next` apart, from registers that they do not fill.
-///
-/// # Safety
-/// Each column has so many values at both places.
-#[inline(always)]
-unsafe fn columns_out<T, R: Lanes<T>>(
-    from: *const T,
-    from_next: usize,
-    to: *mut T,
-    to_next: usize,
-    columns: usize,
-    count: usize,
-) {
-    let whole = count - count % R::COUNT;
-    // SAFETY: the caller's promise.
-    unsafe {
-        let mut i = 0;
-        while i < whole {
-            for c in 0..columns {
-                R::load(from.add(c * from_next + i)).store(to.add(c * to_next + i));
-            }
-            i += R::COUNT;
-        }
-        R::copy_first(from.add(whole), from_next, to.add(whole), to_next, columns, count - whole);
-    }
-}
-
 /// Copies `points`, at least one and at most `COUNT`, of a block, runs a kernel on the copies and copies the results back.
 /// Returns the kernel's result.
 ///
@@ -353,6 +207,92 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
         single.copy_out(of_copies.active, block.active, 1);
         single.copy_out(codes.as_ptr(), block.status, 1);
         worst
+    }
+}
+
+/// Runs a kernel on copies of all points of a block, at least one and fewer than a register `R` holds; the other lanes get points at
+/// rest. Returns the kernel's result.
+///
+/// # Safety
+/// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for a block with points next to each other and its state
+/// in place, on a processor that has the instructions of `R`.
+#[inline(always)]
+pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
+    let mut room = [const { MaybeUninit::<R>::uninit() }; COMPONENTS];
+    let mut codes = [status::OK; WIDEST];
+    let copies = block_in(room.as_mut_ptr().cast(), R::COUNT, codes.as_mut_ptr(), block);
+    let (zero, one, state, count) = (R::splat(0.0), R::splat(1.0), block.leading_dimension, block.n);
+    // Loops and no closures, which would be called, without the processor's instructions.
+    // SAFETY: the caller's promise; the room has a register for each component.
+    unsafe {
+        for c in 0..9 {
+            let fill = if c % 4 == 0 { one } else { zero };
+            R::load_first(block.deformation_gradient[c], count, fill).store(copies.deformation_gradient[c].cast_mut());
+        }
+        if !block.fibre[0].is_null() {
+            for c in 0..3 {
+                let fill = if c == 0 { one } else { zero };
+                R::load_first(block.fibre[c], count, fill).store(copies.fibre[c].cast_mut());
+            }
+        }
+        for (old, to) in [(block.energies, copies.energies), (block.invariants, copies.invariants)] {
+            if !old.is_null() {
+                for c in 0..4 {
+                    R::load_first(old.add(c * state), count, zero).store(to.add(c * R::COUNT));
+                }
+            }
+        }
+        // The old flag of activity is not read, and the index only beside a new one.
+        if !block.failure.is_null() {
+            R::load_first(block.failure_old, count, zero).store(copies.failure);
+        }
+        if !block.failure_old.is_null() {
+            let (latch, to) = (block.failure_old.add(state), copies.failure_old.cast_mut().add(R::COUNT));
+            R::load_first(latch, count, zero).store(to);
+        }
+        let worst = run(&copies);
+        if !block.stress[0].is_null() {
+            for c in 0..6 {
+                columns_out::<T, R>(copies.stress[c], block.stress[c], 0, 1, count);
+            }
+        }
+        let arrays = [
+            (copies.energies, block.energies, state, 4),
+            (copies.invariants, block.invariants, state, 4),
+            (copies.failure, block.failure, state, 3),
+            (copies.wave_speed, block.wave_speed, 0, 1),
+            (copies.active, block.active, 0, 1),
+            (copies.modes, block.modes, block.modes_leading_dimension, 24),
+            (copies.tangent, block.tangent, block.tangent_leading_dimension, block.measure.components()),
+        ];
+        for (from, to, next, columns) in arrays {
+            if !to.is_null() {
+                columns_out::<T, R>(from, to, next, columns, count);
+            }
+        }
+        if !block.status.is_null() {
+            block.status.copy_from_nonoverlapping(codes.as_ptr(), count);
+        }
+        worst
+    }
+}
+
+/// Copies the first `count` lanes of `columns` registers, one after the other from `from` on, to columns that are `next` apart.
+///
+/// # Safety
+/// There are as many registers, and each column has room for `count` values, fewer than COUNT.
+#[inline(always)]
+unsafe fn columns_out<T, R: Lanes<T>>(from: *const T, to: *mut T, next: usize, columns: usize, count: usize) {
+    // The binary digits of the count: a loop over so few values would be compiled to a call.
+    let mut lane = 0;
+    for digit in [4, 2, 1] {
+        if digit < R::COUNT && count & digit != 0 {
+            for c in 0..columns {
+                // SAFETY: the caller's promise: the digits add up to `count`.
+                unsafe { to.add(c * next + lane).copy_from_nonoverlapping(from.add(c * R::COUNT + lane), digit) };
+            }
+            lane += digit;
+        }
     }
 }
 

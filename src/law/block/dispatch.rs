@@ -8,18 +8,12 @@ use super::avx2::Avx2;
 use super::avx512::Avx512;
 use super::baseline::Baseline;
 use super::copies::padded_linear;
-#[cfg(target_arch = "x86_64")]
-use super::few;
 use super::instructions::Instructions;
-#[cfg(target_arch = "x86_64")]
-use super::interface::Law;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
 use super::kernel::{FIBRES, SHEAR, STATE, STRESS, WAVE};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
-#[cfg(target_arch = "x86_64")]
-use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
@@ -37,17 +31,6 @@ pub trait Precision: Scalar {
     #[doc(hidden)]
     unsafe fn dispatch(level: Level, law: &Hyperelastic<Self>, block: &Pointers<Self>, request: Request) -> i32;
 
-    /// Evaluates the hyperelastic law, prepared or from its properties, at the points of a block, one by one, without a tangent.
-    ///
-    /// # Errors
-    /// The first property that is wrong; nothing is written.
-    ///
-    /// # Safety
-    /// As for `dispatch`, on a processor with AVX2 and FMA.
-    #[cfg(target_arch = "x86_64")]
-    #[doc(hidden)]
-    unsafe fn one_by_one(law: Law<'_, Self>, block: &Pointers<Self>, request: Request) -> Result<i32, Error>;
-
     /// Runs the kernels of the linear elastic law at a level.
     ///
     /// # Safety
@@ -64,12 +47,6 @@ impl Precision for f64 {
         unsafe { dispatch(level, law, block, request) }
     }
 
-    #[cfg(target_arch = "x86_64")]
-    unsafe fn one_by_one(law: Law<'_, f64>, block: &Pointers<f64>, request: Request) -> Result<i32, Error> {
-        // SAFETY: the caller's promise.
-        unsafe { few::one_by_one(law, block, request) }
-    }
-
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &LinearPointers<f64>) -> i32 {
         // SAFETY: the caller's promise.
         unsafe { dispatch_linear(level, law, block) }
@@ -80,12 +57,6 @@ impl Precision for f32 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Pointers<f32>, request: Request) -> i32 {
         // SAFETY: the caller's promise.
         unsafe { dispatch(level, law, block, request) }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    unsafe fn one_by_one(law: Law<'_, f32>, block: &Pointers<f32>, request: Request) -> Result<i32, Error> {
-        // SAFETY: the caller's promise.
-        unsafe { few::one_by_one(law, block, request) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &LinearPointers<f32>) -> i32 {
@@ -108,15 +79,18 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 /// As for [`Precision::dispatch`].
 #[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // only kernels of wider instructions depend on the request
 unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's promise; AVX-512 is chosen for more points than a register holds.
     unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]
-            // What fills no more than half a register of AVX-512 takes less time in one of AVX2.
-            Level::Avx512 if block.n > lanes::<T, Avx2>() => run::<T, Avx512>(law, block, request),
+            // Two registers of AVX2 take less time than one of AVX-512.
+            Level::Avx512 if block.n > lanes::<T, Avx512>() => run::<T, Avx512>(law, block, request),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 | Level::Avx2 => run::<T, Avx2>(law, block, request),
-            _ => run_any::<T, Baseline>(law, block),
+            Level::Avx512 | Level::Avx2 if block.n >= lanes::<T, Avx2>() => run::<T, Avx2>(law, block, request),
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 | Level::Avx2 => Avx2::run_padded(block, |points| run::<T, Avx2>(law, points, request)),
+            _ if block.n >= lanes::<T, Baseline>() => run_any::<T, Baseline>(law, block),
+            _ => Baseline::run_padded(block, |points| run_any::<T, Baseline>(law, points)),
         }
     }
 }
@@ -124,7 +98,7 @@ unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Po
 /// Runs a kernel that is compiled for one of the usual requests, or else the general kernel.
 ///
 /// # Safety
-/// As for [`Precision::dispatch`].
+/// As for [`Precision::dispatch`], for a block that fills a register.
 #[cfg(target_arch = "x86_64")]
 unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
     let Request { stress, energies, invariants, failure, modes, wave_modulus } = request;

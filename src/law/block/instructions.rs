@@ -21,6 +21,12 @@ pub(super) trait Instructions {
     /// As for [`sweep`](super::kernel::sweep), on a processor that has the instructions.
     unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32;
 
+    /// Runs a kernel of the hyperelastic law on copies of a block that does not fill a register.
+    ///
+    /// # Safety
+    /// As for [`padded`](super::copies::padded), on a processor that has the instructions.
+    unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32;
+
     /// The kernel of the linear elastic law.
     ///
     /// # Safety

@@ -5,8 +5,6 @@ use core::ptr::{null, null_mut};
 
 use super::copies::{copied, copied_linear};
 use super::dispatch::Precision;
-#[cfg(target_arch = "x86_64")]
-use super::few::FEW;
 use super::kernel::STAGED;
 use super::linear::{LinearPointers, LinearStrides, with_tangents};
 use super::pointers::{Pointers, Strides, check_layout, components, components_mut};
@@ -224,16 +222,6 @@ impl<T: Precision> Hyperelastic<T> {
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
 pub unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
-    #[cfg(target_arch = "x86_64")]
-    if (1..=FEW).contains(&block.n)
-        && block.strides == Strides::UNIT
-        && block.tangent.is_null()
-        && block.level() > Level::Baseline
-        && let Ok(request) = block.check()
-    {
-        // SAFETY: the caller answers for the arrays, and the processor has the instructions.
-        return unsafe { T::one_by_one(law, block, request) };
-    }
     // Errors of the properties are reported before errors of the block.
     let law = match law {
         Law::Properties(properties) => Hyperelastic::new(properties)?,

@@ -1,8 +1,8 @@
 //! The kernel: each stage of the law is computed for several registers of points before the next stage.
 
 use core::mem::MaybeUninit;
+use core::ptr::null_mut;
 
-use super::copies::{COMPONENTS, Room, USUAL_COMPONENTS};
 use super::pointers::Pointers;
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -34,47 +34,29 @@ pub(super) const WAVE: u8 = 32;
 
 /// The kernel. Returns the worst status code.
 ///
-/// # Safety
-/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for a block with points next to each other and
-/// its state in place; `WANT` requests nothing that the block has no array for.
-#[inline(always)]
-pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        match WANT & ANY {
-            0 => sweep_in::<T, R, WANT, { STAGED * USUAL_COMPONENTS }>(law, block),
-            _ => sweep_in::<T, R, WANT, { STAGED * COMPONENTS }>(law, block),
-        }
-    }
-}
-
-/// As [`sweep`], with room for `N` registers. If there are points that do not fill a register, the last group of registers is
-/// evaluated there: a pass of their own would take as long as one of several registers.
+/// If the points do not fill the last register, it holds the last COUNT points of the block, some of which the register before it
+/// holds too: both are in the same group, in which every old state is read before a new one is stored, so that both compute and
+/// store the same.
 ///
 /// # Safety
-/// As for [`sweep`].
+/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for a block of at least COUNT points next to
+/// each other, with its state in place; `WANT` requests nothing that the block has no array for.
 #[inline(always)]
-unsafe fn sweep_in<T: Scalar, R: Lanes<T>, const WANT: u8, const N: usize>(
-    law: &Hyperelastic<T>,
-    block: &Pointers<T>,
-) -> i32 {
+pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
-    let mut room = Room::<T, R, N>::new();
-    let mut copies = MaybeUninit::uninit();
-    let mut first = 0;
-    while first < block.n {
-        let count = STAGED.min((block.n - first).div_ceil(R::COUNT));
-        let copied = first + count * R::COUNT > block.n;
-        // SAFETY: the points from `first` on are the last ones, and fill no more than STAGED registers; the caller's promise.
-        unsafe {
-            let (group, i) = if copied { (&*copies.write(room.copy_in(block, first)), 0) } else { (block, first) };
-            evaluate::<T, R, WANT>(&lanes, group, i, count, &mut worst);
-            if copied {
-                Room::<T, R, N>::copy_out(group, block, first);
-            }
-        }
-        first += count * R::COUNT;
+    let (registers, mut first) = (block.n.div_ceil(R::COUNT), 0);
+    while first < registers {
+        let left = registers - first;
+        let count = match left {
+            0..=STAGED => left,
+            // Two groups of the same size take less time than a large and a small one.
+            _ if left <= 2 * STAGED => left.div_ceil(2),
+            _ => STAGED,
+        };
+        // SAFETY: the caller's promise; a group has two registers at least, unless it is the whole block.
+        unsafe { evaluate::<T, R, WANT>(&lanes, block, first * R::COUNT, count, &mut worst) };
+        first += count;
     }
     least_code(worst)
 }
@@ -136,7 +118,7 @@ union Step<R: Real> {
 /// Evaluates `count` registers of points from `i` on, in the axes that the kernel is built for.
 ///
 /// # Safety
-/// As for [`sweep`], with i + count COUNT ≤ n and count ≤ STAGED.
+/// As for [`sweep`], with count ≤ STAGED; i + (count − 1) COUNT < n, and if the last register is not full, there are two.
 #[inline(always)]
 unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -152,7 +134,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
             staged::<T, R, FirstAxis, WANT>(law, block, i, count, |_| (FirstAxis, None), worst);
         } else if WANT & (FIBRES | ANY) != 0 {
             for k in 0..count {
-                frames.put(k, frame::<T, R, WANT>(law, block, i + k * R::COUNT));
+                frames.put(k, frame::<T, R, WANT>(law, block, place::<T, R>(block, i, k)));
             }
             let fibre = |k: usize| {
                 let (frame, usable) = *frames.get(k);
@@ -163,6 +145,13 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
             staged::<T, R, FibreFrame<R>, WANT>(law, block, i, count, |_| (law.frame, None), worst);
         }
     }
+}
+
+/// The first point of register `k` of the group that begins at point `i`: of the last one, a point of the register before it if fewer
+/// than COUNT points are left.
+#[inline(always)]
+fn place<T, R: Lanes<T>>(block: &Pointers<T>, i: usize, k: usize) -> usize {
+    (i + k * R::COUNT).min(block.n - R::COUNT)
 }
 
 /// Evaluates `count` registers of points from `i` on, stage by stage. `axes` gives the axes of a register, and where they are
@@ -183,7 +172,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
     let mut check = zero;
-    let at = |k: usize| i + k * R::COUNT;
+    let at = |k: usize| place::<T, R>(block, i, k);
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
     // than a test at every store.
     let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
@@ -248,9 +237,16 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         #[allow(clippy::eq_op)]
         let all_finite = (check - check).le(zero);
         if R::any(!all_finite) {
+            // All codes before the first reset, which changes the old state that the codes depend on.
+            let mut codes = Stage::new();
             for k in 0..count {
                 let usable = axes(k).1.unwrap_or(zero.le(zero));
-                let code = reset_invalid::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k));
+                let code = status_code::<T, R, WANT>(law, block, at(k), stretches.get(k), usable, outcomes.get(k));
+                codes.put(k, code);
+            }
+            for k in 0..count {
+                let code: R = *codes.get(k);
+                reset_invalid::<T, R, WANT>(block, at(k), outcomes.get(k));
                 code.store_integers(status.wrapping_add(at(k)));
                 *worst = R::select(code.lt(*worst), code, *worst);
             }
@@ -332,7 +328,8 @@ fn request<T, const WANT: u8>(block: &Pointers<T>) -> Request {
 struct Outcome<R: Real> {
     /// Whether it has a new state: it had not failed before and can be evaluated.
     updated: R::Mask,
-    /// The old latch, NaN where the point cannot be evaluated.
+    /// The old latch, and the same but NaN where the point cannot be evaluated.
+    latch: R,
     latch_or_nan: R,
 }
 
@@ -386,7 +383,7 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
             let density = R::splat(block.density.into());
             wave_speed::wave_speed(r.wave_modulus, density).store(block.wave_speed.add(i));
         }
-        Outcome { updated: r.updated, latch_or_nan: r.latch_or_nan }
+        Outcome { updated: r.updated, latch, latch_or_nan: r.latch_or_nan }
     }
 }
 
@@ -507,9 +504,8 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let stride = block.leading_dimension;
     // SAFETY: the arrays have the components, and the lanes from i on.
     unsafe {
-        let latch = latch::<T, R, WANT>(block, i);
-        let k = law.kirchhoff(d, strain, power);
-        let r = law.history(strain, d.shear_invariant(), &k, outcome.updated, latch, request, shears::<R, WANT>(law));
+        let (k, shear) = (law.kirchhoff(d, strain, power), shears::<R, WANT>(law));
+        let r = law.history(strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
         if request.energies {
             for (c, energy) in r.energies.into_iter().enumerate() {
                 energy.store_where(outcome.updated, block.energies.add(c * stride + i));
@@ -539,28 +535,31 @@ fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
-/// Replaces what is not finite in an old state that is kept by 0. Returns where it has done so.
-///
-/// # Safety
-/// `place` is valid for COUNT values.
+/// Where the old energies, invariants and failure index of the lanes from i on are; null for those that are not requested.
 #[inline(always)]
-unsafe fn zero_if_not_finite<T: Scalar, R: Lanes<T>>(place: *mut T, updated: R::Mask) -> R::Mask {
-    let zero = R::splat(0.0);
-    // SAFETY: the caller's promise.
-    unsafe {
-        let wrong = !updated & !(R::load(place) * zero).le(zero);
-        zero.store_where(wrong, place);
-        wrong
+fn old_entries<T, const WANT: u8>(block: &Pointers<T>, i: usize) -> [*mut T; 9] {
+    let (request, stride) = (request::<T, WANT>(block), block.leading_dimension);
+    let mut entries = [null_mut(); 9];
+    for c in 0..4 {
+        if request.energies {
+            entries[c] = block.energies.wrapping_add(c * stride + i);
+        }
+        if request.invariants {
+            entries[4 + c] = block.invariants.wrapping_add(c * stride + i);
+        }
     }
+    if request.failure {
+        entries[8] = block.failure.wrapping_add(i);
+    }
+    entries
 }
 
-/// For points that have failed before or cannot be evaluated: sets the stress to 0, and what is not finite in the old state
-/// that they keep. Returns their status codes.
+/// The status codes of the points that have failed before or cannot be evaluated; 0 for the others.
 ///
 /// # Safety
-/// As for [`sweep`], for the lanes from i on, after [`respond`] and before [`store_state`].
+/// As for [`sweep`], for the lanes from i on, after [`respond`] and before [`reset_invalid`].
 #[inline(always)]
-unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(
+unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     law: &Hyperelastic<R>,
     block: &Pointers<T>,
     i: usize,
@@ -568,33 +567,39 @@ unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(
     usable: R::Mask,
     outcome: &Outcome<R>,
 ) -> R {
-    let (zero, stride) = (R::splat(0.0), block.leading_dimension);
-    let request = request::<T, WANT>(block);
+    let zero = R::splat(0.0);
+    let mut finite = zero.le(zero);
+    for entry in old_entries::<T, WANT>(block, i) {
+        if !entry.is_null() {
+            // SAFETY: the caller's promise.
+            finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
+        }
+    }
     // SAFETY: the caller's promise.
-    let latch = unsafe { latch::<T, R, WANT>(block, i) };
-    let mut dropped = zero.lt(zero);
+    let code = unsafe { law.status_code(&gradient(block, i), d, usable, outcome.latch) };
+    let code = R::select(!finite & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
+    R::select(outcome.updated, zero, code)
+}
+
+/// For points that have failed before or cannot be evaluated: sets the stress to 0, and what is not finite in the old state
+/// that they keep.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on, after [`status_code`] and before [`store_state`].
+#[inline(always)]
+unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
+    let zero = R::splat(0.0);
     // SAFETY: the caller's promise: the arrays have the components, and the lanes from i on.
     unsafe {
-        if request.energies {
-            for c in 0..4 {
-                dropped = dropped | zero_if_not_finite::<T, R>(block.energies.add(c * stride + i), outcome.updated);
+        for entry in old_entries::<T, WANT>(block, i) {
+            if !entry.is_null() {
+                zero.store_where(!outcome.updated & !(R::load(entry) * zero).le(zero), entry);
             }
         }
-        if request.invariants {
-            for c in 0..4 {
-                dropped = dropped | zero_if_not_finite::<T, R>(block.invariants.add(c * stride + i), outcome.updated);
-            }
-        }
-        if request.failure {
-            dropped = dropped | zero_if_not_finite::<T, R>(block.failure.add(i), outcome.updated);
-        }
-        if request.stress {
+        if request::<T, WANT>(block).stress {
             for place in block.stress {
                 zero.store_where(!outcome.updated, place.add(i));
             }
         }
-        let code = law.status_code(&gradient(block, i), d, usable, latch);
-        let code = R::select(dropped & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
-        R::select(outcome.updated, zero, code)
     }
 }

@@ -27,8 +27,6 @@ mod avx512;
 mod baseline;
 mod copies;
 mod dispatch;
-#[cfg(target_arch = "x86_64")]
-mod few;
 mod instructions;
 mod interface;
 mod kernel;

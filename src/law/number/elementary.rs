@@ -16,35 +16,20 @@ use core::f64::consts::{LN_2, LOG2_E};
 
 use super::real::Real;
 
-/// A polynomial, given its coefficients from the constant one on: by Horner's scheme, or by Estrin's where latency counts.
+/// A polynomial of up to twelve coefficients, given from the constant one on. Fours of terms are summed side by side, and their sums
+/// by Horner's scheme: the chain of dependent operations is less than half as long as Horner's, at one or two operations more.
 #[inline(always)]
 fn polynomial<R: Real>(coefficients: &[f64], x: R) -> R {
-    if R::WAITS {
-        return estrin(coefficients, x);
-    }
-    let mut rest = coefficients.iter().rev();
-    let mut sum = R::splat(rest.next().copied().unwrap_or(0.0));
-    for &c in rest {
-        sum = sum.mul_add(x, R::splat(c));
-    }
-    sum
-}
-
-/// A polynomial of up to twelve coefficients by Estrin's scheme, whose chain of dependent operations has logarithmic length:
-/// pairs of terms are added, then pairs of pairs.
-#[inline(always)]
-fn estrin<R: Real>(coefficients: &[f64], x: R) -> R {
     let square = x * x;
     let low = four(coefficients, 0, x, square);
     if coefficients.len() <= 4 {
         return low;
     }
-    let fourth = square * square;
-    let middle = four(coefficients, 4, x, square);
+    let (fourth, middle) = (square * square, four(coefficients, 4, x, square));
     if coefficients.len() <= 8 {
         return middle.mul_add(fourth, low);
     }
-    four(coefficients, 8, x, square).mul_add(fourth * fourth, middle.mul_add(fourth, low))
+    four(coefficients, 8, x, square).mul_add(fourth, middle).mul_add(fourth, low)
 }
 
 /// The sum of up to four terms from the k-th on, divided by x^k.
@@ -64,11 +49,10 @@ fn pair<R: Real>(coefficients: &[f64], k: usize, x: R) -> R {
     }
 }
 
-/// A logarithm up to its last step: y = (1 + f) 2^k with 1 + f in [¾, 1½). The last step needs a reciprocal; several logarithms
-/// may compute theirs by one division.
+/// A logarithm up to its last step: y = (1 + f) 2^k with 1 + f in [¾, 1½), and s = f/(1 + f/2).
 #[derive(Clone, Copy, Debug)]
 pub struct Logarithm<R> {
-    f: R,
+    s: R,
     k: R,
 }
 
@@ -77,42 +61,34 @@ impl<R: Real> Logarithm<R> {
     #[inline(always)]
     pub fn new(y: R) -> Self {
         let (z, k) = y.split_exponent();
-        Logarithm { f: z - R::splat(1.0), k }
+        let f = z - R::splat(1.0);
+        Logarithm { s: f / R::splat(0.5).mul_add(f, R::splat(1.0)), k }
     }
 
     /// Two logarithms side by side, see [`Real::pair`].
     #[inline(always)]
     pub fn pair(&self, other: &Self) -> Self {
-        Logarithm { f: self.f.pair(other.f), k: self.k.pair(other.k) }
+        Logarithm { s: self.s.pair(other.s), k: self.k.pair(other.k) }
     }
 
-    /// The number whose reciprocal [`finish`](Self::finish) needs: 1 + f/2.
+    /// ln(1 + f) = 2 artanh(s/2).
     #[inline(always)]
-    pub fn denominator(&self) -> R {
-        R::splat(0.5).mul_add(self.f, R::splat(1.0))
+    fn of_mantissa(&self) -> R {
+        let square = self.s * self.s;
+        self.s.mul_add(square * polynomial(R::LN, square), self.s)
     }
 
-    /// ln(1 + f) = 2 artanh(f/(2 + f)).
+    /// ln(y + c) for a correction c much smaller than y, given 1/y.
     #[inline(always)]
-    fn of_mantissa(&self, reciprocal: R) -> R {
-        // Where latency counts, a division that need not wait for the reciprocal.
-        let s = if R::WAITS { self.f / self.denominator() } else { self.f * reciprocal };
-        let square = s * s;
-        s.mul_add(square * polynomial(R::LN, square), s)
-    }
-
-    /// ln(y + c) for a correction c much smaller than y, given the reciprocal of the denominator and 1/y.
-    #[inline(always)]
-    pub fn finish(&self, reciprocal: R, c: R, over_y: R) -> R {
-        self.k.mul_add(R::splat(LN_2), c.mul_add(over_y, self.of_mantissa(reciprocal)))
+    pub fn finish(&self, c: R, over_y: R) -> R {
+        self.k.mul_add(R::splat(LN_2), c.mul_add(over_y, self.of_mantissa()))
     }
 }
 
 /// ln(y + c) for positive normal y and a correction c much smaller than y.
 #[inline(always)]
 pub fn ln_sum<R: Real>(y: R, c: R) -> R {
-    let logarithm = Logarithm::new(y);
-    logarithm.finish(logarithm.denominator().reciprocal(), c, y.reciprocal())
+    Logarithm::new(y).finish(c, y.reciprocal())
 }
 
 /// ln(1 + x), x > −1.
@@ -123,7 +99,7 @@ pub fn ln_1p<R: Real>(x: R) -> R {
     ln_sum(y, x - (y - one))
 }
 
-/// a = asinh(s/j) for s ≥ 0 and j > 0 up to its last step, which needs two reciprocals.
+/// a = asinh(s/j) for s ≥ 0 and j > 0 up to its last step.
 ///
 /// With z = e^2a = (s + t)²/j², t = √(s² + j²), and the nearest power of two 2^k, a = ½ k ln 2 + artanh w,
 /// w = (z − 2^k)/(z + 2^k). For k = 0 that is w = s/t, which keeps its digits down to s = 0, and a/s follows without a quotient
@@ -131,8 +107,8 @@ pub fn ln_1p<R: Real>(x: R) -> R {
 #[derive(Clone, Copy)]
 pub struct Asinh<R: Real> {
     k: R,
-    numerator: R,
-    denominator: R,
+    w: R,
+    /// t where k = 0, else s: what a/s is divided by.
     divisor: R,
     small: R::Mask,
 }
@@ -150,31 +126,20 @@ impl<R: Real> Asinh<R> {
         // For k = 1, w = (3s − t)/(3t − s), which contains the error of s and t but not that of j.
         let three = R::splat(3.0);
         let middle = k.lt(R::splat(1.5));
-        let asinh = Asinh {
-            k: R::select(small, R::splat(0.0), k.max(one)),
-            numerator: R::select(small, s, R::select(middle, three.mul_add(s, -t), z - one)),
-            denominator: R::select(small, t, R::select(middle, three.mul_add(t, -s), z + one)),
-            divisor: R::select(small, one, s),
-            small,
-        };
-        (asinh, growth)
+        let numerator = R::select(small, s, R::select(middle, three.mul_add(s, -t), z - one));
+        let denominator = R::select(small, t, R::select(middle, three.mul_add(t, -s), z + one));
+        let k = R::select(small, R::splat(0.0), k.max(one));
+        (Asinh { k, w: numerator / denominator, divisor: R::select(small, t, s), small }, growth)
     }
 
-    /// The numbers whose reciprocals [`finish`](Self::finish) needs.
+    /// ½a and ½a/s.
     #[inline(always)]
-    pub fn denominators(&self) -> [R; 2] {
-        [self.denominator, self.divisor]
-    }
-
-    /// ½a and ½a/s, given the reciprocals of the denominators.
-    #[inline(always)]
-    pub fn finish(&self, [reciprocal, over_s]: [R; 2]) -> (R, R) {
-        let w = self.numerator * reciprocal;
-        let square = w * w;
-        // ½ artanh w = w · series.
+    pub fn finish(&self) -> (R, R) {
+        let square = self.w * self.w;
+        // ½ artanh w = w · series, and w/s = 1/t where k = 0.
         let series = square.mul_add(polynomial(R::HALF_ARTANH, square), R::splat(0.5));
-        let a = self.k.mul_add(R::splat(0.25 * LN_2), w * series);
-        (a, R::select(self.small, reciprocal * series, a * over_s))
+        let a = self.k.mul_add(R::splat(0.25 * LN_2), self.w * series);
+        (a, R::select(self.small, series, a) / self.divisor)
     }
 }
 
@@ -227,7 +192,6 @@ impl<R: Real> Exponent<R> {
 #[derive(Clone, Copy)]
 pub struct Power<R: Real> {
     logarithm: Logarithm<R>,
-    reciprocal: R,
     nonzero: R::Mask,
 }
 
@@ -236,14 +200,13 @@ impl<R: Real> Power<R> {
     #[inline(always)]
     pub fn new(i: R) -> Self {
         let least = R::splat(R::MIN_POSITIVE);
-        let logarithm = Logarithm::new(i.max(least));
-        Power { logarithm, reciprocal: logarithm.denominator().reciprocal(), nonzero: least.le(i) }
+        Power { logarithm: Logarithm::new(i.max(least)), nonzero: least.le(i) }
     }
 
     /// The second step: i^q = 2^n e^r, |r| ≤ ½ ln 2.
     #[inline(always)]
     pub fn reduce(&self, q: &Exponent<R>) -> Reduced<R> {
-        self.reduced(q, self.logarithm.k, self.logarithm.of_mantissa(self.reciprocal))
+        self.reduced(q, self.logarithm.k, self.logarithm.of_mantissa())
     }
 
     /// The first two steps and ln(1 + x), with both logarithms in one number, which must have room for two.
@@ -253,9 +216,8 @@ impl<R: Real> Power<R> {
         let least = R::splat(R::MIN_POSITIVE);
         let y = one + x;
         let logarithm = Logarithm::new(i.max(least).pair(y));
-        let reciprocal = logarithm.denominator().reciprocal();
-        let ([k, other_k], [ln_z, other]) = (logarithm.k.apart(), logarithm.of_mantissa(reciprocal).apart());
-        let power = Power { logarithm, reciprocal, nonzero: least.le(i) };
+        let ([k, other_k], [ln_z, other]) = (logarithm.k.apart(), logarithm.of_mantissa().apart());
+        let power = Power { logarithm, nonzero: least.le(i) };
         let lost = (x - (y - one)).mul_add(y.reciprocal(), other);
         (power.reduced(q, k, ln_z), other_k.mul_add(R::splat(LN_2), lost))
     }

@@ -25,6 +25,7 @@ impl Level {
     }
 
     /// The best level that this processor has.
+    #[inline(always)]
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
@@ -42,9 +43,13 @@ impl Level {
 }
 
 /// Whether the processor has AVX2 and fused multiply-add.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn has_fma() -> bool {
-    cpufeatures::new!(has_avx2, "avx2", "fma");
-    has_avx2::get()
+    #[cfg(target_arch = "x86_64")]
+    {
+        cpufeatures::new!(has_avx2, "avx2", "fma");
+        return has_avx2::get();
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    false
 }

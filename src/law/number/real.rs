@@ -26,9 +26,8 @@ pub trait Real:
     const SQUARES: (f64, f64);
     /// Whether the range is so wide that no stress except that of the longitudinal shear can overflow.
     const HEADROOM: bool;
-    /// Whether the time of a computation is that of its chain of dependent operations (latency), not that of their number
-    /// (throughput). Such a number has room for a second one, see [`pair`](Self::pair).
-    const WAITS: bool = false;
+    /// Whether there is room for a second number, see [`pair`](Self::pair).
+    const PAIRS: bool = false;
     /// Coefficients of the polynomials for ½ artanh, the logarithm and the exponential.
     const HALF_ARTANH: &'static [f64];
     const LN: &'static [f64];
@@ -61,7 +60,7 @@ pub trait Real:
     fn reciprocal(self) -> Self {
         Self::splat(1.0) / self
     }
-    /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`WAITS` is false).
+    /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`PAIRS` is false).
     #[inline(always)]
     fn pair(self, _other: Self) -> Self {
         self
@@ -142,29 +141,8 @@ pub trait Lanes<T>: Real {
         // SAFETY: the caller's promise; no register has more lanes.
         unsafe {
             fill.store(values);
-            Self::copy_first(from, 0, values, 0, 1, count);
+            values.copy_from_nonoverlapping(from, count);
             Self::load(values)
-        }
-    }
-    /// Copies the first lanes of `columns` columns, which are `from_next` and `to_next` values apart.
-    ///
-    /// # Safety
-    /// Each column has `count` values, fewer than `COUNT`, at both places, which do not overlap.
-    #[inline(always)]
-    unsafe fn copy_first(from: *const T, from_next: usize, to: *mut T, to_next: usize, columns: usize, count: usize) {
-        // The binary digits of the count: a loop over so few values would be compiled to a call.
-        let mut lane = 0;
-        for digit in [8, 4, 2, 1] {
-            if digit < Self::COUNT && count & digit != 0 {
-                for c in 0..columns {
-                    // SAFETY: the caller's promise: the digits add up to `count`.
-                    unsafe {
-                        let from = from.add(c * from_next + lane);
-                        to.add(c * to_next + lane).copy_from_nonoverlapping(from, digit);
-                    }
-                }
-                lane += digit;
-            }
         }
     }
     /// Stores the lanes for which a mask holds.

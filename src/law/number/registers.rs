@@ -18,9 +18,6 @@ pub trait Registers: Scalar {
     type Avx512: Lanes<Self>;
     /// One point, computed by the same operations as `Avx2`.
     #[cfg(target_arch = "x86_64")]
-    type One: Single<Self> + Lanes<Self>;
-    /// One point, computed by the shortest chain of dependent operations; AVX2 with fused multiply-add.
-    #[cfg(target_arch = "x86_64")]
     type Point: Single<Self> + Lanes<Self>;
 }
 
@@ -29,7 +26,6 @@ impl Registers for f64 {
     type Baseline = x86::F64x2;
     type Avx2 = x86::F64x4;
     type Avx512 = x86::F64x8;
-    type One = x86::F64x1;
     type Point = x86::F64Point;
 }
 
@@ -38,7 +34,6 @@ impl Registers for f32 {
     type Baseline = x86::F32x4;
     type Avx2 = x86::F32x8;
     type Avx512 = x86::F32x16;
-    type One = x86::F32x1;
     type Point = x86::F32Point;
 }
 

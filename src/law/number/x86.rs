@@ -34,8 +34,8 @@ macro_rules! register {
         quotient ($qx:ident, $qd:ident, $qr:ident) $quotient:expr;
         series $artanh:ident $ln:ident $exp:ident
         $(; store_where ($wm:ident, $wx:ident, $wto:ident) $store_where:expr)?
-        $(; load_first ($ffrom:ident, $fcount:ident, $fill:ident) $load_first:expr)? $(; copy_column ($gfrom:ident, $gto:ident, $gcount:ident) $copy_column:expr)?
-        $(; waits, pair ($pa:ident, $pb:ident) $pair:expr, apart ($pxy:ident) [$pfirst:expr, $psecond:expr])?
+        $(; load_first ($ffrom:ident, $fcount:ident, $fill:ident) $load_first:expr)?
+        $(; pair ($pa:ident, $pb:ident) $pair:expr, apart ($pxy:ident) [$pfirst:expr, $psecond:expr])?
     ) => {
         $(#[$doc])*
         #[derive(Clone, Copy)]
@@ -192,7 +192,7 @@ macro_rules! register {
                 $quotient
             }
             $(
-                const WAITS: bool = true;
+                const PAIRS: bool = true;
                 #[inline(always)]
                 fn pair(self, other: Self) -> Self {
                     let ($pa, $pb) = (self.0, other.0);
@@ -270,25 +270,6 @@ macro_rules! register {
                     let $fill = fill.0;
                     // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
                     $name(unsafe { $load_first })
-                }
-            )?
-            $(
-                #[inline(always)]
-                unsafe fn copy_first(
-                    from: *const $t,
-                    from_next: usize,
-                    to: *mut $t,
-                    to_next: usize,
-                    columns: usize,
-                    $gcount: usize,
-                ) {
-                    for c in 0..columns {
-                        // SAFETY: the dispatch has checked for the instructions, and the pointers are the caller's promise.
-                        unsafe {
-                            let ($gfrom, $gto) = (from.add(c * from_next), to.add(c * to_next));
-                            $copy_column
-                        }
-                    }
                 }
             )?
             #[inline(always)]
@@ -568,12 +549,7 @@ register! {
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x);
-    load_first (from, count, fill) _mm512_mask_loadu_pd(fill, __mmask8::MAX >> (Self::COUNT - count), from);
-    copy_column (from, to, count) {
-        let mask = __mmask8::MAX >> (Self::COUNT - count);
-        _mm512_mask_storeu_pd(to, mask, _mm512_maskz_loadu_pd(mask, from))
-    }
+    store_where (mask, x, to) _mm512_mask_storeu_pd(to, mask, x)
 }
 
 register! {
@@ -607,59 +583,12 @@ register! {
     };
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
-    store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x);
-    load_first (from, count, fill) _mm512_mask_loadu_ps(fill, __mmask16::MAX >> (Self::COUNT - count), from);
-    copy_column (from, to, count) {
-        let mask = __mmask16::MAX >> (Self::COUNT - count);
-        _mm512_mask_storeu_ps(to, mask, _mm512_maskz_loadu_ps(mask, from))
-    }
+    store_where (mask, x, to) _mm512_mask_storeu_ps(to, mask, x)
 }
 
 register! {
-    /// One point of double precision in all lanes of a register, AVX2 with FMA, by the same operations as [`F64x4`]: for a
-    /// block of a few points.
-    F64x1: f64 as u64 x 1 in __m128d / __m128i;
-    mask Mask64x2;
-    arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
-    bits _mm_castpd_si128 _mm_castsi128_pd _mm_set1_epi64x _mm_add_epi64 _mm_and_si128 _mm_or_si128 _mm_srli_epi64 _mm_slli_epi64;
-    memory _mm_load1_pd _mm_store_sd;
-    integers (x, to) *to = _mm_cvttsd_si32(x);
-    compare (a, b) Mask64x2(_mm_cmp_pd::<_CMP_LT_OQ>(a, b)), Mask64x2(_mm_cmp_pd::<_CMP_LE_OQ>(a, b));
-    any (mask) _mm_movemask_pd(mask.0) != 0;
-    select (mask, a, b) _mm_or_pd(_mm_and_pd(mask.0, a), _mm_andnot_pd(mask.0, b));
-    mul_add (a, b, c) _mm_fmadd_pd(a, b, c);
-    difference (a, b, c, d) fused_difference(a, b, c, d);
-    split (x) x.split_bits();
-    scale (x, k) x.scale_bits(k);
-    reciprocal (x) Self::splat(1.0) / x;
-    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series HALF_ARTANH_F64 LN_F64 EXP_F64
-}
-
-register! {
-    /// One point of single precision in all lanes of a register, by the same operations as [`F32x8`].
-    F32x1: f32 as u32 x 1 in __m128 / __m128i;
-    mask Mask32x4;
-    arithmetic _mm_set1_ps _mm_add_ps _mm_sub_ps _mm_mul_ps _mm_div_ps _mm_sqrt_ps _mm_max_ps _mm_min_ps;
-    bits _mm_castps_si128 _mm_castsi128_ps _mm_set1_epi32 _mm_add_epi32 _mm_and_si128 _mm_or_si128 _mm_srli_epi32 _mm_slli_epi32;
-    memory _mm_load1_ps _mm_store_ss;
-    integers (x, to) *to = _mm_cvttss_si32(x);
-    compare (a, b) Mask32x4(_mm_cmp_ps::<_CMP_LT_OQ>(a, b)), Mask32x4(_mm_cmp_ps::<_CMP_LE_OQ>(a, b));
-    any (mask) _mm_movemask_ps(mask.0) != 0;
-    select (mask, a, b) _mm_or_ps(_mm_and_ps(mask.0, a), _mm_andnot_ps(mask.0, b));
-    mul_add (a, b, c) _mm_fmadd_ps(a, b, c);
-    difference (a, b, c, d) fused_difference(a, b, c, d);
-    split (x) x.split_bits();
-    scale (x, k) x.scale_bits(k);
-    reciprocal (x) Self::splat(1.0) / x;
-    quotient (x, divisor, r) corrected_quotient(x, divisor, r);
-    series HALF_ARTANH_F32 LN_F32 EXP_F32
-}
-
-register! {
-    /// One point of double precision, AVX2 with FMA, evaluated by the shortest chain of dependent operations: for a call with
-    /// one point. Unlike with `f64`, a select is never compiled to a branch, and the compiler does not rearrange the
-    /// operations.
+    /// One point of double precision, AVX2 with FMA, by the same operations as [`F64x4`]. Unlike with `f64`, a select is never
+    /// compiled to a branch, and the compiler does not rearrange the operations.
     F64Point: f64 as u64 x 1 in __m128d / __m128i;
     mask Mask64x2;
     arithmetic _mm_set1_pd _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd _mm_max_pd _mm_min_pd;
@@ -676,7 +605,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F64 LN_F64 EXP_F64;
-    waits, pair (a, b) _mm_unpacklo_pd(a, b), apart (x) [_mm_unpacklo_pd(x, x), _mm_unpackhi_pd(x, x)]
+    pair (a, b) _mm_unpacklo_pd(a, b), apart (x) [_mm_unpacklo_pd(x, x), _mm_unpackhi_pd(x, x)]
 }
 
 register! {
@@ -697,7 +626,7 @@ register! {
     reciprocal (x) Self::splat(1.0) / x;
     quotient (x, divisor, r) corrected_quotient(x, divisor, r);
     series HALF_ARTANH_F32 LN_F32 EXP_F32;
-    waits, pair (a, b) _mm_unpacklo_ps(a, b), apart (x) [_mm_shuffle_ps::<0x00>(x, x), _mm_shuffle_ps::<0x55>(x, x)]
+    pair (a, b) _mm_unpacklo_ps(a, b), apart (x) [_mm_shuffle_ps::<0x00>(x, x), _mm_shuffle_ps::<0x55>(x, x)]
 }
 
 macro_rules! single {
@@ -721,7 +650,5 @@ macro_rules! single {
     };
 }
 
-single!(F64x1 of f64, _mm_cvtsd_f64);
-single!(F32x1 of f32, _mm_cvtss_f32);
 single!(F64Point of f64, _mm_cvtsd_f64);
 single!(F32Point of f32, _mm_cvtss_f32);
