@@ -19,6 +19,36 @@ const AREA: Dimension = Dimension { mass: 0, length: 2, time: 0, name: "area" };
 /// The strength over modulus times elongation at break: 1 of a fibre that is linear up to there.
 const LINEAR: std::ops::RangeInclusive<f64> = 0.7..=1.3;
 
+/// What fibres have, in SI units, with a margin: a value beyond is in another unit than it says, or of something else.
+struct Known {
+    range: [f64; 2],
+    text: &'static str,
+}
+
+/// Polypropylene 900 kg/m³, steel 7900; polyamide 2 GPa, pitch carbon 900; wool 0.15 GPa, carbon 7.
+const DENSITIES: Known = Known { range: [800.0, 9000.0], text: "0.8 to 9 g/cm³, as fibres have" };
+const MODULI: Known = Known { range: [5e8, 1e12], text: "0.5 to 1000 GPa, as fibres have" };
+const STRENGTHS: Known = Known { range: [5e7, 1.2e10], text: "0.05 to 12 GPa, as fibres have" };
+/// Of one of several filaments: microfibres have 3 µm, coarse ones 50.
+const DIAMETERS: Known = Known { range: [1e-6, 1e-4], text: "filaments of 1 to 100 µm" };
+
+impl Known {
+    /// # Errors
+    /// A value that no fibre has; `says` is what the file has of it.
+    fn check(&self, source: &Source, says: &str, value: f64, span: std::ops::Range<usize>) -> Result<(), Error> {
+        let [least, most] = self.range;
+        if (least..=most).contains(&value) {
+            return Ok(());
+        }
+        Err(source.error(span, &format!("{says}; allowed: {}", self.text)))
+    }
+}
+
+/// The thickness of a filament, of so many with sections of this area together.
+fn diameter(solid: f64, filaments: u32) -> f64 {
+    (4.0 * solid / (std::f64::consts::PI * f64::from(filaments))).sqrt()
+}
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DataSheetFile {
@@ -53,10 +83,20 @@ impl DataSheet {
         let file = sheet.get_ref();
         let one = |key: &str, text: &Spanned<String>, dimension| Ok(quantity(source, key, text, &[dimension])?.0);
         let density = one("density", &file.density, DENSITY)?;
+        let check = |known: &Known, key: &str, text: &Spanned<String>, value: f64| {
+            known.check(source, &format!("{key} is \"{}\"", text.get_ref()), value, text.span())
+        };
+        check(&DENSITIES, "density", &file.density, density)?;
         let stress = |key: &str, text: &Spanned<String>| {
             let (value, dimension) = quantity(source, key, text, &[STRESS, TENACITY])?;
             Ok::<f64, Error>(if dimension == TENACITY { density * value } else { value })
         };
+        let modulus = stress("modulus", &file.modulus)?;
+        check(&MODULI, "modulus", &file.modulus, modulus)?;
+        let strength = file.tenacity.as_ref().map(|text| stress("tenacity", text)).transpose()?;
+        if let Some((text, strength)) = file.tenacity.as_ref().zip(strength) {
+            check(&STRENGTHS, "tenacity", text, strength)?;
+        }
         let elongation = one("elongation_at_break", &file.elongation_at_break, NUMBER)?;
         if elongation > 1.0 {
             let message =
@@ -96,11 +136,23 @@ impl DataSheet {
         if let Some(filaments) = file.filaments.as_ref().filter(|filaments| *filaments.get_ref() == 0) {
             return Err(source.error(filaments.span(), "filaments is 0; allowed: a whole number from 1"));
         }
+        if let (Some(text), Some(solid), Some(filaments)) = (&file.linear_density, solid, &file.filaments)
+            && *filaments.get_ref() > 1
+        {
+            let diameter = diameter(solid, *filaments.get_ref());
+            let each = format!("each of {} filaments {} µm thick", filaments.get_ref(), digits(1e6 * diameter));
+            DIAMETERS.check(
+                source,
+                &format!("linear_density is \"{}\", {each}", text.get_ref()),
+                diameter,
+                text.span(),
+            )?;
+        }
         Ok(DataSheet {
             density,
-            modulus: Constant { value: stress("modulus", &file.modulus)?, deviation: modulus_deviation },
+            modulus: Constant { value: modulus, deviation: modulus_deviation },
             elongation,
-            strength: file.tenacity.as_ref().map(|text| stress("tenacity", text)).transpose()?,
+            strength,
             solid,
             filaments: file.filaments.as_ref().map(|filaments| *filaments.get_ref()),
             volume_fraction: Constant { value: fraction, deviation },
@@ -129,10 +181,7 @@ impl DataSheet {
         };
         let mut parts = vec![format!("the fibre has a modulus of {}", text(self.modulus.value, STRESS))];
         parts.extend(self.strength.map(|strength| format!("a strength of {}", text(strength, STRESS))));
-        let diameter = self
-            .solid
-            .zip(self.filaments)
-            .map(|(solid, filaments)| (4.0 * solid / (std::f64::consts::PI * f64::from(filaments))).sqrt());
+        let diameter = self.solid.zip(self.filaments).map(|(solid, filaments)| diameter(solid, filaments));
         parts.extend(diameter.map(|diameter| format!("a diameter of {}", text(diameter, LENGTH))));
         let mut summary = parts.join(", ");
         if let Some(solid) = self.solid {
@@ -235,6 +284,15 @@ mod tests {
             ("volume_fraction = 0.9", "volume_fraction = 1.2", "7: the fibres would be 1.2000 of the yarn's section"),
             ("volume_fraction = 0.9", "", "allowed: volume_fraction"),
             ("filaments = 768", "filaments = 0", "2: filaments is 0; allowed: a whole number from 1"),
+            // A thousand times too much or too little.
+            ("1.44 g/cm³", "1440 g/cm³", "3: density is \"1440 g/cm³\"; allowed: 0.8 to 9 g/cm³, as fibres have"),
+            ("1.44 g/cm³", "1.44 kg/m³", "3: density is \"1.44 kg/m³\"; allowed: 0.8 to 9 g/cm³"),
+            ("885 gf/denier", "112 TPa", "5: modulus is \"112 TPa\"; allowed: 0.5 to 1000 GPa, as fibres have"),
+            ("885 gf/denier", "112 MPa", "5: modulus is \"112 MPa\"; allowed: 0.5 to 1000 GPa"),
+            ("23.6 g/den", "3.6 MPa", "4: tenacity is \"3.6 MPa\"; allowed: 0.05 to 12 GPa, as fibres have"),
+            ("23.6 g/den", "3.6 TPa", "4: tenacity is \"3.6 TPa\"; allowed: 0.05 to 12 GPa"),
+            ("1140 den", "1.27 dtex", "1: linear_density is \"1.27 dtex\", each of 768 filaments 0.3"),
+            ("1140 den", "127 ktex", "1: linear_density is \"127 ktex\", each of 768 filaments 382"),
         ] {
             let error = read(&SHEET.replace(from, to)).expect_err(to);
             assert!(error.contains(message), "{error}");

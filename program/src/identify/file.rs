@@ -19,6 +19,9 @@ use crate::material::preset::{LONGEST_NAME, LawName, Preset};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::HYPERELASTIC;
 
+/// Two densities of a yarn are the same within this, which is more than rounding and less than a slip.
+const SAME_DENSITY: f64 = 0.005;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FitFile {
@@ -141,7 +144,19 @@ impl Job {
         let fibre = fibre.or_else(|| sheet.as_ref().map(|sheet| sheet.fibre(&units)));
         let base = file.yarn.preset.as_ref().map(|name| source.base(name, folder)).transpose()?;
         let mut preset = source.preset_to_be(&file, units)?;
-        preset.density = preset.density.or_else(|| sheet.as_ref().map(|sheet| sheet.density(&units)));
+        if let Some(sheet) = &sheet {
+            let of_sheet = sheet.density(&units);
+            if let Some(given) =
+                file.yarn.density.as_ref().filter(|given| (*given.get_ref() / of_sheet - 1.0).abs() > SAME_DENSITY)
+            {
+                let message = format!(
+                    "density is {}, and by [data_sheet] {of_sheet:.4e}, the fibre's times the volume fraction; allowed: one of them",
+                    given.get_ref()
+                );
+                return Err(source.error(given.span(), &message));
+            }
+            preset.density = Some(of_sheet);
+        }
         let mut known = [None; PARAMETERS];
         known.copy_from_slice(&preset.values[..PARAMETERS]);
         let reader = Reader { source: &source, folder, units: &units, known: &known };

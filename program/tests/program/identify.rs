@@ -514,6 +514,27 @@ fn yarns_from_data_sheets_are_presets_to_be_completed() {
     }
 }
 
+/// The yarn's density is the sheet's, whatever else the file says of it.
+#[test]
+fn a_density_beside_a_data_sheet_is_not_taken_in_silence() {
+    let sheet = "[data_sheet]\ndensity = \"1.44 g/cm³\"\nmodulus = \"500 cN/dtex\"\nelongation_at_break = \"3.5 %\"\n\
+                 volume_fraction = 0.8\n";
+    let read = |name: &str, density: &str| {
+        let file = new_folder(name).join("fit.toml");
+        std::fs::write(&file, format!("units = \"mm-tonne-s\"\n[yarn]\ndensity = {density}\n{sheet}")).expect("a file");
+        Job::read(&file)
+    };
+    let error = read("other-density", "1.44e-9").err().expect("a contradiction").to_string();
+    let wanted = "fit.toml:3: density is 0.00000000144, and by [data_sheet] 1.1520e-9, the fibre's times the volume \
+                  fraction; allowed: one of them";
+    assert!(error.ends_with(wanted), "{error}");
+    assert_relative_eq!(
+        read("same-density", "1.15e-9").expect("rounded").preset.density.expect("one"),
+        1.152e-9,
+        max_relative = 1e-12
+    );
+}
+
 /// A tensile test of a yarn with k_el = 80 000 MPa and an area of 0.1 mm², slack up to a strain of 0.5 %.
 fn slack_yarn(normal: &mut Normal, zero: f64) -> String {
     let rows = (0..60).map(|i| {
