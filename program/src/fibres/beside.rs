@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn a_history_is_read_between_its_lines() {
         let head = format!("{TIME},{}\n", COLUMNS.join(","));
-        let line = |time: f64, value: f64| format!("{time},{}\n", [value.to_string(); 6].join(","));
+        let line = |time: f64, value: f64| format!("{time},{}\n", vec![value.to_string(); COLUMNS.len()].join(","));
         let beside = Beside::parse(&(head + &line(0.0, 10.0) + &line(2.0, 20.0))).expect("a history");
         assert_eq!([-1.0, 0.0, 0.5, 2.0, 3.0].map(|time| beside.at("speed", time)), [10.0, 10.0, 12.5, 20.0, 20.0]);
         assert!(Beside::parse("time,speed\n0,1\n").expect_err("columns").contains("no column kinetic_energy"));

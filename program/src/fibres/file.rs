@@ -110,21 +110,22 @@ impl CaseFile {
         let driven = "belongs to striker = \"driven\", and a cylinder strikes; allowed: one of the two";
         let ellipse = "belongs to an ellipse, and section is circle; allowed: section = \"ellipse\"";
         let random = "belongs to a random packing, and packing is hexagonal; allowed: packing = \"random\"";
-        let strikes = |case: &CaseFile| case.striker() == StrikerName::Cylinder;
-        let keys: [(&str, Option<_>, &dyn Fn(&CaseFile) -> bool, &str); 9] = [
-            ("mass", number(&self.mass), &strikes, cylinder),
-            ("radius", number(&self.radius), &strikes, cylinder),
-            ("held", self.held.as_ref().map(Spanned::span), &strikes, cylinder),
-            ("projectile-friction", number(&self.projectile_friction), &strikes, cylinder),
-            ("projectile-stiffness", number(&self.projectile_stiffness), &strikes, cylinder),
-            ("ramp", number(&self.ramp), &|case| !strikes(case), driven),
-            ("aspect", number(&self.aspect), &|case| case.section() == SectionName::Ellipse, ellipse),
-            ("height", number(&self.height), &|case| case.section() == SectionName::Ellipse, ellipse),
-            ("seed", self.seed.as_ref().map(Spanned::span), &|case| case.packing() == PackingName::Random, random),
+        let strikes = cases.iter().any(|case| case.striker() == StrikerName::Cylinder);
+        let drives = cases.iter().any(|case| case.striker() == StrikerName::Driven);
+        let is_ellipse = cases.iter().any(|case| case.section() == SectionName::Ellipse);
+        let is_random = cases.iter().any(|case| case.packing() == PackingName::Random);
+        let keys = [
+            ("mass", number(&self.mass), strikes, cylinder),
+            ("radius", number(&self.radius), strikes, cylinder),
+            ("held", self.held.as_ref().map(Spanned::span), strikes, cylinder),
+            ("projectile-friction", number(&self.projectile_friction), strikes, cylinder),
+            ("projectile-stiffness", number(&self.projectile_stiffness), strikes, cylinder),
+            ("ramp", number(&self.ramp), drives, driven),
+            ("aspect", number(&self.aspect), is_ellipse, ellipse),
+            ("height", number(&self.height), is_ellipse, ellipse),
+            ("seed", self.seed.as_ref().map(Spanned::span), is_random, random),
         ];
-        let unread = |reads: &dyn Fn(&CaseFile) -> bool| !cases.iter().any(|case| reads(case));
-        let (key, span, _, message) =
-            keys.into_iter().filter(|(_, span, reads, _)| span.is_some() && unread(*reads)).next()?;
+        let (key, span, _, message) = keys.into_iter().find(|(_, span, is_read, _)| span.is_some() && !is_read)?;
         Some((span?, format!("{key} {message}")))
     }
 

@@ -38,7 +38,7 @@ pub fn beads(model: &Model) -> String {
     );
     let far =
         model.centres.iter().flatten().fold(model.diameter, |far: f64, x| far.max(x.abs())) + 4.0 * model.diameter;
-    let _ = write!(text, "{:e} {:e} xlo xhi\n", -model.spacing, model.half_length + model.spacing);
+    let _ = writeln!(text, "{:e} {:e} xlo xhi", -model.spacing, model.half_length + model.spacing);
     let _ = write!(text, "{:e} {far:e} ylo yhi\n{:e} {far:e} zlo zhi\n\nAtoms # hybrid\n\n", -far, -far);
     // LAMMPS takes a sphere's density; the bead at mid-span stands for half a spacing, and so does the clamped one.
     let volume = std::f64::consts::PI / 6.0 * model.diameter.powi(3);
@@ -253,7 +253,7 @@ fn measures(text: &mut String, model: &Model) {
     } else {
         text.push_str("compute contacts all pe pair\nvariable contact equal c_contacts\n");
     }
-    let _ = write!(text, "fix mean all ave/time {stride} {repeats} {} c_push {rub}\n", model.sample);
+    let _ = writeln!(text, "fix mean all ave/time {stride} {repeats} {} c_push {rub}", model.sample);
     let mut line = String::from(
         "$(step) $(time:%.9g) $(v_speed:%.9g) $(v_way:%.9g) $(f_mean[1]:%.9g) $(f_mean[2]:%.9g) $(c_kinetic:%.9g) \
          $(c_trusses:%.9g) $(v_contact:%.9g) $(v_pressed:%.9g) $(v_left) $(c_fastest:%.9g) $(c_longest:%.9g)",
