@@ -130,7 +130,8 @@ mod tests {
                 let apart = |other: &[f64; 2]| (x - other[0]).hypot(y - other[1]);
                 assert!(section.centres[..i].iter().all(|other| apart(other) > 1.0 - 1e-4));
             }
-            assert!(section.fraction() < 0.9069);
+            // One circle fills a circle.
+            assert!(fibres == 1 || section.fraction() < 0.9069);
         }
     }
 
