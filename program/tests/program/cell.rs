@@ -23,6 +23,7 @@ use toron_program::cell::disc::Disc;
 use toron_program::cell::energies::Increment;
 use toron_program::cell::explicit_run;
 use toron_program::cell::model::Model;
+use toron_program::cell::output;
 use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
@@ -181,6 +182,19 @@ fn fibres_at_random_are_pressed() {
     let expected = work - friction - work * (shares.viscosity + shares.contact);
     assert_within(energy, expected, 0.01);
     assert_eq!(outcome.shape.patches.len(), 8 * 48);
+    // The guide knows the columns, of this table and of those that other sections have.
+    let guide =
+        std::fs::read_to_string(Path::new(crate::library::ROOT).join("docs/guides/cell.md")).expect("the guide");
+    let boxed = Scene::read(&example("box.toml")).expect("the scene is valid");
+    let mut columns = 0;
+    for scene in [&scene, &Scene { explicit: true, ..boxed.clone() }, &Scene { explicit: false, ..boxed }] {
+        for title in output::table(scene, &outcome).lines().next().expect("a heading").split(',') {
+            let (name, _) = title.split_once(" (").unwrap_or((title, ""));
+            assert!(guide.contains(&format!("`{name}`")), "docs/guides/cell.md lacks the column {name}");
+            columns += 1;
+        }
+    }
+    assert!(columns > 12, "{columns}");
 }
 
 /// The files of a random packing, for which no CalculiX is needed.

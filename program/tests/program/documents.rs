@@ -529,6 +529,24 @@ fn the_readme_s_figures_of_the_panel_are_those_of_the_results() {
     );
 }
 
+/// The README's figure of the yarn is what its command gives, and that of the results.
+#[test]
+fn the_readme_s_figure_of_the_yarn_is_what_its_command_gives() {
+    let output = folder("documents-impact");
+    let command = "impact examples/yarn_impact/impact.toml";
+    let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
+    run(program.args(command.split(' ')).arg("-o").arg(&output).current_dir(ROOT), "");
+    let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
+    let lines: Vec<Vec<&str>> = summary.lines().map(|line| line.split(',').collect()).collect();
+    let place = lines[0].iter().position(|title| *title == "residual_speed").expect("a column");
+    let speed: f64 = lines[1][place].parse().expect("a speed");
+    let words: Vec<String> = read("../README.md").split_whitespace().map(String::from).collect();
+    let said = format!("the residual speed is {speed:.0} m/s at 120 m/s (thesis: 64;");
+    let words = words.join(" ");
+    assert!(words.contains(&format!("`toron {command}`")) && words.contains(&said), "README.md lacks {said}");
+    assert!(read("results/impact.md").contains(&format!("{speed:.1}")), "{speed}");
+}
+
 /// What a page tells to write and to type: its files, by the name in the line before, and its commands with what they print.
 enum Told {
     File { name: String, text: String },
@@ -581,14 +599,15 @@ fn follow_the_tutorial(name: &str, whole: bool) {
                 if words[0] != "fabric" {
                     assert_eq!(printed, output, "toron {}", words.join(" "));
                 } else if whole {
-                    // The last two columns are the time that it took.
-                    let cells = |text: &str| {
-                        let row = text.lines().find(|line| line.starts_with("scene ")).expect("a case").to_string();
-                        let mut cells: Vec<String> = row.split_whitespace().map(String::from).collect();
-                        cells.truncate(cells.len() - 2);
-                        cells
+                    // From the name to the deleted elements; then comes the time that it took.
+                    let row = |text: &str| {
+                        let row = text.lines().find(|line| line.starts_with("scene ")).expect("a case");
+                        row.split_whitespace().take(13).map(String::from).collect::<Vec<_>>()
                     };
-                    assert_eq!(cells(&printed), cells(&output));
+                    assert_eq!(row(&printed), row(&output));
+                    // What follows the table: yarns, warnings, files.
+                    let rest = |text: &str| text.split_once("\n\nYarns").map(|(_, rest)| rest.to_string());
+                    assert_eq!(rest(&printed), rest(&output));
                 } else {
                     assert_eq!(printed.lines().next(), output.lines().next());
                     assert!(place.join("strike/scene-panel-1.png").exists());
@@ -605,7 +624,7 @@ fn the_tutorial_does_what_it_says() {
 }
 
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "takes a minute: .ci/long documents"]
 fn the_tutorial_strikes_as_it_says() {
     follow_the_tutorial("tutorial-whole", true);
 }

@@ -524,7 +524,7 @@ fn a_density_beside_a_data_sheet_is_not_taken_in_silence() {
         std::fs::write(&file, format!("units = \"mm-tonne-s\"\n[yarn]\ndensity = {density}\n{sheet}")).expect("a file");
         Job::read(&file)
     };
-    let error = read("other-density", "1.44e-9").expect_err("a contradiction").to_string();
+    let error = read("other-density", "1.44e-9").map(|_| ()).expect_err("a contradiction").to_string();
     let wanted = "fit.toml:3: density is 0.00000000144, and by [data_sheet] 1.1520e-9, the fibre's times the volume \
                   fraction; allowed: one of them";
     assert!(error.ends_with(wanted), "{error}");
