@@ -48,7 +48,7 @@ pub(crate) fn has_fma() -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         cpufeatures::new!(has_avx2, "avx2", "fma");
-        return has_avx2::get();
+        has_avx2::get()
     }
     #[cfg(not(target_arch = "x86_64"))]
     false
