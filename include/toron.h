@@ -1316,8 +1316,8 @@ int32_t toron_hyperelastic_point_with_properties_f32(const float *properties,
  The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
 
  Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
- other points are not affected), and the message names the first point with that code, if `status` is null only where its F and fibre tell it; or a −1xx or −2xx
- code, and then nothing is written.
+ other points are not affected), and the message names the first point with that code (without `status` only if its F and fibre
+ still tell it); or a −1xx or −2xx code, and then nothing is written.
  */
 int32_t toron_hyperelastic_block_f64(const struct toron_hyperelastic_f64 *law,
                                      const struct toron_block_f64 *block,
@@ -1479,8 +1479,8 @@ int32_t toron_linear_elastic_increment_f32(const struct toron_linear_elastic_f32
  The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 
  Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state and axes; the others are not affected; the message names the first one, if `status` is null only where its F and directions tell it); or a −1xx or −2xx
- code, and nothing is written.
+ its state and axes; the others are not affected; the message names the first one, without `status` only if
+ its F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
  */
 int32_t toron_linear_elastic_block_f64(const struct toron_linear_elastic_f64 *law,
                                        const struct toron_linear_block_f64 *block,
