@@ -700,7 +700,9 @@ typedef struct toron_linear_point_f64 {
   const double *second_axis;
   /*
    In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
+   with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
+   smaller deviation is corrected.
    */
   double *axes;
   /*
@@ -767,7 +769,9 @@ typedef struct toron_linear_point_f32 {
   const float *second_axis;
   /*
    In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+   `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
+   with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
+   smaller deviation is corrected.
    */
   float *axes;
   /*
@@ -913,7 +917,8 @@ typedef struct toron_linear_block_f64 {
   const double *fibre[3];
   const double *second_axis[3];
   /*
-   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
+   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`, which are checked as
+   those of `toron_linear_point_f64`: the code of a point whose axes are not orthonormal is `TORON_MATERIAL_AXES`.
    */
   double *axes;
   /*
@@ -997,7 +1002,8 @@ typedef struct toron_linear_block_f32 {
   const float *fibre[3];
   const float *second_axis[3];
   /*
-   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
+   In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`, which are checked as
+   those of `toron_linear_point_f64`: the code of a point whose axes are not orthonormal is `TORON_MATERIAL_AXES`.
    */
   float *axes;
   /*
@@ -1310,8 +1316,8 @@ int32_t toron_hyperelastic_point_with_properties_f32(const float *properties,
  The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
 
  Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
- other points are not affected), and the message names the first point with that code if `status` is not null; or a −1xx or −2xx
- code, and then nothing is written.
+ other points are not affected), and the message names the first point with that code (without `status` only if its F and fibre
+ still tell it); or a −1xx or −2xx code, and then nothing is written.
  */
 int32_t toron_hyperelastic_block_f64(const struct toron_hyperelastic_f64 *law,
                                      const struct toron_block_f64 *block,
@@ -1473,8 +1479,8 @@ int32_t toron_linear_elastic_increment_f32(const struct toron_linear_elastic_f32
  The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 
  Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
- its state and axes; the others are not affected; the message names the first one if `status` is not null); or a −1xx or −2xx
- code, and nothing is written.
+ its state and axes; the others are not affected; the message names the first one, without `status` only if
+ its F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
  */
 int32_t toron_linear_elastic_block_f64(const struct toron_linear_elastic_f64 *law,
                                        const struct toron_linear_block_f64 *block,

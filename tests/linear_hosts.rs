@@ -350,6 +350,11 @@ fn the_data_check_of_a_vumat() {
     assert_near(&job.of(&job.stress, 1), &wanted, 1e-14, "stress");
     let state = job.of(&job.state, 1);
     assert!(state[..LINEAR_ALIVE].iter().all(|&x| x == 0.0) && state[LINEAR_ALIVE] == 1.0);
+    // An old energy that is no number deletes its point.
+    job.energy[1] = f64::NAN;
+    assert_eq!(job.step(linear_vumat_f64, [&rest, &rest], 0.0, &strain), status::STATE_NOT_FINITE);
+    assert_eq!((job.of(&job.state, 1)[LINEAR_FAILED..].to_vec(), job.energy[1]), (vec![1.0, 0.0], 0.0));
+    assert_eq!(job.of(&job.state, 0)[LINEAR_FAILED..], [0.0, 1.0]);
 }
 
 /// Plane-strain and axisymmetric elements have four components; both laws.
@@ -574,13 +579,16 @@ fn lsdyna_elements_that_fail() {
     }
 }
 
-/// A collapsed element whose history is this law's is deleted; it does not stop the job.
+/// A collapsed element whose history is this law's is deleted; it does not stop the job, as one without any F does.
 #[test]
 fn lsdyna_elements_that_collapse() {
     let mut hsv = [0.0; 28];
     hsv[19..].copy_from_slice(Matrix3::from_diagonal(&Vector3::new(1.01, 1.0, 1.0)).as_slice());
     let (mut sig, mut failed) = ([f64::NAN; 6], 7);
-    for (f, code, failel) in [(None, status::OK, 0), (Some(Matrix3::zeros()), status::INVERTED, 1)] {
+    let (flat, none) = (Matrix3::from_diagonal(&Vector3::new(1.0, 0.0, 1.0)), Matrix3::zeros());
+    let missing = status::NO_DEFORMATION_GRADIENT;
+    // The last one is refused, and what the one before it has written stays.
+    for (f, code, failel) in [(None, status::OK, 0), (Some(flat), status::INVERTED, 1), (Some(none), missing, 1)] {
         if let Some(f) = f {
             hsv[19..].copy_from_slice(f.as_slice());
         }

@@ -94,8 +94,8 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
 /// The hyperelastic law at a block of points, with or without a tangent: see `toron_block_f64`.
 ///
 /// Returns 0; or the most negative −3xx code of the points (a point with such a code has zero stress and keeps its state; the
-/// other points are not affected), and the message names the first point with that code if `status` is not null; or a −1xx or −2xx
-/// code, and then nothing is written.
+/// other points are not affected), and the message names the first point with that code (without `status` only if its F and fibre
+/// still tell it); or a −1xx or −2xx code, and then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     law: *const HyperelasticLaw<f64>,

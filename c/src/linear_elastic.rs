@@ -151,8 +151,8 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
 /// The linear elastic law over a step at a block of points: see `toron_linear_block_f64`.
 ///
 /// Returns the worst status code of the points: 0, or the most negative −3xx code (that point carries no stress and keeps
-/// its state and axes; the others are not affected; the message names the first one if `status` is not null); or a −1xx or −2xx
-/// code, and nothing is written.
+/// its state and axes; the others are not affected; the message names the first one, without `status` only if
+/// its F and directions still tell it); or a −1xx or −2xx code, and nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     law: *const LinearElasticLaw<f64>,

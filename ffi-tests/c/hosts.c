@@ -217,6 +217,8 @@ static void lsdyna_wrong_calls(void)
     const char *message = "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11";
     REFUSED(TORON_NO_DEFORMATION_GRADIENT, message, UMAT, good.cm, sig, hsv, STATE, failel);
     CHECK(untouched(sig, 6 * sizeof(real)) && untouched(failel, sizeof *failel), "nothing is written");
+    hsv[ALIVE] = 1;
+    REFUSED(TORON_NO_DEFORMATION_GRADIENT, message, UMAT, good.cm, sig, hsv, STATE, failel);
     v = good, v.hsvs = filled(0, (size_t)(HISTORY * good.nlq));
     lsdyna_refused(v, TORON_NO_DEFORMATION_GRADIENT, message);
     release();
@@ -226,7 +228,7 @@ static void lsdyna_wrong_calls(void)
 static void lsdyna_collapsed(void)
 {
     static const double gradients[][9] = {{0, 0, 0, 0, 1, 0, 0, 0, 1}, {1, 0, 0, 0, 0, 0, 0, 0, 1}, {0, 0.7, 0, 0, 1, 0, 0, 0.2, 1},
-                                          {0, 0, 1, 0, 0, 0, 0, 0, 0}, {0}};
+                                          {0, 0, 1, 0, 0, 0, 0, 0, 0}};
     for (size_t k = 0; k < 2 * sizeof gradients / sizeof *gradients; k++) {
         vector_block v = allocate(cases, 2);
         real *sig = reals(6), *hsv = filled(0, HISTORY);

@@ -386,6 +386,11 @@ static void block(int32_t rotation, int with_directions, int with_tangent, int w
             CHECK(memcmp(found, c, 81 * bytes) == 0 && (c[0] == 0) == (i == BAD), "point %zu: tangent", i);
         }
     }
+    /* Without the codes the point at fault is found again, unless the axes have been turned. */
+    b.status = NULL;
+    CHECK(evaluate_block(with_properties, properties, &b) == TORON_INVERTED, "%s", text);
+    const char *named = rotation == TORON_ROTATION_SPIN ? INVERTED_TEXT : "point 4, counted from 0: " INVERTED_TEXT;
+    CHECK(strcmp(text, named) == 0, "%s", text);
     release();
 }
 

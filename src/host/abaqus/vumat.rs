@@ -267,6 +267,9 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 at!(block.state_new, block, c, i) = if is_finite(old) { old } else { zero };
             }
             at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_new, block, L::FAILED, i);
+            let energy = *block.ener_intern_old.add(i);
+            code = if is_finite(energy) { code } else { status::STATE_NOT_FINITE };
+            *block.ener_intern_new.add(i) = if is_finite(energy) { energy } else { zero };
             if code != status::OK {
                 code = if (0..components).all(|c| is_finite(strain(c))) { code } else { status::NOT_FINITE };
                 for c in 0..components {
@@ -276,7 +279,6 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 at!(block.state_new, block, L::ALIVE, i) = zero;
             }
             worst = worst.min(code);
-            *block.ener_intern_new.add(i) = *block.ener_intern_old.add(i);
         }
     }
     worst

@@ -237,8 +237,33 @@ unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Bloc
             }
             (true, _) => raw_block_of(law, &block.plain_pointers())?,
         };
-        if worst == status::OK { Ok(worst) } else { of_points(worst, block.status, block.n) }
+        if worst == status::OK {
+            return Ok(worst);
+        }
+        if !block.status.is_null() {
+            return of_points(worst, block.status, block.n);
+        }
+        named(law, block, worst)
     }
+}
+
+/// The error of a block without status codes, after the call: of the first point at fault, if that can be told from F and fibre.
+///
+/// # Errors
+/// Always.
+///
+/// # Safety
+/// As for [`evaluate`], for a law and a block that have been checked.
+#[cold]
+#[inline(never)]
+unsafe fn named<T: Precision>(law: Law<'_, T>, block: &Block<T>, worst: i32) -> Result<i32, Error> {
+    let law = match law {
+        Law::Properties(properties) => Hyperelastic::new(properties)?,
+        Law::Prepared(prepared) => prepared.law(),
+    };
+    // SAFETY: the caller's promise.
+    let index = unsafe { law.at_fault(&block.pointers(), worst) };
+    Err(index.map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
 }
 
 /// Evaluates a block of one point, which takes less time on its own than in a register, by the same operations. Returns its status.

@@ -45,7 +45,9 @@ pub struct LinearPoint<T> {
     pub fibre: *const T,
     pub second_axis: *const T,
     /// In and out, 9: the current material axes in global coordinates, one after the other. Must not be null for
-    /// `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames.
+    /// `TORON_ROTATION_SPIN`, and start with those of `toron_linear_elastic_axes_f64`; not used for the other frames. They are checked:
+    /// with Q the matrix of the axes, `TORON_MATERIAL_AXES` is returned and nothing changed where the norm of QᵀQ − 1 exceeds 0.01; a
+    /// smaller deviation is corrected.
     pub axes: *mut T,
     /// In, 10: the old state; if null, all 0.
     pub state_old: *const T,
@@ -87,7 +89,8 @@ pub struct LinearBlock<T> {
     /// In, 3 components each: fibre direction and second axis of each point.
     pub fibre: [*const T; 3],
     pub second_axis: [*const T; 3],
-    /// In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`.
+    /// In and out, 9 components: the current material axes, for `TORON_ROTATION_SPIN`, which are checked as
+    /// those of `toron_linear_point_f64`: the code of a point whose axes are not orthonormal is `TORON_MATERIAL_AXES`.
     pub axes: *mut T,
     /// In, 10 components: the old state; if null, all 0.
     pub state_old: *const T,
@@ -243,8 +246,12 @@ unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<
     // SAFETY: the caller's promise.
     unsafe {
         let block = read(block, &mut room)?;
-        let worst = law.raw_block(&block.pointers()?)?;
-        of_points(worst, block.status, block.n)
+        let pointers = block.pointers()?;
+        let worst = law.raw_block(&pointers)?;
+        if worst == status::OK || !block.status.is_null() {
+            return of_points(worst, block.status, block.n);
+        }
+        Err(law.at_fault(&pointers, worst).map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
     }
 }
 

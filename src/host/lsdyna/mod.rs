@@ -186,9 +186,10 @@ impl History {
     ///
     /// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
     /// zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show. After a call,
-    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also 0 where
-    /// the element has collapsed, unless a first F is seen elsewhere. An NHV that is greater by 3 to 8 is
-    /// not detected if the first column of F then seems to be zero. Values that are not finite are left to the law.
+    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also with
+    /// rows or columns of zeros where the element has collapsed, unless a first F is seen elsewhere. Nine zeros are no F: an element
+    /// that collapses to a point in one step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first
+    /// column of F then seems to be zero. Values that are not finite are left to the law.
     fn is_plausible<T: Scalar>(&self, history: impl Fn(usize) -> T) -> bool {
         let f = self.variables;
         let h = |j: usize| -> f64 { history(j).into() };
@@ -205,6 +206,9 @@ impl History {
             let mut starts = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
             starts.any(is_at)
         };
+        if (f..f + 9).all(|j| h(j) == 0.0) {
+            return false;
+        }
         let [failed, alive] = [self.failed, self.alive].map(h);
         if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
             // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
@@ -212,6 +216,6 @@ impl History {
             let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
             return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
         }
-        (f..f + 9).any(|j| h(j) != 0.0) && !is_elsewhere()
+        !is_elsewhere()
     }
 }

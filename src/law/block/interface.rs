@@ -214,6 +214,38 @@ impl<T: Precision> Hyperelastic<T> {
     }
 }
 
+/// The number of points that are evaluated again at a time to find one at fault.
+const SEARCHED: usize = 32;
+
+impl<T: Precision> Hyperelastic<T> {
+    /// The first point of a block, which has been evaluated, that has this status code; `None` if that can no longer be told: nothing
+    /// is stored, and what depends on the old state or on the size of a result is not seen.
+    ///
+    /// # Safety
+    /// As for [`raw_block`](Self::raw_block), for the same block, after it.
+    pub(crate) unsafe fn at_fault(&self, block: &Pointers<T>, code: i32) -> Option<usize> {
+        for first in (0..block.n).step_by(SEARCHED) {
+            let mut codes = [status::OK; SEARCHED];
+            let points = block.from(first);
+            let points = Pointers {
+                n: points.n.min(SEARCHED),
+                strides: points.strides,
+                deformation_gradient: points.deformation_gradient,
+                fibre: points.fibre,
+                failure_old: points.failure_old,
+                status: codes.as_mut_ptr(),
+                level: points.level,
+                ..Pointers::without_arrays(0, points.leading_dimension)
+            };
+            // SAFETY: the caller's promise.
+            if unsafe { self.raw_block(&points) } == Ok(code) {
+                return codes.iter().position(|&found| found == code).map(|i| first + i);
+            }
+        }
+        None
+    }
+}
+
 /// As [`Hyperelastic::raw_block`], for a host that passes the properties, or a law prepared from them, with every block.
 ///
 /// # Errors
@@ -240,6 +272,44 @@ const FEW_APART: usize = 8;
 const COPIED: usize = 2 * STAGED * WIDEST;
 
 impl<T: Precision> LinearElastic<T> {
+    /// The first point of a block, which has been evaluated, that has this status code; `None` if that can no longer be told: nothing
+    /// is stored, and what depends on the old state, on axes that have been turned, or on the size of a result is not seen.
+    ///
+    /// # Safety
+    /// As for [`raw_block`](Self::raw_block), for the same block, after it.
+    pub(crate) unsafe fn at_fault(&self, block: &LinearPointers<T>, code: i32) -> Option<usize> {
+        if block.rotation == Rotation::Spin {
+            return None;
+        }
+        let strides = block.strides;
+        let from = |pointer: *const T, stride: usize, first: usize| match pointer.is_null() {
+            true => pointer,
+            false => pointer.wrapping_add(first * stride),
+        };
+        for first in (0..block.n).step_by(SEARCHED) {
+            let mut codes = [status::OK; SEARCHED];
+            let points = LinearPointers {
+                n: (block.n - first).min(SEARCHED),
+                strides,
+                f_old: block.f_old.map(|c| from(c, strides.deformation_gradient, first)),
+                f_new: block.f_new.map(|c| from(c, strides.deformation_gradient, first)),
+                fibre: block.fibre.map(|c| from(c, strides.fibre, first)),
+                second_axis: block.second_axis.map(|c| from(c, strides.fibre, first)),
+                state_old: from(block.state_old, strides.state, first),
+                rotation: block.rotation,
+                criterion: block.criterion,
+                status: codes.as_mut_ptr(),
+                level: block.level,
+                ..LinearPointers::without_arrays(0, block.leading_dimension)
+            };
+            // SAFETY: the caller's promise.
+            if unsafe { self.raw_block(&points) } == Ok(code) {
+                return codes.iter().position(|&found| found == code).map(|i| first + i);
+            }
+        }
+        None
+    }
+
     /// Evaluates a step at every point of a block of raw arrays. Returns the worst (most negative) of the status codes.
     ///
     /// # Errors
