@@ -117,8 +117,7 @@ static void ways_to_ask(int way)
     CHECK(evaluate_point(way, properties, &point) == TORON_INVERTED && strcmp(text, INVERTED_TEXT) == 0, "%s", text);
     CHECK(memcmp(state, new, ALIVE * sizeof(real)) == 0 && new[ALIVE] == 1 && stress[0] == 0, "a point at fault");
     fibre[0] = fibre[1] = fibre[2] = 0, point.fibre = fibre;
-    CHECK(evaluate_point(way, properties, &point) == TORON_FIBRE_DIRECTION, "%s", text);
-    CHECK(strcmp(text, "point 4, counted from 0: " NO_FIBRE_TEXT) == 0, "%s", text);
+    CHECK(evaluate_point(way, properties, &point) == TORON_FIBRE_DIRECTION && strcmp(text, NO_FIBRE_TEXT) == 0, "%s", text);
     release();
 }
 
@@ -273,7 +272,7 @@ static void wrong_points(void)
     for (int k = 0; k < 81; k++)
         CHECK(good.tangent[k] == 0, "entry %d", k);
     toron_block block = {.size = sizeof block, .n = 1, .deformation_gradient = {f}, .stress = {good.stress}};
-    REFUSED(TORON_INVERTED, INVERTED_TEXT, ENTRY(toron_hyperelastic_block), law, &block);
+    REFUSED(TORON_INVERTED, "point 0, counted from 0: " INVERTED_TEXT, ENTRY(toron_hyperelastic_block), law, &block);
     release();
 }
 
