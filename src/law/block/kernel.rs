@@ -1,7 +1,6 @@
 //! The kernel: each stage of the law is computed for several registers of points before the next stage.
 
 use core::mem::MaybeUninit;
-use core::ptr::null_mut;
 
 use super::pointers::Pointers;
 use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
@@ -172,13 +171,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
     let mut check = zero;
-    let mut places = Stage::new();
-    for k in 0..count {
-        // SAFETY: k < count ≤ STAGED.
-        unsafe { places.put(k, place::<T, R>(block, i, k)) };
-    }
-    // SAFETY: it is called with k < count.
-    let at = |k: usize| unsafe { *places.get(k) };
+    let at = |k: usize| place::<T, R>(block, i, k);
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
     // than a test at every store.
     let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];
@@ -541,23 +534,14 @@ fn prefetch<T, R: Lanes<T>, const COMPONENTS: usize>(wanted: bool, array: *mut T
     }
 }
 
-/// Where the old energies, invariants and failure index of the lanes from i on are; null for those that are not requested.
+/// Where the old energies, invariants and failure index of the lanes from i on are, each with whether it is requested.
 #[inline(always)]
-fn old_entries<T, const WANT: u8>(block: &Pointers<T>, i: usize) -> [*mut T; 9] {
+fn old_entries<T, const WANT: u8>(block: &Pointers<T>, i: usize) -> [(bool, *mut T); 9] {
     let (request, stride) = (request::<T, WANT>(block), block.leading_dimension);
-    let mut entries = [null_mut(); 9];
-    for c in 0..4 {
-        if request.energies {
-            entries[c] = block.energies.wrapping_add(c * stride + i);
-        }
-        if request.invariants {
-            entries[4 + c] = block.invariants.wrapping_add(c * stride + i);
-        }
-    }
-    if request.failure {
-        entries[8] = block.failure.wrapping_add(i);
-    }
-    entries
+    let energy = |c: usize| (request.energies, block.energies.wrapping_add(c * stride + i));
+    let invariant = |c: usize| (request.invariants, block.invariants.wrapping_add(c * stride + i));
+    let index = (request.failure, block.failure.wrapping_add(i));
+    [energy(0), energy(1), energy(2), energy(3), invariant(0), invariant(1), invariant(2), invariant(3), index]
 }
 
 /// The status codes of the points that have failed before or cannot be evaluated; 0 for the others.
@@ -575,8 +559,8 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
 ) -> R {
     let zero = R::splat(0.0);
     let mut finite = zero.le(zero);
-    for entry in old_entries::<T, WANT>(block, i) {
-        if !entry.is_null() {
+    for (requested, entry) in old_entries::<T, WANT>(block, i) {
+        if requested {
             // SAFETY: the caller's promise.
             finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
         }
@@ -597,8 +581,8 @@ unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(block: &Pointers
     let zero = R::splat(0.0);
     // SAFETY: the caller's promise: the arrays have the components, and the lanes from i on.
     unsafe {
-        for entry in old_entries::<T, WANT>(block, i) {
-            if !entry.is_null() {
+        for (requested, entry) in old_entries::<T, WANT>(block, i) {
+            if requested {
                 zero.store_where(!outcome.updated & !(R::load(entry) * zero).le(zero), entry);
             }
         }
