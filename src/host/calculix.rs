@@ -111,7 +111,7 @@ impl<const N: usize> Answer<N> {
 
 impl Sink<f64, 21> for &mut Answer<HYPERELASTIC_STATE> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+    fn take(self, point: Point<f64>, _: Option<f64>, moduli: [f64; 21]) {
         let [el, tc, td, ld] = point.modes;
         let [s11, s22, s33, s12, s23, s31] = core::array::from_fn(|c| el[c] + tc[c] + td[c] + ld[c]);
         self.stress = [s11, s22, s33, s12, s31, s23];

@@ -39,12 +39,13 @@ pub struct Point<T> {
 /// Takes the results of a point while they are still in registers: writing them to memory and copying them from there would
 /// make the processor wait.
 pub(crate) trait Sink<T, const N: usize> {
-    fn take(self, point: Point<T>, entries: [T; N]);
+    /// `inverse_jacobian` is 1/det F if the point has been evaluated with it at hand, `None` at any that keeps its old state.
+    fn take(self, point: Point<T>, inverse_jacobian: Option<T>, entries: [T; N]);
 }
 
 impl<T, const N: usize> Sink<T, N> for (&mut Point<T>, &mut [T; N]) {
     #[inline(always)]
-    fn take(self, point: Point<T>, entries: [T; N]) {
+    fn take(self, point: Point<T>, _: Option<T>, entries: [T; N]) {
         (*self.0, *self.1) = (point, entries);
     }
 }
@@ -311,7 +312,7 @@ impl<
         let law = self.source.whole()?;
         let state = core::array::from_fn(|c| self.state.entry(c));
         let (point, entries) = law.point_with(&self.f.columns(), self.fibre, &state, self.tangent.general());
-        self.sink.take(point, entries);
+        self.sink.take(point, None, entries);
         Ok(())
     }
 }
@@ -440,7 +441,7 @@ fn point_in<
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
         let code: f64 = law.status_code(f, &stretch, usable, latch).value().into();
         let wave_modulus = R::select(representable, r.wave_modulus, law.k_el).value();
-        sink.take(Point::unchanged(state, failed, wave_modulus, code as i32), [T::splat(0.0); N]);
+        sink.take(Point::unchanged(state, failed, wave_modulus, code as i32), None, [T::splat(0.0); N]);
         return Ok(());
     }
     let failed = h.failed.value();
@@ -453,7 +454,7 @@ fn point_in<
         wave_modulus: r.wave_modulus.value(),
         status: status::OK,
     };
-    sink.take(point, values(&entries));
+    sink.take(point, Some(stretch.inverse_jacobian.value()), values(&entries));
     Ok(())
 }
 

@@ -336,7 +336,7 @@ struct PointOfBlock<'a, T> {
 
 impl<T: Scalar> Sink<T, 0> for PointOfBlock<'_, T> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, _: [T; 0]) {
+    fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
         let PointOfBlock { block, code } = self;
         *code = point.status;
         let next = leading_dimension(block.leading_dimension, 1);

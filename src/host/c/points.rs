@@ -98,14 +98,14 @@ impl<T: Real> PointAnswer<'_, T> {
 
 impl<T: Real> Sink<T, 0> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, _: [T; 0]) {
+    fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
         self.put(&point);
     }
 }
 
 impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, moduli: [T; 21]) {
+    fn take(self, point: point::Point<T>, _: Option<T>, moduli: [T; 21]) {
         // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = Moduli(moduli).matrix() };
         self.put(&point);
@@ -114,7 +114,7 @@ impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
 
 impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, nominal: [T; 81]) {
+    fn take(self, point: point::Point<T>, _: Option<T>, nominal: [T; 81]) {
         // SAFETY: the function that makes this has room for the matrix.
         unsafe { *self.tangent.cast() = nominal };
         self.put(&point);
@@ -150,7 +150,7 @@ struct StressAnswer<'a, T, const STATE: bool> {
 
 impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, _: [T; 0]) {
+    fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
         *self.status = point.status;
         // SAFETY: `evaluate` makes this from arrays of these sizes.
         unsafe {

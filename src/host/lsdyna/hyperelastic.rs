@@ -100,7 +100,7 @@ struct Element<'a, T> {
 
 impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
     #[inline(always)]
-    fn take(self, point: Point<T>, _: [T; 0]) {
+    fn take(self, point: Point<T>, _: Option<T>, _: [T; 0]) {
         *self.status = point.status;
         // SAFETY: `scalar` makes this from pointers to arrays of these sizes, as its caller promises.
         unsafe {

@@ -140,14 +140,14 @@ impl ToHost<'_> {
 
 impl Sink<f64, 0> for ToHost<'_> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, _: [f64; 0]) {
+    fn take(self, point: Point<f64>, _: Option<f64>, _: [f64; 0]) {
         self.put(&point, true, |_| ());
     }
 }
 
 impl Sink<f64, 21> for ToHost<'_> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, moduli: [f64; 21]) {
+    fn take(self, point: Point<f64>, _: Option<f64>, moduli: [f64; 21]) {
         let rows = Moduli(moduli).matrix();
         if self.results.options.operator == Some(Operator::Material) {
             // SAFETY: MGIS's promise.
@@ -171,7 +171,7 @@ impl Sink<f64, 21> for ToHost<'_> {
 
 impl Sink<f64, 81> for ToHost<'_> {
     #[inline(always)]
-    fn take(self, point: Point<f64>, entries: [f64; 81]) {
+    fn take(self, point: Point<f64>, _: Option<f64>, entries: [f64; 81]) {
         let rows = nominal(|row, column| entries.get(row + 9 * column).copied().unwrap_or_default());
         // SAFETY: MGIS's promise.
         self.put(&point, true, |to| unsafe { to.store_operator(&rows) });
