@@ -12,7 +12,7 @@ use super::hosts::{Host, HostArrays, call, whole};
 use super::scene::{Scene, impacts};
 use crate::common::error::Error;
 use crate::entries::aligned::Aligned;
-use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
+use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{Given, Wanted};
 use toron::Hyperelastic;
 use toron::law::block::Arrays;
@@ -203,23 +203,25 @@ struct Calls {
 fn of_block(calls: Calls, n: usize) -> Result<Run, Error> {
     let properties = all_properties(properties().to_vec())?;
     let law = prepared(&properties).map_err(Error::Evaluation)?;
-    let mut scene = match calls.leading_dimension {
+    let scene = match calls.leading_dimension {
         Some(leading_dimension) => Scene::with_leading_dimension(n, leading_dimension, impacts()),
         None => Scene::<f64>::impact(n),
     };
     let array = |wanted: bool, components: usize| {
         Aligned::new(0.0, if wanted { components * scene.leading_dimension } else { 0 })
     };
-    let mut state = array(true, HYPERELASTIC_STATE);
-    let (old, mut tangent) = (array(calls.old_state_apart, HYPERELASTIC_STATE), array(calls.tangent, 36));
+    let (old, tangent) = (array(calls.old_state_apart, HYPERELASTIC_STATE), array(calls.tangent, 36));
+    // A caller sets up the structure once, for arrays that stay to the program's end.
+    let (state, old, tangent) =
+        (Box::leak(Box::new(array(true, HYPERELASTIC_STATE))), Box::leak(Box::new(old)), Box::leak(Box::new(tangent)));
+    let block = SolverBlock {
+        state_old: calls.old_state_apart.then_some(&**old),
+        tangent: calls.tangent.then_some(&mut **tangent),
+        ..whole(Box::leak(Box::new(scene)), state)
+    };
+    let mut block = block.arrays();
     Ok(Box::new(move || {
-        let block = SolverBlock {
-            state_old: calls.old_state_apart.then_some(&*old),
-            tangent: calls.tangent.then_some(&mut *tangent),
-            ..whole(&mut scene, &mut state)
-        };
-        let law = if calls.by_properties { Given::Properties(&properties) } else { Given::Prepared(&law) };
-        hyperelastic_block(law, block);
+        block.call(if calls.by_properties { Given::Properties(&properties) } else { Given::Prepared(&law) });
         Ok(())
     }))
 }

@@ -3,7 +3,7 @@
 
 use super::scene::Scene;
 use crate::entries::aligned::Aligned;
-use crate::entries::blocks::{SolverBlock, hyperelastic_block, prepared};
+use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{
     CalculixPoint, Given, LsdynaElement, LsdynaVector, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat,
     VumatArrays, Wanted,
@@ -172,7 +172,7 @@ pub fn call<T: Precision + BlockPrecision>(host: Host, scene: &mut Scene<T>, arr
         Host::PointWithProperties => {
             OnePoint::call_each(&mut scene.points, Given::Properties(properties), Wanted::State, tangent);
         }
-        Host::Block => drop(hyperelastic_block(law, whole(scene, &mut arrays.state))),
+        Host::Block => drop(whole(scene, &mut arrays.state).arrays().call(law)),
         Host::Vumat => {
             arrays.vumat.call(properties);
             let VumatArrays { state_old, state_new, .. } = &mut arrays.vumat;
@@ -229,7 +229,7 @@ fn blocks_of_groups<T: Precision + BlockPrecision>(scene: &mut Scene<T>, arrays:
             tangent: None,
             status: &mut scene.status[first..],
         };
-        hyperelastic_block(Given::Prepared(&arrays.law), block);
+        block.arrays().call(Given::Prepared(&arrays.law));
     }
 }
 

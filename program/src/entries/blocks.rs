@@ -1,6 +1,7 @@
 //! The blocks of an explicit solver, and the calls of the C entries on them.
 
 use std::ffi::c_char;
+use std::marker::PhantomData;
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
@@ -67,52 +68,69 @@ pub struct SolverBlock<'a, T> {
     pub status: &'a mut [i32],
 }
 
-/// The hyperelastic law at a block of points through `toron_hyperelastic_block_f64` or `_f32`, or their namesakes with properties, as
-/// an explicit solver calls it; returns the entry's code.
-///
-/// # Panics
-/// An array is shorter than its components need.
-pub fn hyperelastic_block<T: BlockPrecision>(law: Given<'_, T>, block: SolverBlock<'_, T>) -> i32 {
-    let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, tangent, .. } = block;
-    let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
-    let (density, wave_speed) = block.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
-    assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), HYPERELASTIC_STATE));
-    assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
-    assert!(tangent.as_ref().is_none_or(|to| holds(to.len(), 36)));
-    assert!(block.state_old.is_none_or(|old| holds(old.len(), HYPERELASTIC_STATE)));
-    let state = state.as_mut_ptr();
-    let old = block.state_old.map_or(state.cast_const(), <[T]>::as_ptr);
-    // SAFETY: the array holds all rows, as has just been seen.
-    let part = |wanted: bool, row: usize| if wanted { unsafe { state.add(row * stride) } } else { null_mut() };
-    // SAFETY: as above.
-    let old = |wanted: bool, row: usize| if wanted { unsafe { old.add(row * stride) } } else { null() };
-    let (energies, invariants) = (part(block.energies, ENERGIES), part(block.energies, INVARIANTS));
-    let failure = part(block.failure, FAILURE_INDEX);
-    let mut arrays = Block {
-        n,
-        leading_dimension: stride,
-        measure: c::TORON_TANGENT_MATERIAL,
-        energies_old: old(block.energies, ENERGIES),
-        invariants_old: old(block.energies, INVARIANTS),
-        failure_old: old(block.failure, FAILURE_INDEX),
-        density: density.into(),
-        energies,
-        invariants,
-        failure,
-        wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
-        tangent: tangent.map_or(null_mut(), <[T]>::as_mut_ptr),
-        status: status.as_mut_ptr(),
-        ..Block::empty()
-    };
-    arrays.deformation_gradient[0] = deformation_gradient.as_ptr();
-    arrays.stress[0] = stress.as_mut_ptr();
-    // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is elsewhere.
-    unsafe {
-        match law {
-            Given::Properties(values) => {
-                T::BLOCK_WITH_PROPERTIES(values.as_ptr(), values.len(), &arrays, null_mut(), 0)
+impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
+    /// The structure that the C entry takes, which may be passed to it again and again.
+    ///
+    /// # Panics
+    /// An array is shorter than its components need.
+    pub fn arrays(self) -> BlockArrays<'a, T> {
+        let SolverBlock { n, leading_dimension: stride, deformation_gradient, state, stress, status, tangent, .. } =
+            self;
+        let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
+        let (density, wave_speed) = self.wave_speed.map_or((T::default(), None), |(density, to)| (density, Some(to)));
+        assert!(n <= stride && holds(deformation_gradient.len(), 9) && holds(state.len(), HYPERELASTIC_STATE));
+        assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
+        assert!(tangent.as_ref().is_none_or(|to| holds(to.len(), 36)));
+        assert!(self.state_old.is_none_or(|old| holds(old.len(), HYPERELASTIC_STATE)));
+        let state = state.as_mut_ptr();
+        let old = self.state_old.map_or(state.cast_const(), <[T]>::as_ptr);
+        // SAFETY: the array holds all rows, as has just been seen.
+        let part = |wanted: bool, row: usize| if wanted { unsafe { state.add(row * stride) } } else { null_mut() };
+        // SAFETY: as above.
+        let old = |wanted: bool, row: usize| if wanted { unsafe { old.add(row * stride) } } else { null() };
+        let (energies, invariants) = (part(self.energies, ENERGIES), part(self.energies, INVARIANTS));
+        let failure = part(self.failure, FAILURE_INDEX);
+        let mut arrays = Block {
+            n,
+            leading_dimension: stride,
+            measure: c::TORON_TANGENT_MATERIAL,
+            energies_old: old(self.energies, ENERGIES),
+            invariants_old: old(self.energies, INVARIANTS),
+            failure_old: old(self.failure, FAILURE_INDEX),
+            density: density.into(),
+            energies,
+            invariants,
+            failure,
+            wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
+            tangent: tangent.map_or(null_mut(), <[T]>::as_mut_ptr),
+            status: status.as_mut_ptr(),
+            ..Block::empty()
+        };
+        arrays.deformation_gradient[0] = deformation_gradient.as_ptr();
+        arrays.stress[0] = stress.as_mut_ptr();
+        BlockArrays { arrays, borrowed: PhantomData }
+    }
+}
+
+/// The structure that the C entry takes for a [`SolverBlock`].
+pub struct BlockArrays<'a, T> {
+    arrays: Block<T>,
+    borrowed: PhantomData<&'a mut [T]>,
+}
+
+impl<T: BlockPrecision> BlockArrays<'_, T> {
+    /// The hyperelastic law at the points through `toron_hyperelastic_block_f64` or `_f32`, or their namesakes with properties, as an
+    /// explicit solver calls it; returns the entry's code.
+    #[inline]
+    pub fn call(&mut self, law: Given<'_, T>) -> i32 {
+        // SAFETY: the arrays have the sizes that the structure tells; the new state replaces the old one exactly, or is elsewhere.
+        unsafe {
+            match law {
+                Given::Properties(values) => {
+                    T::BLOCK_WITH_PROPERTIES(values.as_ptr(), values.len(), &self.arrays, null_mut(), 0)
+                }
+                Given::Prepared(law) => T::BLOCK(law, &self.arrays, null_mut(), 0),
             }
-            Given::Prepared(law) => T::BLOCK(law, &arrays, null_mut(), 0),
         }
     }
 }

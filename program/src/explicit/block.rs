@@ -11,7 +11,7 @@ use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
 use super::wave_bounds::Section;
-use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, hyperelastic_block, linear_elastic_block};
+use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
 use crate::entries::hosts::Given;
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
 use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
@@ -250,7 +250,7 @@ impl<T: Number> ElementBlock<T> {
             tangent: None,
             status: &mut scratch.status,
         };
-        hyperelastic_block(Given::Prepared(law), arrays)
+        arrays.arrays().call(Given::Prepared(law))
     }
 
     fn call_linear_elastic(
