@@ -130,7 +130,9 @@ impl Machine {
 /// The versions of what is linked: nalgebra from the lock file, libm and libmvec from the system.
 fn libraries() -> String {
     let lock = include_str!("../../Cargo.lock");
-    let version = lock.split("name = \"nalgebra\"\nversion = \"").nth(1).and_then(|rest| rest.split('"').next());
+    // That of this package: another one may use an older nalgebra.
+    let own = lock.split("name = \"toron\"\n").nth(1).and_then(|rest| rest.split("[[package]]").next()).unwrap_or("");
+    let version = own.split("\"nalgebra ").nth(1).and_then(|rest| rest.split('"').next());
     let system = Command::new("ldd").arg("--version").output().map(|output| output.stdout).unwrap_or_default();
     let system = String::from_utf8_lossy(&system).lines().next().unwrap_or("unknown").to_string();
     format!("nalgebra {}; libm, libmvec: {system}", version.unwrap_or("unknown"))

@@ -400,6 +400,49 @@ static void check_as_alone(const arrays_of_block *a, size_t i, const truth *t)
         CHECK(memcmp(&new[j], &a->state[j * a->ld + i], sizeof(real)) == 0, "case %d, state %d", t->id, (int)j);
 }
 
+/* So is its tangent, of each measure of 6×6, with or without the state, and with the wave speed. */
+static void tangents_alone(int way)
+{
+    enum { N = 5, LD = 7 };
+    for (int first = 0; first + N <= case_count; first += 3) {
+        real *properties = copied(cases[first].properties, PROPERTIES);
+        real *f = reals(9 * LD), *fibre = reals(3 * LD), *old = reals(STATE * LD);
+        for (size_t i = 0; i < N; i++) {
+            for (size_t c = 0; c < 9; c++)
+                f[c * LD + i] = (real)cases[first + (int)i].f[c];
+            for (size_t c = 0; c < 3; c++)
+                fibre[c * LD + i] = (real)cases[first + (int)i].properties[8 + c];
+            old[FAILED * LD + i] = i == 1;
+        }
+        f[2 * LD + 3] = first % 2 ? NAN : f[2 * LD + 3];
+        for (int variant = 0; variant < 24; variant++) {
+            real *of_all = reals(54 * LD), *alone = reals(54 * LD);
+            for (size_t i = 0; i <= N; i++) {
+                /* All first, then each. */
+                size_t from = i > 0 ? i - 1 : 0, n = i > 0 ? 1 : N;
+                real *to = i > 0 ? alone : of_all;
+                toron_block block = {.size = sizeof block, .n = n, .leading_dimension = LD, .measure = variant % 3, .density = density,
+                                     .deformation_gradient = {f + from}, .stress = {to + from}, .tangent = to + 6 * LD + from};
+                if (variant / 3 % 2)
+                    block.fibre[0] = fibre + from;
+                if (variant / 6 % 2) {
+                    block.energies = to + 42 * LD + from;
+                    block.invariants = to + (42 + INVARIANTS) * LD + from;
+                    block.failure = to + (42 + FAILURE) * LD + from;
+                    block.energies_old = old + from;
+                    block.invariants_old = old + INVARIANTS * LD + from;
+                    block.failure_old = old + FAILURE * LD + from;
+                    if (variant / 12)
+                        block.wave_speed = to + 53 * LD + from;
+                }
+                evaluate_block(way, properties, &block);
+            }
+            CHECK(same_bytes(alone, of_all, 54 * LD * sizeof(real)), "case %d, variant %d", cases[first].id, variant);
+        }
+        release();
+    }
+}
+
 static void blocks(int way)
 {
     for (int first = 0; first < case_count;) {
@@ -700,6 +743,7 @@ int main(int argc, char **argv)
         every_case(way);
         ways_to_ask(way);
         tangents(way);
+        tangents_alone(way);
         blocks(way);
         bad_points(way);
         for (unsigned inputs = 0; inputs < 4; inputs++)

@@ -110,6 +110,16 @@ impl<T: Real + Into<f64>> PreparedHyperelastic<T> {
     }
 }
 
+impl<T: Real> PreparedHyperelastic<T> {
+    /// The same law, not known to have its fibre along the first axis: the same values, but for the signs of zeros.
+    #[inline(always)]
+    pub(crate) fn with_axes_of_any_fibre(self) -> Self {
+        let PreparedHyperelastic(mut numbers) = self;
+        numbers[PreparedHyperelastic::COUNT - 1] = T::splat(0.0);
+        PreparedHyperelastic(numbers)
+    }
+}
+
 impl<T: Real + Into<f64>> Source<T> for &PreparedHyperelastic<T> {
     #[inline(always)]
     fn frame(&self) -> PropertyFrame<T> {

@@ -6,12 +6,12 @@ use core::ptr::{null, null_mut};
 use libc::{c_char, size_t};
 
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure};
-use super::constants::TORON_LEVEL_BASELINE;
+use super::constants::{TORON_LEVEL_BASELINE, TORON_TANGENT_NOMINAL};
 use super::prepared::{HyperelasticLaw, numbers};
 use crate::host::border::{Message, entry, of_points, properties};
 use crate::host::structures::{read, structures};
 use crate::law::block::{Law, MOST, Pointers, Precision, Strides, components, components_mut, distances, raw_block_of};
-use crate::law::derivative::{NoTangent, Stress};
+use crate::law::derivative::{NoTangent, SixBySix, Stress};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::{Level, has_fma};
@@ -24,6 +24,7 @@ use crate::law::response::Request;
 use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 use crate::law::tangent::Measure;
+use crate::law::voigt::Moduli;
 use crate::law::wave_speed;
 
 /// A block of points of the hyperelastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
@@ -119,16 +120,18 @@ impl<T: Scalar> Block<T> {
         others == 0 && self.leading_dimension <= MOST && self.n <= leading_dimension(self.leading_dimension, self.n)
     }
 
-    /// Whether it is a single point, and requests what most callers do, the stress with or without the state and the wave speed, at a
-    /// level whose lanes compute as a point on its own does.
+    /// Whether it is a single point, and requests what most callers do, the stress with or without the state, the wave speed and a
+    /// tangent of 6×6, at a level whose lanes compute as a point on its own does.
     #[inline(always)]
     fn is_usual_point(&self) -> bool {
         let no_state = self.energies.addr() | self.invariants.addr() | self.failure.addr() == 0;
         let state = !(self.energies.is_null() | self.invariants.is_null() | self.failure.is_null());
         let stress_alone = no_state & (self.failure_old.addr() | self.active.addr() | self.wave_speed.addr() == 0);
+        let nominal = !self.tangent.is_null() && self.measure == TORON_TANGENT_NOMINAL;
         self.n == 1
             && !(self.deformation_gradient[0].is_null() | self.stress[0].is_null())
-            && self.modes.addr() | self.tangent.addr() == 0
+            && self.modes.is_null()
+            && !nominal
             && state | stress_alone
             && self.level != TORON_LEVEL_BASELINE
             && has_fma()
@@ -275,20 +278,29 @@ unsafe fn named<T: Precision>(law: Law<'_, T>, block: &Block<T>, worst: i32) -> 
 /// As for [`evaluate`], for a block that [is plain](Block::is_plain) and [a usual point](Block::is_usual_point).
 #[inline(always)]
 unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Block<T>) -> Result<i32, Error> {
-    let (source, f, state, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
+    let (source, f, old, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
     // SAFETY: the caller's promise.
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
     let level = Level::Avx512;
     // What most callers want is compiled for them.
-    if !block.wave_speed.is_null() {
+    if !block.tangent.is_null() {
+        let state = !block.energies.is_null();
+        let wave_modulus = !block.wave_speed.is_null();
+        let request =
+            Request { energies: state, invariants: state, failure: state, wave_modulus, ..Request::STRESS_AND_STATE };
+        let tangent = SixBySix(request, measure(block.measure)?);
+        // As the lanes, which have no kernel of their own for the tangent of a fibre along the first axis.
+        let source = &law.with_axes_of_any_fibre();
+        evaluate_call(Call { source, f, fibre, state: old, tangent, sink }, level)?;
+    } else if !block.wave_speed.is_null() {
         let tangent = NoTangent(Request { wave_modulus: true, ..Request::STRESS_AND_STATE });
-        evaluate_call(Call { source, f, fibre, state, tangent, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, state: old, tangent, sink }, level)?;
     } else if block.energies.is_null() {
-        evaluate_call(Call { source, f, fibre, state, tangent: Stress::<false>, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, state: old, tangent: Stress::<false>, sink }, level)?;
     } else {
-        evaluate_call(Call { source, f, fibre, state, tangent: Stress::<true>, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, state: old, tangent: Stress::<true>, sink }, level)?;
     }
     Ok(code)
 }
@@ -334,9 +346,9 @@ struct PointOfBlock<'a, T> {
     code: &'a mut i32,
 }
 
-impl<T: Scalar> Sink<T, 0> for PointOfBlock<'_, T> {
+impl<T: Scalar> PointOfBlock<'_, T> {
     #[inline(always)]
-    fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
+    fn put(self, point: &point::Point<T>) {
         let PointOfBlock { block, code } = self;
         *code = point.status;
         let next = leading_dimension(block.leading_dimension, 1);
@@ -363,6 +375,25 @@ impl<T: Scalar> Sink<T, 0> for PointOfBlock<'_, T> {
             // SAFETY: as above.
             unsafe { *block.status = point.status };
         }
+    }
+}
+
+impl<T: Scalar> Sink<T, 0> for PointOfBlock<'_, T> {
+    #[inline(always)]
+    fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
+        self.put(&point);
+    }
+}
+
+impl<T: Scalar> Sink<T, 21> for PointOfBlock<'_, T> {
+    #[inline(always)]
+    fn take(self, point: point::Point<T>, _: Option<T>, moduli: [T; 21]) {
+        let next = leading_dimension(self.block.leading_dimension, 1);
+        for (c, &entry) in Moduli(moduli).matrix().as_flattened().iter().enumerate() {
+            // SAFETY: a block with a tangent has room for its 36 components; see `evaluate_point`.
+            unsafe { *self.block.tangent.add(c * next) = entry };
+        }
+        self.put(&point);
     }
 }
 
