@@ -134,7 +134,7 @@ impl<T: Precision + BlockPrecision> HostArrays<T> {
                 vumat.stretch[c * n + i] = half * (f(row, column) + f(column, row));
             }
             for (c, &value) in point.deformation_gradient.iter().enumerate() {
-                lsdyna_vector.history[(HYPERELASTIC_STATE + c) * n + i] = value;
+                lsdyna_vector.set_gradient(i, c, value);
                 groups[i / GROUP].gradient[c * OpenradiossGroup::<T>::LENGTH + i % GROUP] = value;
             }
         }

@@ -112,29 +112,33 @@ impl<T: BlockPrecision> LsdynaElement<T> {
     }
 }
 
-/// A vector of elements as LS-DYNA keeps it: `history` has the eleven state variables and the nine entries of F, component-major.
+/// A vector of elements as LS-DYNA keeps it, component-major: stress, and the history of eleven state variables and the nine entries
+/// of F. They lie behind each other, so that how they share the cache is the same in every program.
 #[derive(Debug)]
 pub struct LsdynaVector<T> {
-    pub n: usize,
-    pub stress: Aligned<T>,
-    pub history: Aligned<T>,
-    pub failed: Vec<c_int>,
+    n: usize,
+    arrays: Aligned<T>,
+    failed: Vec<c_int>,
 }
 
 impl<T: BlockPrecision> LsdynaVector<T> {
     pub fn new(n: usize) -> Self {
-        let array = |components: usize| Aligned::new(T::default(), components * n);
-        LsdynaVector { n, stress: array(6), history: array(HYPERELASTIC_STATE + 9), failed: vec![0; n] }
+        let arrays = Aligned::new(T::default(), (6 + HYPERELASTIC_STATE + 9) * n);
+        LsdynaVector { n, arrays, failed: vec![0; n] }
+    }
+
+    /// An entry of F by columns in an element's history.
+    pub fn set_gradient(&mut self, element: usize, entry: usize, value: T) {
+        self.arrays[(6 + HYPERELASTIC_STATE + entry) * self.n + element] = value;
     }
 
     /// Calls the entry; returns its status.
     pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
-        let n = self.n;
-        // By steps from one address: an array of addresses would be written and read again, of which the processor waits for.
-        let s1 = self.stress.as_mut_ptr();
+        // Each from the first: an array of addresses would be written and then read by parts, for which the processor waits.
+        let (n, s1) = (self.n, self.arrays.as_mut_ptr());
         let [s2, s3, s4] = [s1.wrapping_add(n), s1.wrapping_add(2 * n), s1.wrapping_add(3 * n)];
-        let [s5, s6] = [s1.wrapping_add(4 * n), s1.wrapping_add(5 * n)];
-        let (history, count, last) = (self.history.as_mut_ptr(), HYPERELASTIC_STATE as i32, n as i32);
+        let [s5, s6, history] = [s1.wrapping_add(4 * n), s1.wrapping_add(5 * n), s1.wrapping_add(6 * n)];
+        let (count, last) = (HYPERELASTIC_STATE as i32, n as i32);
         let (values, failed, nothing) = (properties.as_ptr(), self.failed.as_mut_ptr(), null_mut());
         // SAFETY: the arrays have the sizes that the entry asks for.
         unsafe { T::LSDYNA_VECTOR(values, s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed, nothing, 0) }
