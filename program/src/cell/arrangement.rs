@@ -145,8 +145,8 @@ fn places(contents: &BoxOf) -> Places {
             Places { centres: (0..rows).flat_map(row).collect(), size, area_of_fibre: height }
         }
         BoxOf::Random { fibres, seed } => {
-            let random_packing::Packing { centres, side } = random_packing::pack(fibres, seed);
-            Places { centres, size: [side, side], area_of_fibre: side * side / fibres as f64 }
+            let random_packing::Packing { centres, size } = random_packing::pack(fibres, 1.0, seed);
+            Places { centres, size, area_of_fibre: size[0] * size[1] / fibres as f64 }
         }
     }
 }

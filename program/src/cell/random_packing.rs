@@ -1,4 +1,4 @@
-//! Discs at random in a square box: they grow from points, push each other away, and grow until they are stuck.
+//! Discs at random in a box: they grow from points, push each other away, and grow until they are stuck.
 
 use fastrand::Rng;
 
@@ -13,33 +13,36 @@ const MOST_STEPS: usize = 20_000;
 const STEPS_NEARBY: usize = 50;
 const NEARBY: f64 = 1.3;
 
-/// So many discs of diameter 1 between the walls of a square box.
+/// So many discs of diameter 1 between the walls of a box.
 pub struct Packing {
     pub centres: Vec<[f64; 2]>,
-    pub side: f64,
+    /// Width and height of the box.
+    pub size: [f64; 2],
 }
 
-/// Packs the discs.
-pub fn pack(discs: usize, seed: u64) -> Packing {
+/// Packs the discs in a box of this width over its height.
+pub fn pack(discs: usize, aspect: f64, seed: u64) -> Packing {
+    let size = [aspect.sqrt(), 1.0 / aspect.sqrt()];
     let mut random = Rng::with_seed(seed);
-    let mut centres: Vec<[f64; 2]> = (0..discs).map(|_| [random.f64(), random.f64()]).collect();
+    let mut centres: Vec<[f64; 2]> = (0..discs).map(|_| size.map(|side| side * random.f64())).collect();
     let mut diameter = (LOOSE / (std::f64::consts::FRAC_PI_4 * discs as f64)).sqrt();
     let [mut growth, least] = GROWTH;
     let mut was_stuck = false;
     while growth > least {
-        let stuck = !relax(&mut centres, diameter);
+        let stuck = !relax(&mut centres, size, diameter);
         if stuck != was_stuck {
             growth *= 0.5;
         }
         was_stuck = stuck;
         diameter *= if stuck { 1.0 - growth } else { 1.0 + growth };
     }
-    Packing { centres: centres.iter().map(|centre| centre.map(|x| x / diameter)).collect(), side: 1.0 / diameter }
+    let scaled = |lengths: &[f64; 2]| lengths.map(|x| x / diameter);
+    Packing { centres: centres.iter().map(scaled).collect(), size: scaled(&size) }
 }
 
-/// Moves discs in a box of side 1 to where they overlap least, by the method FIRE (Bitzek and others, 2006): they roll down the energy
+/// Moves discs in a box of area 1 to where they overlap least, by the method FIRE (Bitzek and others, 2006): they roll down the energy
 /// of their overlaps and are stopped when they roll up. Returns whether none overlaps.
-fn relax(centres: &mut [[f64; 2]], diameter: f64) -> bool {
+fn relax(centres: &mut [[f64; 2]], size: [f64; 2], diameter: f64) -> bool {
     let zero = vec![[0.0; 2]; centres.len()];
     let mut velocities = zero.clone();
     let (mut time, mut steering, mut downhill) = (0.1, 0.1, 0);
@@ -49,7 +52,7 @@ fn relax(centres: &mut [[f64; 2]], diameter: f64) -> bool {
             near = pairs(centres, NEARBY * diameter);
         }
         let mut forces = zero.clone();
-        let energy = push(centres, &near, diameter, &mut forces);
+        let energy = push(centres, &near, size, diameter, &mut forces);
         let scale = diameter * diameter * centres.len() as f64;
         if energy < TOUCH * TOUCH * scale {
             return true;
@@ -95,7 +98,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Adds the forces of overlapping discs and walls, which are the overlaps; returns their energy.
-fn push(centres: &[[f64; 2]], near: &[[usize; 2]], diameter: f64, forces: &mut [[f64; 2]]) -> f64 {
+fn push(centres: &[[f64; 2]], near: &[[usize; 2]], size: [f64; 2], diameter: f64, forces: &mut [[f64; 2]]) -> f64 {
     let mut energy = 0.0;
     for &[i, j] in near {
         let apart = distance(centres[i], centres[j]);
@@ -109,10 +112,12 @@ fn push(centres: &[[f64; 2]], near: &[[usize; 2]], diameter: f64, forces: &mut [
             }
         }
     }
-    for (x, force) in centres.iter().flatten().zip(forces.iter_mut().flatten()) {
-        let inwards = x.clamp(0.5 * diameter, 1.0 - 0.5 * diameter) - x;
-        energy += 0.5 * inwards * inwards;
-        *force += inwards;
+    for (centre, force) in centres.iter().zip(forces.iter_mut()) {
+        for axis in 0..2 {
+            let inwards = centre[axis].clamp(0.5 * diameter, size[axis] - 0.5 * diameter) - centre[axis];
+            energy += 0.5 * inwards * inwards;
+            force[axis] += inwards;
+        }
     }
     energy
 }
@@ -124,8 +129,11 @@ mod tests {
     /// No disc overlaps another or a wall, and nearly all are held by three neighbours or walls at least.
     #[test]
     fn discs_are_stuck() {
-        for (discs, seed) in [(25, 1), (25, 2), (40, 1), (60, 1), (100, 1)] {
-            let Packing { centres, side } = pack(discs, seed);
+        for (discs, aspect, seed) in
+            [(25, 1.0, 1), (25, 1.0, 2), (40, 1.0, 1), (60, 1.0, 1), (100, 1.0, 1), (60, 3.0, 1)]
+        {
+            let Packing { centres, size } = pack(discs, aspect, seed);
+            assert!((size[0] / size[1] / aspect - 1.0).abs() < 1e-12, "{size:?}");
             let mut contacts = vec![0; discs];
             let mut gap = |gap: f64, disc: usize| {
                 assert!(gap > -1e-5, "{discs} discs, seed {seed}: {gap}");
@@ -137,11 +145,13 @@ mod tests {
                 gap(apart, j);
             }
             for (i, centre) in centres.iter().enumerate() {
-                centre.iter().for_each(|x| [x - 0.5, side - 0.5 - x].into_iter().for_each(|apart| gap(apart, i)));
+                for (x, side) in centre.iter().zip(size) {
+                    [x - 0.5, side - 0.5 - x].into_iter().for_each(|apart| gap(apart, i));
+                }
             }
             let loose = contacts.iter().filter(|&&count| count < 3).count();
             assert!(loose * 8 < discs, "{discs} discs, seed {seed}: {loose} are loose");
-            assert_eq!(pack(discs, seed).centres, centres);
+            assert_eq!(pack(discs, aspect, seed).centres, centres);
         }
     }
 }

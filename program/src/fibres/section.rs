@@ -6,7 +6,7 @@ use crate::cell::random_packing;
 
 /// Height of a row of hexagonal packing: √3/2.
 const ROW: f64 = 0.866_025_403_784_438_6;
-/// A random packing is cut out of a square that is larger by this, beside whose walls fibres lie in rows.
+/// A random packing is cut out of a box of so many times the fibres and 30 more, beside whose walls fibres lie in rows.
 const MARGIN: f64 = 1.4;
 const HALVINGS: usize = 60;
 
@@ -97,9 +97,14 @@ fn candidates(fibres: usize, aspect: f64, packing: Packing) -> Vec<[f64; 2]> {
             (-rows..=rows).flat_map(row).collect()
         }
         Packing::Random { seed } => {
-            let discs = (MARGIN * fibres as f64 * f64::max(aspect, 1.0 / aspect)) as usize + 30;
-            let random_packing::Packing { centres, side } = random_packing::pack(discs, seed);
-            centres.into_iter().map(|centre| centre.map(|x| x - 0.5 * side)).collect()
+            // In widths of the area that a fibre takes; an ellipse has the same margin on all sides as a circle.
+            let fibres = fibres as f64;
+            let across = (fibres / std::f64::consts::FRAC_PI_4).sqrt();
+            let margin = ((MARGIN * fibres).floor() + 30.0).sqrt() - across;
+            let [width, height] = [aspect.sqrt(), 1.0 / aspect.sqrt()].map(|part| part * across + margin);
+            let discs = (width * height).round() as usize;
+            let random_packing::Packing { centres, size } = random_packing::pack(discs, width / height, seed);
+            centres.into_iter().map(|[x, y]| [x - 0.5 * size[0], y - 0.5 * size[1]]).collect()
         }
     }
 }
