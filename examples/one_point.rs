@@ -11,7 +11,7 @@ use toron::{Hyperelastic, Request};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let units = UnitSystem::parse("mm-tonne-s").ok_or("no such unit system")?;
     let preset = parameters::preset("kevlar-km2-600").ok_or("no such preset")?;
-    let pairs = preset.table.iter().zip(preset.values);
+    let pairs = preset.table().iter().zip(preset.values);
     let properties: Vec<f64> = pairs.map(|(property, &value)| units.from_si(value, property.dimension)).collect();
     let law = Hyperelastic::<f64>::new(&properties)?;
 

@@ -59,8 +59,9 @@ fn tables(units: &UnitSystem) -> Result<String, Error> {
 
 /// One preset, and what makes a card of it.
 fn values(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
-    let (table, values) = (preset.law.table(), preset.complete(units)?);
-    Law::new(table, &values, Rotation::Fibre, Criterion::LargestPrincipal).map_err(|error| preset.law_error(&error))?;
+    let values = preset.complete(units)?;
+    Law::new(preset.law, &values, Rotation::Fibre, Criterion::LargestPrincipal)
+        .map_err(|error| preset.law_error(&error))?;
     let name = preset.file().unwrap_or(&preset.name);
     let deck = format!("toron deck --host HOST --preset {name} --units {}", units.names().join("-"));
     Ok(format!("{}\nAs a card for a solver: {deck}\n", preset_text(preset, units)?))

@@ -50,6 +50,13 @@ impl<T> From<Properties<T>> for [T; HYPERELASTIC_PROPERTIES] {
     }
 }
 
+impl<T> From<[T; HYPERELASTIC_PROPERTIES]> for Properties<T> {
+    #[inline(always)]
+    fn from([k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, m_1, m_2, m_3]: [T; HYPERELASTIC_PROPERTIES]) -> Self {
+        Properties { k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, fibre: [m_1, m_2, m_3] }
+    }
+}
+
 /// The hyperelastic law: its properties, checked, and what is derived from them once.
 #[derive(Clone, Copy, Debug)]
 pub struct Hyperelastic<R> {

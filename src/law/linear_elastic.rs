@@ -20,7 +20,7 @@ use super::number::vector::{
     Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
     sum, transposed, unit,
 };
-use super::parameters::{self, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
+use super::parameters::{self, LINEAR_ELASTIC_PROPERTIES, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use super::status;
 use super::stress::{largest_principal, turned};
@@ -45,6 +45,37 @@ pub enum Criterion {
     LargestPrincipal,
     /// The Cauchy stress along the material's first axis.
     FibreStress,
+}
+
+/// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
+/// [`parameters::LINEAR_ELASTIC`], which also gives their bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Properties<T> {
+    /// Young's moduli along and across the fibre, stresses.
+    pub e_1: T,
+    pub e_2: T,
+    /// Shear modulus, a stress.
+    pub g: T,
+    /// Stress at failure; 0: the yarn does not fail.
+    pub sigma_lim: T,
+    /// Fibre direction in the reference placement, of any length.
+    pub fibre: [T; 3],
+    /// Second axis, made orthogonal to the fibre, of any length; 0: any axis across the fibre.
+    pub second_axis: [T; 3],
+}
+
+impl<T> From<Properties<T>> for [T; LINEAR_ELASTIC_PROPERTIES] {
+    fn from(properties: Properties<T>) -> Self {
+        let Properties { e_1, e_2, g, sigma_lim, fibre: [m_1, m_2, m_3], second_axis: [n_1, n_2, n_3] } = properties;
+        [e_1, e_2, g, sigma_lim, m_1, m_2, m_3, n_1, n_2, n_3]
+    }
+}
+
+impl<T> From<[T; LINEAR_ELASTIC_PROPERTIES]> for Properties<T> {
+    #[inline(always)]
+    fn from([e_1, e_2, g, sigma_lim, m_1, m_2, m_3, n_1, n_2, n_3]: [T; LINEAR_ELASTIC_PROPERTIES]) -> Self {
+        Properties { e_1, e_2, g, sigma_lim, fibre: [m_1, m_2, m_3], second_axis: [n_1, n_2, n_3] }
+    }
 }
 
 /// The linear elastic law: its properties, checked, and its axes.
@@ -105,25 +136,25 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
     /// The first property that is wrong, with its value and what is allowed.
     pub fn new(properties: &[T]) -> Result<Self, Error> {
         check(&parameters::LINEAR_ELASTIC, properties)?;
-        let &[e_1, e_2, g, limit, m_1, m_2, m_3, n_1, n_2, n_3] = properties else {
+        let Ok(properties) = <&[T; LINEAR_ELASTIC_PROPERTIES]>::try_from(properties) else {
             return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
         };
+        let Properties { e_1, e_2, g, sigma_lim: limit, fibre, second_axis } = Properties::from(*properties);
         let direction = |index, name, value: [T; 3], wanted| {
             let (code, value) = (status::PROPERTY_DIRECTION, [value[0].into(), value[1].into(), value[2].into()]);
             Err(Error::Direction { code, index, name, value, wanted })
         };
-        let (frame, usable) = FibreFrame::new([m_1, m_2, m_3]);
+        let (frame, usable) = FibreFrame::new(fibre);
         if !usable {
-            return direction(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3], "any vector but zero");
+            return direction(LINEAR_FIBRE, "fibre direction", fibre, "any vector but zero");
         }
-        let second = [n_1, n_2, n_3];
-        let (axes, usable) = axes_of(&frame, second);
+        let (axes, usable) = axes_of(&frame, second_axis);
         if !usable {
             let wanted = "any vector that is not along the fibre, or zero";
-            return direction(LINEAR_SECOND_AXIS, "second axis", second, wanted);
+            return direction(LINEAR_SECOND_AXIS, "second axis", second_axis, wanted);
         }
         let zero = T::splat(0.0);
-        let second_axis = if is_zero(second) { [zero; 3] } else { FibreFrame::new(second).0.m };
+        let second_axis = if is_zero(second_axis) { [zero; 3] } else { FibreFrame::new(second_axis).0.m };
         Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes, second_axis })
     }
 

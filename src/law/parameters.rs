@@ -72,8 +72,12 @@ const fn component(name: &'static str, symbol: &'static str, default: f64, meani
 
 /// Number of properties of the hyperelastic law.
 pub const HYPERELASTIC_PROPERTIES: usize = 11;
-/// Index of the first component of the fibre direction among the properties of the hyperelastic law.
-pub const FIBRE: usize = 8;
+/// Indices among the properties of the hyperelastic law: the strain at failure, the weights of multiaxial failure, and the first
+/// component of the fibre direction.
+pub const EPS_LIM: usize = place(&HYPERELASTIC, "eps_lim");
+pub const ALPHA: usize = place(&HYPERELASTIC, "alpha");
+pub const BETA: usize = place(&HYPERELASTIC, "beta");
+pub const FIBRE: usize = place(&HYPERELASTIC, "m_1");
 
 /// The properties of the hyperelastic law, in the order in which every host passes them (Eq. 4.10–4.15, section 4.4.2).
 pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
@@ -102,10 +106,11 @@ pub static HYPERELASTIC: [Property; HYPERELASTIC_PROPERTIES] = [
 
 /// Number of properties of the linear elastic law.
 pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;
-/// Indices of the first components of the fibre direction and of the second axis among the properties of the linear elastic
-/// law.
-pub const LINEAR_FIBRE: usize = 4;
-pub const LINEAR_SECOND_AXIS: usize = 7;
+/// Indices among the properties of the linear elastic law: the stress at failure, and the first components of the fibre direction
+/// and of the second axis.
+pub const SIGMA_LIM: usize = place(&LINEAR_ELASTIC, "sigma_lim");
+pub const LINEAR_FIBRE: usize = place(&LINEAR_ELASTIC, "m_1");
+pub const LINEAR_SECOND_AXIS: usize = place(&LINEAR_ELASTIC, "n_1");
 
 /// The properties of the linear elastic orthotropic law (Tab. 4.4).
 pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
@@ -130,30 +135,75 @@ pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
     },
 ];
 
+/// Whether two names are the same, at compile time too.
+pub(crate) const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
+/// The index of the property of this name; for constants: a name that the table does not have is an error at compile time.
+pub const fn place(table: &[Property], name: &str) -> usize {
+    let mut i = 0;
+    while !same(table[i].name, name) {
+        i += 1;
+    }
+    i
+}
+
+/// The laws of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LawName {
+    Hyperelastic,
+    LinearElastic,
+}
+
+impl LawName {
+    pub const ALL: [LawName; 2] = [LawName::Hyperelastic, LawName::LinearElastic];
+
+    /// The law's properties.
+    pub const fn properties(self) -> &'static [Property] {
+        match self {
+            LawName::Hyperelastic => &HYPERELASTIC,
+            LawName::LinearElastic => &LINEAR_ELASTIC,
+        }
+    }
+}
+
 /// A named set of properties in SI units, and the density of the same yarn.
 #[derive(Debug)]
 pub struct Preset {
     pub name: &'static str,
-    pub table: &'static [Property],
-    /// One value for each row of `table`.
+    pub law: LawName,
+    /// One value for each of the law's properties.
     pub values: &'static [f64],
     /// Reference density in kg/m³.
     pub density: f64,
     pub source: &'static str,
 }
 
+impl Preset {
+    /// The rows of which `values` has the values.
+    pub fn table(&self) -> &'static [Property] {
+        self.law.properties()
+    }
+}
+
 /// The presets of the library.
 pub static PRESETS: [Preset; 2] = [
     Preset {
         name: "kevlar-km2-600",
-        table: &HYPERELASTIC,
+        law: LawName::Hyperelastic,
         values: &[82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier: del Sorbo 2019, Tab. 4.3, 4.5 (multiaxial failure); woven: k_ld 5 to 20 MPa",
     },
     Preset {
         name: "kevlar-km2-600-linear",
-        table: &LINEAR_ELASTIC,
+        law: LawName::LinearElastic,
         values: &[79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         density: 1351.4,
         source: "Kevlar KM2 600 denier, 400 fibres: del Sorbo 2019, Tab. 4.4",

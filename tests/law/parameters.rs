@@ -3,9 +3,8 @@
 use std::collections::HashSet;
 
 use toron::Error;
-use toron::Hyperelastic;
 use toron::host::units::UnitSystem;
-use toron::law::linear_elastic::LinearElastic;
+use toron::law::linear_elastic::{self, LinearElastic};
 use toron::law::parameters::{
     self, DENSITY, HYPERELASTIC, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC, LINEAR_ELASTIC_PROPERTIES, NUMBER, PRESETS,
     STRESS, preset,
@@ -13,6 +12,7 @@ use toron::law::parameters::{
 use toron::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use toron::law::state::{self, StateVariable};
 use toron::law::status;
+use toron::{Hyperelastic, Properties};
 
 const YARN: [f64; HYPERELASTIC_PROPERTIES] = [82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0];
 const LINEAR: [f64; LINEAR_ELASTIC_PROPERTIES] = [79.414e9, 0.794e9, 0.126e9, 3.637e9, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -194,9 +194,6 @@ fn tables() {
         names(table.iter().map(|row| row.name));
     }
 
-    assert_eq!(HYPERELASTIC[parameters::FIBRE].name, "m_1");
-    assert_eq!(LINEAR_ELASTIC[parameters::LINEAR_FIBRE].name, "m_1");
-    assert_eq!(LINEAR_ELASTIC[parameters::LINEAR_SECOND_AXIS].name, "n_1");
     let places = [(state::ENERGIES, "w_el"), (state::INVARIANTS, "i_el"), (state::FAILURE_INDEX, "failure_index")];
     for (place, name) in places.into_iter().chain([(state::FAILED, "failed"), (state::ALIVE, "alive")]) {
         assert_eq!(state::HYPERELASTIC[place].name, name);
@@ -237,7 +234,7 @@ fn presets() {
     let names = PRESETS.iter().map(|preset| preset.name).collect::<HashSet<_>>();
     assert_eq!(names.len(), PRESETS.len());
     for preset in &PRESETS {
-        assert!(toron::law::bounds::check(preset.table, preset.values).is_ok(), "{}", preset.name);
+        assert!(toron::law::bounds::check(preset.table(), preset.values).is_ok(), "{}", preset.name);
         assert_eq!(preset.density, 1351.4);
     }
 }
@@ -344,4 +341,27 @@ fn prepared_laws_hold_these_numbers() {
         79414.0, 794.0, 794.0, 126.0, 126.0, 126.0, 3637.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0,
     ];
     assert_eq!(PreparedLinearElastic::from(&linear).0, wanted);
+}
+
+/// Asserts that these fields have the values of the rows of the same names, whose values are their places.
+macro_rules! assert_rows {
+    ($properties:ident, $table:ident, $($field:ident)*) => {
+        $(assert_eq!($properties.$field, parameters::place(&$table, stringify!($field)), stringify!($field));)*
+    };
+}
+
+#[test]
+fn properties_by_name_are_the_rows_of_the_tables() {
+    let places = core::array::from_fn(|i| i);
+    let properties = Properties::from(places);
+    assert_rows!(properties, HYPERELASTIC, k_el k_tc p k_td k_ld eps_lim alpha beta);
+    assert_eq!(properties.fibre, ["m_1", "m_2", "m_3"].map(|name| parameters::place(&HYPERELASTIC, name)));
+    assert_eq!(<[usize; parameters::HYPERELASTIC_PROPERTIES]>::from(properties), places);
+
+    let places = core::array::from_fn(|i| i);
+    let properties = linear_elastic::Properties::from(places);
+    assert_rows!(properties, LINEAR_ELASTIC, e_1 e_2 g sigma_lim);
+    assert_eq!(properties.fibre, ["m_1", "m_2", "m_3"].map(|name| parameters::place(&LINEAR_ELASTIC, name)));
+    assert_eq!(properties.second_axis, ["n_1", "n_2", "n_3"].map(|name| parameters::place(&LINEAR_ELASTIC, name)));
+    assert_eq!(<[usize; parameters::LINEAR_ELASTIC_PROPERTIES]>::from(properties), places);
 }

@@ -6,7 +6,6 @@ use std::fmt::Write;
 use super::material::{Material, WIDE};
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::material::model::deletion_variable;
 use crate::material::preset::LawName;
 
 /// Which of the two solvers the card is for.
@@ -38,7 +37,7 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
-        Solver::Explicit | Solver::Both => format!(", DELETE={}", deletion_variable(material.table()) + 1),
+        Solver::Explicit | Solver::Both => format!(", DELETE={}", material.interface().openradioss.alive + 1),
     };
     let variables = material.interface().state;
     let _ = writeln!(card, "*DEPVAR{delete}\n{},", variables.len());

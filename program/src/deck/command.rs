@@ -116,10 +116,10 @@ fn preset(arguments: &Arguments, law: Option<LawName>) -> Result<Preset, Error> 
             Preset::parse(&file, &text)?
         }
         (None, None) => {
-            let table = law.unwrap_or(LawName::Hyperelastic).table();
-            let first = PRESETS.iter().find(|preset| std::ptr::eq(preset.table, table));
-            first
-                .map(Preset::from)
+            let law = law.unwrap_or(LawName::Hyperelastic);
+            let mut presets = PRESETS.iter().map(Preset::from);
+            presets
+                .find(|preset| preset.law == law)
                 .ok_or_else(|| Error::Input("--preset is missing; allowed: a name or a file".into()))?
         }
     };

@@ -1,7 +1,7 @@
 //! The material of a card: values in the deck's units, and the comments that all cards have.
 
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{DENSITY, Dimension, FIBRE, LINEAR_FIBRE, NUMBER, Property, STRESS};
+use toron::law::parameters::{DENSITY, Dimension, NUMBER, Property, STRESS};
 use toron::{Criterion, Hyperelastic, LinearElastic, Rotation};
 
 use super::interface::Interface;
@@ -34,11 +34,11 @@ impl Material {
     /// A property that is missing, or values that the law refuses.
     pub fn new(preset: &Preset, units: &UnitSystem, fibre: Option<[f64; 3]>) -> Result<Material, Error> {
         let mut values = preset.complete(units)?;
-        let first = first_of_fibre(preset.law);
+        let first = preset.law.first_of_fibre();
         if let Some(fibre) = fibre {
             values[first..first + 3].copy_from_slice(&fibre);
         }
-        let law = Law::new(preset.law.table(), &values, Rotation::Fibre, Criterion::LargestPrincipal);
+        let law = Law::new(preset.law, &values, Rotation::Fibre, Criterion::LargestPrincipal);
         law.map_err(|error| match error {
             toron::Error::Direction { .. } if fibre.is_some() => Error::Input(format!("--fibre: {error}")),
             error => preset.law_error(&error),
@@ -90,7 +90,7 @@ impl Material {
 
     /// Where the fibre's three components are among the values.
     pub fn fibre(&self) -> std::ops::Range<usize> {
-        let first = first_of_fibre(self.law);
+        let first = self.law.first_of_fibre();
         first..first + 3
     }
 
@@ -110,13 +110,6 @@ impl Material {
     /// The unit of a value, in ASCII; empty for a number.
     pub fn unit(&self, dimension: Dimension) -> String {
         if dimension == NUMBER { String::new() } else { ascii(&unit(&self.units, dimension)) }
-    }
-}
-
-fn first_of_fibre(law: LawName) -> usize {
-    match law {
-        LawName::Hyperelastic => FIBRE,
-        LawName::LinearElastic => LINEAR_FIBRE,
     }
 }
 

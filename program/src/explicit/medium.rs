@@ -10,6 +10,7 @@ use crate::material::model::{Law, Material};
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use toron::law::state::{FAILED, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
+use toron::law::{hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
 
 /// Coefficients of hourglass control and viscosity.
@@ -66,25 +67,19 @@ impl<T: Number> Medium<T> {
     /// # Errors
     /// The frame is the spin's, which needs axes of its own; a property that is wrong.
     pub fn new(material: &Material, density: f64, control: Control) -> Result<Self, Error> {
-        let property = |name: &str| material.property(name).unwrap_or_default();
-        let (entry, along, across, shear) = match &material.law {
-            Law::Hyperelastic(_) => {
-                let mut properties = [T::default(); HYPERELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
+        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
+        let (entry, along, across, shear, distortion, strength) = match material.law {
+            Law::Hyperelastic { properties, .. } => {
+                let values = <[f64; HYPERELASTIC_PROPERTIES]>::from(properties);
                 // W = k_tc |I_tc|^p + ½ k_td I_td² by one transverse logarithmic strain, of which I_tc and I_td are half;
                 // with p >= 2 this is its stiffness at |I_tc| = 1, and less before. I_td is half of a shear, too.
-                let p = property("p");
-                let across = (p * (p - 1.0) * property("k_tc") + property("k_td")) / 4.0;
-                let law = prepared(&properties).map_err(Error::Input)?;
-                (Entry::Hyperelastic(law), property("k_el"), across, property("k_td") / 4.0)
+                let hyperelastic::Properties { k_el, k_tc, p, k_td, .. } = properties;
+                let across = (p * (p - 1.0) * k_tc + k_td) / 4.0;
+                let law = prepared(&values.map(T::from_f64)).map_err(Error::Input)?;
+                (Entry::Hyperelastic(law), k_el, across, k_td / 4.0, k_td, 0.0)
             }
-            Law::LinearElastic { law, frame, criterion } => {
-                let mut properties = [T::default(); LINEAR_ELASTIC_PROPERTIES];
-                for (to, &from) in properties.iter_mut().zip(&material.values) {
-                    *to = T::from_f64(from);
-                }
+            Law::LinearElastic { law, properties, frame, criterion } => {
+                let values = <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(properties);
                 let frame = match frame {
                     Rotation::Fibre => LinearFrame::Fibre,
                     Rotation::Polar => LinearFrame::Polar,
@@ -96,14 +91,12 @@ impl<T: Number> Medium<T> {
                     Criterion::LargestPrincipal => TORON_CRITERION_PRINCIPAL,
                     Criterion::FibreStress => TORON_CRITERION_FIBRE,
                 };
-                let [across, shear] = [property("e_2"), property("g")];
-                let prepared = prepared_linear(&properties).map_err(Error::Input)?;
-                let modulus = property("e_1");
-                (Entry::LinearElastic { law: prepared, modulus, frame, criterion }, law.wave_modulus(), across, shear)
+                let prepared = prepared_linear(&values.map(T::from_f64)).map_err(Error::Input)?;
+                let linear_elastic::Properties { e_1, e_2, g, sigma_lim, .. } = properties;
+                let entry = Entry::LinearElastic { law: prepared, modulus: e_1, frame, criterion };
+                (entry, law.wave_modulus(), e_2, g, e_2, sigma_lim)
             }
         };
-        // What resists a section's distortion: the modes bend and shear elements mostly across the fibre.
-        let distortion = material.property("k_td").or(material.property("e_2")).unwrap_or_default();
         Ok(Medium {
             entry,
             density,
@@ -111,7 +104,7 @@ impl<T: Number> Medium<T> {
             hourglass: control.hourglass * distortion,
             bounds: if control.by_direction { WaveBounds::of(material) } else { WaveBounds::Isotropic },
             fails: material.can_fail(),
-            strength: property("sigma_lim"),
+            strength,
             wave_speed: (along / density).sqrt(),
             compaction_speed: (across / density).sqrt(),
             distortion_speed: (shear / density).sqrt(),

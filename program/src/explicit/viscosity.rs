@@ -162,9 +162,10 @@ mod tests {
 
     fn medium() -> Medium<f64> {
         let preset = parameters::preset("kevlar-km2-600").expect("it exists");
-        let law = Law::new(preset.table, preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
-        let (values, density) = (preset.values.to_vec(), preset.density);
-        let material = Material { law, values, density: Some(density), label: String::new(), own: String::new() };
+        let law =
+            Law::new(preset.law.into(), preset.values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+        let density = preset.density;
+        let material = Material { law, density: Some(density), label: String::new(), own: String::new() };
         Medium::new(&material, density, CONTROL).expect("valid")
     }
 

@@ -16,6 +16,7 @@
 use super::lanes::{LANES, Lanes, Number, dot, load, times};
 use crate::material::model::{Law, Material};
 use toron::Rotation;
+use toron::law::{hyperelastic, linear_elastic};
 
 /// What the bounds are made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,18 +47,17 @@ impl WaveBounds {
     /// By direction where that is known for a material: a compaction with p below 2 is infinitely stiff at first, and the
     /// first axis of the linear law may leave the fibre.
     pub fn of(material: &Material) -> WaveBounds {
-        let property = |name: &str| material.property(name).unwrap_or_default();
-        match &material.law {
-            Law::Hyperelastic(_) if property("p") >= 2.0 => WaveBounds::Hyperelastic {
-                k_el: property("k_el"),
-                k_tc: property("k_tc"),
-                p: property("p"),
-                k_td: property("k_td"),
-                k_ld: property("k_ld"),
-            },
-            Law::LinearElastic { frame: Rotation::Fibre, .. } => {
-                WaveBounds::LinearElastic { along: property("e_1"), across: property("e_2") + 2.0 * property("g") }
+        match material.law {
+            Law::Hyperelastic { properties: hyperelastic::Properties { k_el, k_tc, p, k_td, k_ld, .. }, .. }
+                if p >= 2.0 =>
+            {
+                WaveBounds::Hyperelastic { k_el, k_tc, p, k_td, k_ld }
             }
+            Law::LinearElastic {
+                frame: Rotation::Fibre,
+                properties: linear_elastic::Properties { e_1, e_2, g, .. },
+                ..
+            } => WaveBounds::LinearElastic { along: e_1, across: e_2 + 2.0 * g },
             _ => WaveBounds::Isotropic,
         }
     }
@@ -138,15 +138,15 @@ mod tests {
     fn turning(preset: &str, k_ld: f64, rotation: Rotation) -> Material {
         let preset = parameters::preset(preset).expect("it exists");
         let mut values = preset.values.to_vec();
-        for (value, property) in values.iter_mut().zip(preset.table) {
+        for (value, property) in values.iter_mut().zip(preset.table()) {
             match property.name {
                 "k_ld" => *value = k_ld,
                 "eps_lim" | "sigma_lim" | "alpha" | "beta" => *value = 0.0,
                 _ => {}
             }
         }
-        let law = Law::new(preset.table, &values, rotation, Criterion::LargestPrincipal).expect("valid");
-        Material { law, values, density: Some(preset.density), label: String::new(), own: String::new() }
+        let law = Law::new(preset.law.into(), &values, rotation, Criterion::LargestPrincipal).expect("valid");
+        Material { law, density: Some(preset.density), label: String::new(), own: String::new() }
     }
 
     /// A and B at a deformation gradient with this stress.

@@ -145,7 +145,8 @@ fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Fin
 fn shear(case: &Case, measures: &Measures) -> Option<Finding> {
     let exceeds = measures.shear.is_nan() || measures.shear > LARGEST_SHEAR;
     exceeds.then(|| {
-        let k_ld = case.zones.materials().iter().filter_map(|material| material.property("k_ld")).fold(0.0, largest);
+        let k_ld =
+            case.zones.materials().iter().filter_map(|material| material.longitudinal_shear()).fold(0.0, largest);
         let text = format!(
             "W_ld of longitudinal shear is {:.0} % of what the laws store, more than {:.0} %:\n\
              take a finer mesh, or another k_ld than {}",

@@ -27,7 +27,8 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
 
 /// The cases in whose sections nothing carries shear along the fibres.
 fn sliding(results: &Results) -> String {
-    let slides = |case: &&Case| case.zones.materials().iter().any(|material| material.property("k_ld") == Some(0.0));
+    let slides =
+        |case: &&Case| case.zones.materials().iter().any(|material| material.longitudinal_shear() == Some(0.0));
     let cases: Vec<&str> = results.iter().map(|(case, ..)| *case).filter(slides).map(|case| &*case.name).collect();
     if cases.is_empty() {
         return String::new();

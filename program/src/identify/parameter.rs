@@ -1,7 +1,7 @@
 //! The properties of the hyperelastic law that data can tell.
 
-use toron::Hyperelastic;
-use toron::law::parameters::{HYPERELASTIC, HYPERELASTIC_PROPERTIES, Property};
+use toron::law::parameters::{HYPERELASTIC, Property};
+use toron::{Hyperelastic, Properties};
 
 /// Number of parameters: the properties of the law before the fibre direction.
 pub const PARAMETERS: usize = 8;
@@ -99,15 +99,17 @@ impl Parameter {
     }
 }
 
+/// The law's properties with these parameters and this fibre direction.
+pub fn properties(&[k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta]: &Values, fibre: [f64; 3]) -> Properties<f64> {
+    Properties { k_el, k_tc, p, k_td, k_ld, eps_lim, alpha, beta, fibre }
+}
+
 /// The law with these parameters and this fibre direction.
 ///
 /// # Errors
 /// The first property that is wrong.
 pub fn law(values: &Values, fibre: [f64; 3]) -> Result<Hyperelastic<f64>, toron::Error> {
-    let mut properties = [0.0; HYPERELASTIC_PROPERTIES];
-    properties[..PARAMETERS].copy_from_slice(values);
-    properties[PARAMETERS..].copy_from_slice(&fibre);
-    Hyperelastic::new(&properties)
+    Hyperelastic::with(properties(values, fibre))
 }
 
 #[cfg(test)]

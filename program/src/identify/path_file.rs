@@ -48,7 +48,7 @@ pub(super) fn set(
     if load_path.units != *reader.units {
         return refuse("it is in other units; allowed: those of the fit");
     }
-    if !matches!(load_path.points[0].material.law, Law::Hyperelastic(_)) {
+    if !matches!(load_path.points[0].material.law, Law::Hyperelastic { .. }) {
         return refuse("its material is linear elastic; allowed: the hyperelastic law");
     }
     if load_path.steps.iter().any(|step| step.rotation.is_some()) {

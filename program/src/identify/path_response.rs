@@ -46,7 +46,8 @@ impl PathResponse {
     /// The parameters of the path's own material, near which the answer is sought. A stiffness of 0 that compaction or distortion
     /// may have is replaced by a small one: with 0 nothing would depend on p, nor on what holds against it.
     pub fn trial(&self) -> Values {
-        let mut values: Values = std::array::from_fn(|i| self.material().values[i]);
+        let own = self.material().values();
+        let mut values: Values = std::array::from_fn(|i| own[i]);
         let largest = values[..4].iter().copied().fold(0.0, f64::max);
         for stiffness in [Parameter::KTc, Parameter::KTd] {
             let value = &mut values[stiffness.index()];
@@ -79,10 +80,9 @@ impl PathResponse {
         let mut intact = *values;
         intact[Parameter::EpsLim.index()] = 0.0;
         let fibre: [f64; 3] = self.material().fibre().into();
-        let law = parameter::law(&intact, fibre).map_err(|error| error.to_string())?;
-        let mut material = self.material().clone();
-        material.law = Law::Hyperelastic(law);
-        material.values[..PARAMETERS].copy_from_slice(&intact);
+        let properties = parameter::properties(&intact, fibre);
+        let law = toron::Hyperelastic::with(properties).map_err(|error| error.to_string())?;
+        let material = Material { law: Law::Hyperelastic { law, properties }, ..self.material().clone() };
         let point = Point { name: self.path.points[0].name.clone(), material };
         let history = run::run_point(&self.path, &point, &|| {});
         if let End::Failed(reason) | End::Stopped(reason) = history.end {

@@ -18,8 +18,7 @@ use crate::common::units::{SPEED, number, unit};
 use crate::impact::run::{self, Observer};
 use crate::impact::scene::{Case, Scene, Zones};
 use crate::material::model::{Law, Material};
-use toron::law::parameters::{DENSITY, ENERGY_DENSITY, HYPERELASTIC};
-use toron::{Criterion, Rotation};
+use toron::law::parameters::{DENSITY, ENERGY_DENSITY};
 
 /// A run of a case.
 #[derive(Clone, Debug)]
@@ -55,7 +54,7 @@ impl Observer for Unwatched {
 /// A scene with another yarn than a hyperelastic one, or a run that is not stable.
 pub fn trials(job: &Job, fit: &Fit, scene: &Scene) -> Result<Vec<Trial>, Error> {
     for case in &scene.cases {
-        if !matches!(&case.zones, Zones::One(material) if matches!(material.law, Law::Hyperelastic(_))) {
+        if !matches!(&case.zones, Zones::One(material) if matches!(material.law, Law::Hyperelastic { .. })) {
             let message =
                 format!("case {}: not hyperelastic throughout; allowed with --scene: yarns that are", case.name);
             return Err(Error::Input(message));
@@ -140,7 +139,8 @@ fn trial(job: &Job, scene: &Scene, index: usize, set: &Set) -> Result<Trial, Err
 
 /// Whether a case keeps its own value: one without failure, or with uniaxial failure, stays so.
 fn kept(material: &Material, parameter: Parameter) -> bool {
-    let absent = |parameter: Parameter| material.values[parameter.index()] == 0.0;
+    let values = material.values();
+    let absent = |parameter: Parameter| values[parameter.index()] == 0.0;
     let unlimited = absent(Parameter::EpsLim);
     match parameter {
         Parameter::EpsLim => unlimited,
@@ -151,17 +151,16 @@ fn kept(material: &Material, parameter: Parameter) -> bool {
 
 /// The case's material with these parameters.
 fn with(job: &Job, scene: &Scene, material: &Material, set: &Set) -> Result<Material, Error> {
-    let mut changed = material.clone();
+    let (mut changed, mut values) = (material.clone(), material.values());
     for parameter in ALL.into_iter().filter(|&parameter| !kept(material, parameter)) {
         let Some(value) = set.values[parameter.index()] else { continue };
         let dimension = parameter.property().dimension;
-        changed.values[parameter.index()] = job.units.scale(dimension).convert(value, &scene.units.scale(dimension));
+        values[parameter.index()] = job.units.scale(dimension).convert(value, &scene.units.scale(dimension));
     }
     if let Some(density) = job.preset.density {
         changed.density = Some(job.units.scale(DENSITY).convert(density, &scene.units.scale(DENSITY)));
     }
-    changed.law = Law::new(&HYPERELASTIC, &changed.values, Rotation::Fibre, Criterion::LargestPrincipal)
-        .map_err(|error| Error::Evaluation(format!("{}: {error}", set.name)))?;
+    changed.law = changed.law.with(&values).map_err(|error| Error::Evaluation(format!("{}: {error}", set.name)))?;
     Ok(changed)
 }
 

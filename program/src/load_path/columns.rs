@@ -27,7 +27,7 @@ pub fn columns(material: &Material) -> Vec<Column> {
     group("F", &COMPONENT_NAMES, NUMBER);
     group("cauchy_", &SYMMETRIC_NAMES, STRESS);
     group("P", &COMPONENT_NAMES, STRESS);
-    if let Law::Hyperelastic(_) = material.law {
+    if let Law::Hyperelastic { .. } = material.law {
         for mode in MODES {
             group(&format!("S_{mode}_"), &SYMMETRIC_NAMES, STRESS);
         }

@@ -73,7 +73,7 @@ fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
         limit,
     };
     let (title, deformation, energies) = match material.law {
-        Law::Hyperelastic(_) => {
+        Law::Hyperelastic { .. } => {
             ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
         }
         Law::LinearElastic { .. } => {
@@ -120,11 +120,11 @@ fn index(history: &History) -> Vec<Series> {
     let total = |i: &Increment| material.failure_index(&i.answer.memory);
     // Where the fibre is not in tension the index is 0, whatever its terms.
     let term = |m: usize| {
-        let value = |i: &Increment| if total(i) > 0.0 { material.failure_terms(&i.answer.memory)[m] } else { 0.0 };
-        line(history, MODE_NAMES[m], COLOURS[m], value)
+        let terms = |i: &Increment| material.failure_terms(&i.answer.memory).filter(|_| total(i) > 0.0);
+        line(history, MODE_NAMES[m], COLOURS[m], |i| terms(i).map_or(0.0, |terms| terms[m]))
     };
     let mut series: Vec<Series> = match material.law {
-        Law::Hyperelastic(_) => (0..3).map(term).collect(),
+        Law::Hyperelastic { .. } => (0..3).map(term).collect(),
         Law::LinearElastic { .. } => Vec::new(),
     };
     series.push(line(history, "index", INK, total));

@@ -78,11 +78,11 @@ fn energies(path: &LoadPath, history: &History) -> Vec<(String, String)> {
     let material = &history.point.material;
     let parts = |increment: &Increment| -> Vec<f64> {
         match material.law {
-            Law::Hyperelastic(_) => increment.answer.memory.state[ENERGIES..INVARIANTS].to_vec(),
+            Law::Hyperelastic { .. } => increment.answer.memory.state[ENERGIES..INVARIANTS].to_vec(),
             Law::LinearElastic { .. } => vec![material.energy(&increment.answer.memory)],
         }
     };
-    let names: &[&str] = if let Law::Hyperelastic(_) = material.law { &MODE_NAMES } else { &["work per volume"] };
+    let names: &[&str] = if let Law::Hyperelastic { .. } = material.law { &MODE_NAMES } else { &["work per volume"] };
     let Some(last) = history.increments.last().map(parts) else { return Vec::new() };
     let largest = history.increments.iter().map(parts).fold(vec![0.0; names.len()], |largest, parts| {
         largest.iter().zip(parts).map(|(a, b): (&f64, f64)| a.max(b)).collect()
@@ -111,8 +111,8 @@ fn failure(path: &LoadPath, history: &History) -> Vec<(&'static str, String)> {
 
 /// The terms whose sum is the hyperelastic law's failure index.
 fn parts(material: &Material, increment: &Increment) -> String {
-    let Law::Hyperelastic(_) = material.law else { return String::new() };
-    let [elongation, compaction, distortion] = material.failure_terms(&increment.answer.memory).map(number);
+    let Some(terms) = material.failure_terms(&increment.answer.memory) else { return String::new() };
+    let [elongation, compaction, distortion] = terms.map(number);
     format!(" = {elongation} elongation + {compaction} compaction + {distortion} distortion")
 }
 

@@ -25,7 +25,7 @@ pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) 
     values.extend(components(&increment.rotated_gradient()));
     values.extend(answer.cauchy);
     values.extend(components(&stress));
-    if let Law::Hyperelastic(_) = material.law {
+    if let Law::Hyperelastic { .. } = material.law {
         values.extend(answer.modes.iter().flatten());
     }
     values.extend(&answer.memory.state[..material.state_table().len()]);

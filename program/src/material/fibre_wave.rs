@@ -25,10 +25,10 @@ impl FibreWave {
     /// The wave of a material in these units; none without a density or without stiffness.
     pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
         let (law, stiffness) = match material.law {
-            Law::Hyperelastic(_) => (LawName::Hyperelastic, "k_el"),
-            Law::LinearElastic { .. } => (LawName::LinearElastic, "e_1"),
+            Law::Hyperelastic { properties, .. } => (LawName::Hyperelastic, properties.k_el),
+            Law::LinearElastic { properties, .. } => (LawName::LinearElastic, properties.e_1),
         };
-        Self::along(law, material.property(stiffness)?, material.density?, units)
+        Self::along(law, stiffness, material.density?, units)
     }
 
     /// The wave in a yarn of this law with this stiffness along the fibre and this density, which are in these units.

@@ -11,7 +11,7 @@ use super::preset::{LawName, Preset, first_property};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{FIBRE, LINEAR_FIBRE, Property};
+use toron::law::parameters::Property;
 use toron::{Criterion, Rotation};
 
 /// A table that describes a material.
@@ -96,10 +96,9 @@ impl Source<'_> {
     pub fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
         let preset = file.preset.as_ref().map(|name| self.preset(name)).transpose()?;
         let law_name = self.law_name(file, preset.as_ref(), span.clone())?;
-        let table = law_name.table();
-        let Values { values, places } = self.values(file, preset.as_ref(), table, units, &span)?;
+        let Values { values, places } = self.values(file, preset.as_ref(), law_name, units, &span)?;
         let (frame, criterion) = self.options(file, law_name)?;
-        let law = Law::new(table, &values, frame, criterion).map_err(|error| {
+        let law = Law::new(law_name, &values, frame, criterion).map_err(|error| {
             let (message, index) = (error.to_string(), first_property(&error).unwrap_or(0));
             if let Some(place) = &places[index] {
                 return self.error(place.clone(), &message);
@@ -112,7 +111,7 @@ impl Source<'_> {
             None => preset.as_ref().and_then(|preset| preset.density_in(units)),
         };
         let label = preset.map_or_else(|| law_name.text().to_string(), |preset| preset.name);
-        Ok(Material { law, values, density, label, own: file.own() })
+        Ok(Material { law, density, label, own: file.own() })
     }
 
     fn preset(&self, name: &Spanned<String>) -> Result<Preset, Error> {
@@ -154,16 +153,17 @@ impl Source<'_> {
         &self,
         file: &MaterialFile,
         preset: Option<&Preset>,
-        table: &'static [Property],
+        law: LawName,
         units: &UnitSystem,
         span: &Range<usize>,
     ) -> Result<Values, Error> {
+        let table = law.table();
         let of_preset = |index: usize| preset.and_then(|preset| preset.value(index, units));
         let given = table.iter().enumerate().map(|(index, property)| of_preset(index).or(property.default));
         let mut values: Vec<Option<f64>> = given.collect();
         let mut places = vec![None; table.len()];
         if let Some(fibre) = &file.fibre {
-            let first = if LawName::of(table) == LawName::Hyperelastic { FIBRE } else { LINEAR_FIBRE };
+            let first = law.first_of_fibre();
             for (i, &component) in fibre.get_ref().0.iter().enumerate() {
                 values[first + i] = Some(component);
                 places[first + i] = Some(fibre.span());

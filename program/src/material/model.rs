@@ -2,28 +2,34 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use toron::law::parameters::{self, FIBRE, LINEAR_FIBRE, Property, STRESS};
-use toron::law::state::{self, ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
-use toron::law::state::{
-    LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK,
-};
+use super::preset::LawName;
+use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
+use toron::law::state::{self, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
+use toron::law::state::{LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use toron::law::status;
+use toron::law::{hyperelastic, linear_elastic};
 use toron::{Criterion, LinearElastic, Rotation};
 use toron::{Hyperelastic, Request};
 
-/// A law, prepared.
+/// A law, prepared, and the properties that it was prepared from.
 #[derive(Clone, Copy, Debug)]
 pub enum Law {
-    Hyperelastic(Hyperelastic<f64>),
-    LinearElastic { law: LinearElastic, frame: Rotation, criterion: Criterion },
+    Hyperelastic {
+        law: Hyperelastic<f64>,
+        properties: hyperelastic::Properties<f64>,
+    },
+    LinearElastic {
+        law: LinearElastic,
+        properties: linear_elastic::Properties<f64>,
+        frame: Rotation,
+        criterion: Criterion,
+    },
 }
 
 /// A law with its properties.
 #[derive(Clone, Debug)]
 pub struct Material {
     pub law: Law,
-    /// In the order of [`table`](Self::table).
-    pub values: Vec<f64>,
     /// Reference density, for wave speeds.
     pub density: Option<f64>,
     /// The preset's name, or the law's.
@@ -59,22 +65,46 @@ pub struct Answer {
 }
 
 impl Law {
-    /// Checks the properties of either law, which the table names, and prepares it.
+    /// Checks the properties, in the order of the law's table, and prepares the law.
     ///
     /// # Errors
     /// The first property that is wrong.
-    pub fn new(
-        table: &'static [Property],
-        values: &[f64],
-        frame: Rotation,
-        criterion: Criterion,
-    ) -> Result<Law, toron::Error> {
-        if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) {
-            let law = LinearElastic::new(values)?;
-            return Ok(Law::LinearElastic { law, frame, criterion });
+    pub fn new(name: LawName, values: &[f64], frame: Rotation, criterion: Criterion) -> Result<Law, toron::Error> {
+        match name {
+            LawName::Hyperelastic => {
+                let law = Hyperelastic::new(values)?;
+                Ok(Law::Hyperelastic { law, properties: array(values).into() })
+            }
+            LawName::LinearElastic => {
+                let law = LinearElastic::new(values)?;
+                Ok(Law::LinearElastic { law, properties: array(values).into(), frame, criterion })
+            }
         }
-        Hyperelastic::new(values).map(Law::Hyperelastic)
     }
+
+    /// The same law, with its frame and criterion, with other properties.
+    ///
+    /// # Errors
+    /// The first property that is wrong.
+    pub fn with(&self, values: &[f64]) -> Result<Law, toron::Error> {
+        let (frame, criterion) = match *self {
+            Law::Hyperelastic { .. } => (Rotation::Fibre, Criterion::LargestPrincipal),
+            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
+        };
+        Law::new(self.name(), values, frame, criterion)
+    }
+
+    pub fn name(&self) -> LawName {
+        match self {
+            Law::Hyperelastic { .. } => LawName::Hyperelastic,
+            Law::LinearElastic { .. } => LawName::LinearElastic,
+        }
+    }
+}
+
+/// The values of a slice of N.
+fn array<const N: usize>(values: &[f64]) -> [f64; N] {
+    std::array::from_fn(|i| values[i])
 }
 
 /// The names of materials that follow one another, the first up to a place.
@@ -86,16 +116,13 @@ pub fn names(materials: &[Material], to: &str) -> String {
 impl Material {
     /// The law's table of properties.
     pub fn table(&self) -> &'static [Property] {
-        match self.law {
-            Law::Hyperelastic(_) => &parameters::HYPERELASTIC,
-            Law::LinearElastic { .. } => &parameters::LINEAR_ELASTIC,
-        }
+        self.law.name().table()
     }
 
     /// The law's table of state variables.
     pub fn state_table(&self) -> &'static [StateVariable] {
         match self.law {
-            Law::Hyperelastic(_) => &state::HYPERELASTIC,
+            Law::Hyperelastic { .. } => &state::HYPERELASTIC,
             Law::LinearElastic { .. } => &state::LINEAR_ELASTIC,
         }
     }
@@ -107,36 +134,36 @@ impl Material {
 
     pub fn law_name(&self) -> &'static str {
         match self.law {
-            Law::Hyperelastic(_) => "hyperelastic",
+            Law::Hyperelastic { .. } => "hyperelastic",
             Law::LinearElastic { .. } => "linear elastic",
         }
     }
 
     /// Unit fibre direction in the reference placement.
     pub fn fibre(&self) -> Vector3<f64> {
-        let first = match self.law {
-            Law::Hyperelastic(_) => FIBRE,
-            Law::LinearElastic { .. } => LINEAR_FIBRE,
-        };
-        Vector3::from_column_slice(&self.values[first..first + 3]).normalize()
+        let (Law::Hyperelastic { properties: hyperelastic::Properties { fibre, .. }, .. }
+        | Law::LinearElastic { properties: linear_elastic::Properties { fibre, .. }, .. }) = self.law;
+        Vector3::from(fibre).normalize()
     }
 
-    /// The value of the property of this name.
-    pub fn property(&self, name: &str) -> Option<f64> {
-        let index = self.table().iter().position(|property| property.name == name)?;
-        Some(self.values[index])
+    /// The properties in the order of [`table`](Self::table).
+    pub fn values(&self) -> Vec<f64> {
+        match self.law {
+            Law::Hyperelastic { properties, .. } => <[f64; HYPERELASTIC_PROPERTIES]>::from(properties).to_vec(),
+            Law::LinearElastic { properties, .. } => <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(properties).to_vec(),
+        }
     }
 
     /// The largest of the properties that are a stress: what counts as a small stress is measured by it.
     pub fn stress_scale(&self) -> f64 {
-        let stresses = self.table().iter().zip(&self.values).filter(|(property, _)| property.dimension == STRESS);
-        stresses.map(|(_, &value)| value).fold(0.0, f64::max)
+        let stresses = self.table().iter().zip(self.values()).filter(|(property, _)| property.dimension == STRESS);
+        stresses.map(|(_, value)| value).fold(0.0, f64::max)
     }
 
     /// The memory of a point at rest.
     pub fn at_rest(&self) -> Memory {
         let axes = match &self.law {
-            Law::Hyperelastic(_) => Matrix3::identity(),
+            Law::Hyperelastic { .. } => Matrix3::identity(),
             Law::LinearElastic { law, .. } => law.reference_axes(),
         };
         Memory { f: Matrix3::identity(), state: [0.0; HYPERELASTIC_STATE], axes }
@@ -149,13 +176,13 @@ impl Material {
     pub fn evaluate(&self, f: &Matrix3<f64>, memory: &Memory, request: Request) -> Result<Answer, i32> {
         let mut new = Memory { f: *f, ..*memory };
         match &self.law {
-            Law::Hyperelastic(law) => {
+            Law::Hyperelastic { law, .. } => {
                 let point = law.point(f, &memory.state, request);
                 new.state = point.state;
                 let (cauchy, modes, wave_modulus) = (point.stress, point.modes, point.wave_modulus);
                 accept(point.status, Answer { cauchy, memory: new, modes, wave_modulus })
             }
-            Law::LinearElastic { law, frame, criterion } => {
+            Law::LinearElastic { law, frame, criterion, .. } => {
                 let mut old = [0.0; LINEAR_ELASTIC_STATE];
                 old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
                 let point = law.step(&memory.f, f, &old, *frame, *criterion, &mut new.axes);
@@ -172,12 +199,12 @@ impl Material {
     /// The law's status code where it cannot be evaluated.
     pub fn tangent(&self, f: &Matrix3<f64>, memory: &Memory) -> Result<([f64; 6], NominalTangent), i32> {
         let (cauchy, nominal, status) = match &self.law {
-            Law::Hyperelastic(law) => {
+            Law::Hyperelastic { law, .. } => {
                 let request = Request { stress: true, ..Request::default() };
                 let (point, nominal) = law.point_with_nominal(&f.data.0, None, &memory.state, request);
                 (point.stress, nominal, point.status)
             }
-            Law::LinearElastic { law, frame, criterion } => {
+            Law::LinearElastic { law, frame, criterion, .. } => {
                 let mut old = [0.0; LINEAR_ELASTIC_STATE];
                 old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
                 let mut axes = memory.axes;
@@ -191,7 +218,7 @@ impl Material {
     /// Whether the point has failed.
     pub fn failed(&self, memory: &Memory) -> bool {
         let latch = match self.law {
-            Law::Hyperelastic(_) => FAILED,
+            Law::Hyperelastic { .. } => FAILED,
             Law::LinearElastic { .. } => LINEAR_FAILED,
         };
         memory.state[latch] != 0.0
@@ -200,38 +227,51 @@ impl Material {
     /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work.
     pub fn energy(&self, memory: &Memory) -> f64 {
         match self.law {
-            Law::Hyperelastic(_) => memory.state[..INVARIANTS].iter().sum(),
+            Law::Hyperelastic { .. } => memory.state[..INVARIANTS].iter().sum(),
             Law::LinearElastic { .. } => memory.state[LINEAR_WORK],
         }
     }
 
     /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim.
     pub fn failure_index(&self, memory: &Memory) -> f64 {
-        let limit = self.property("sigma_lim").unwrap_or(0.0);
         match self.law {
-            Law::Hyperelastic(_) => memory.state[FAILURE_INDEX],
-            Law::LinearElastic { .. } if limit == 0.0 => 0.0,
-            Law::LinearElastic { criterion: Criterion::LargestPrincipal, .. } => memory.state[LINEAR_LARGEST] / limit,
-            Law::LinearElastic { criterion: Criterion::FibreStress, .. } => memory.state[LINEAR_STRESS] / limit,
+            Law::Hyperelastic { .. } => memory.state[FAILURE_INDEX],
+            Law::LinearElastic { properties: linear_elastic::Properties { sigma_lim, .. }, criterion, .. } => {
+                let stress = match criterion {
+                    Criterion::LargestPrincipal => memory.state[LINEAR_LARGEST],
+                    Criterion::FibreStress => memory.state[LINEAR_STRESS],
+                };
+                if sigma_lim == 0.0 { 0.0 } else { stress / sigma_lim }
+            }
         }
     }
 
-    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only.
-    pub fn failure_terms(&self, memory: &Memory) -> [f64; 3] {
-        let property = |name: &str| self.property(name).unwrap_or(0.0);
+    /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only. None of
+    /// the linear elastic law.
+    pub fn failure_terms(&self, memory: &Memory) -> Option<[f64; 3]> {
+        let Law::Hyperelastic { properties: hyperelastic::Properties { eps_lim, alpha, beta, .. }, .. } = self.law
+        else {
+            return None;
+        };
         let [i_el, i_tc, i_td] = [0, 1, 2].map(|mode| memory.state[INVARIANTS + mode]);
-        [i_el / property("eps_lim").ln_1p(), property("alpha") * (-i_tc).max(0.0), property("beta") * i_td]
+        Some([i_el / eps_lim.ln_1p(), alpha * (-i_tc).max(0.0), beta * i_td])
+    }
+
+    /// The stiffness against longitudinal shear, which the hyperelastic law alone may lack.
+    pub fn longitudinal_shear(&self) -> Option<f64> {
+        match self.law {
+            Law::Hyperelastic { properties, .. } => Some(properties.k_ld),
+            Law::LinearElastic { .. } => None,
+        }
     }
 
     /// Whether there is a limit at all.
     pub fn can_fail(&self) -> bool {
-        ["eps_lim", "sigma_lim"].iter().any(|name| self.property(name).is_some_and(|limit| limit > 0.0))
+        match self.law {
+            Law::Hyperelastic { properties, .. } => properties.eps_lim > 0.0,
+            Law::LinearElastic { properties, .. } => properties.sigma_lim > 0.0,
+        }
     }
-}
-
-/// Which state variable, counted from 0, tells a host to delete the element, for a law of so many properties' table.
-pub fn deletion_variable(table: &[Property]) -> usize {
-    if std::ptr::eq(table, &parameters::LINEAR_ELASTIC[..]) { LINEAR_ALIVE } else { ALIVE }
 }
 
 fn accept(status: i32, answer: Answer) -> Result<Answer, i32> {

@@ -9,8 +9,9 @@ use super::file::MaterialFile;
 use super::model::{Law, Material};
 use crate::common::error::Error;
 use crate::common::toml_file::{Source, Unused};
+use toron::Rotation;
 use toron::host::units::UnitSystem;
-use toron::{Criterion, Rotation};
+use toron::law::parameters::{ALPHA, BETA, EPS_LIM, SIGMA_LIM};
 
 /// Numbers closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-9;
@@ -98,20 +99,20 @@ impl Source<'_> {
         let failure = choice.failure;
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
         let place = |name: &str| (choice.place)(name).or(file.given(name).map(Spanned::span)).unwrap_or(span.clone());
-        let off: &[&str] = match failure {
-            FailureName::None => &["eps_lim", "sigma_lim"],
-            FailureName::Uniaxial => &["alpha", "beta"],
-            FailureName::Multiaxial => &[],
+        let (table, mut values) = (material.table(), material.values());
+        let (limit, weights): (usize, &[usize]) = match material.law {
+            Law::Hyperelastic { .. } => (EPS_LIM, &[ALPHA, BETA]),
+            Law::LinearElastic { .. } => (SIGMA_LIM, &[]),
         };
-        let table = material.table();
-        for (value, property) in material.values.iter_mut().zip(table) {
-            let name = property.name;
-            if !off.contains(&name) {
-                continue;
-            }
-            *value = 0.0;
+        let (off, allowed): (&[usize], &str) = match failure {
+            FailureName::None => (&[limit], "uniaxial or multiaxial"),
+            FailureName::Uniaxial => (weights, "multiaxial"),
+            FailureName::Multiaxial => (&[], ""),
+        };
+        for &index in off {
+            values[index] = 0.0;
+            let name = table[index].name;
             if let Some(given) = file.given(name).filter(|given| *given.get_ref() != 0.0) {
-                let allowed = if ["alpha", "beta"].contains(&name) { "multiaxial" } else { "uniaxial or multiaxial" };
                 let message = format!(
                     "{name} is {}, which the failure leaves out; allowed: 0, or failure {allowed}",
                     given.get_ref()
@@ -119,16 +120,19 @@ impl Source<'_> {
                 return Err(self.error(place(name), &message));
             }
         }
-        let is_zero = |name: &str| material.property(name) == Some(0.0);
-        let missing = ["eps_lim", "sigma_lim"].into_iter().find(|name| failure != FailureName::None && is_zero(name));
-        if let Some(name) = missing {
+        if failure != FailureName::None && values[limit] == 0.0 {
+            let name = table[limit].name;
             let message = format!("{name} is 0, with which nothing fails; allowed: a number > 0, or failure none");
             return Err(self.error(place(name), &message));
         }
-        if failure == FailureName::Multiaxial && is_zero("alpha") && is_zero("beta") {
+        if failure == FailureName::Multiaxial
+            && !weights.is_empty()
+            && weights.iter().all(|&weight| values[weight] == 0.0)
+        {
             let message = "alpha and beta are 0; allowed: one of them > 0, or failure uniaxial";
-            return Err(self.error(place("alpha"), message));
+            return Err(self.error(place(table[ALPHA].name), message));
         }
+        material.law = material.law.with(&values).map_err(|error| self.error(span.clone(), &error.to_string()))?;
         Ok(())
     }
 
@@ -159,7 +163,7 @@ impl Source<'_> {
             None => (default, choice.span.clone()),
         };
         let mut material = self.material(&file, units, span.clone())?;
-        let found = material.law_name().replace(' ', "-");
+        let found = material.law.name().text();
         if found != law {
             return Err(self.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));
         }
@@ -170,14 +174,7 @@ impl Source<'_> {
             return Err(self.error(span, &message));
         }
         self.choose_failure(choice, &mut material, &file, &span)?;
-        let table = material.table();
-        let (frame, criterion) = match material.law {
-            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
-            Law::Hyperelastic(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
-        };
-        material.law = Law::new(table, &material.values, frame, criterion)
-            .map_err(|error| self.error(span.clone(), &error.to_string()))?;
-        if frame == Rotation::Spin {
+        if let Law::LinearElastic { frame: Rotation::Spin, .. } = material.law {
             return Err(self.error(span, "frame is \"spin\"; allowed here: fibre, polar"));
         }
         if material.density.is_none() {

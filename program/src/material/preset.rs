@@ -12,7 +12,9 @@ use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
-use toron::law::parameters::{self, DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, PRESETS, Property};
+use toron::law::parameters::{
+    self, DENSITY, Dimension, FIBRE, HYPERELASTIC, LINEAR_ELASTIC, LINEAR_FIBRE, PRESETS, Property,
+};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
@@ -24,16 +26,28 @@ pub enum LawName {
     LinearElastic,
 }
 
-impl LawName {
-    /// The law that a table of properties belongs to.
-    pub fn of(table: &[Property]) -> LawName {
-        if std::ptr::eq(table, &LINEAR_ELASTIC[..]) { LawName::LinearElastic } else { LawName::Hyperelastic }
+impl From<parameters::LawName> for LawName {
+    fn from(law: parameters::LawName) -> LawName {
+        match law {
+            parameters::LawName::Hyperelastic => LawName::Hyperelastic,
+            parameters::LawName::LinearElastic => LawName::LinearElastic,
+        }
     }
+}
 
+impl LawName {
     pub fn table(self) -> &'static [Property] {
         match self {
             LawName::Hyperelastic => &HYPERELASTIC,
             LawName::LinearElastic => &LINEAR_ELASTIC,
+        }
+    }
+
+    /// Where the fibre's three components begin in the table.
+    pub fn first_of_fibre(self) -> usize {
+        match self {
+            LawName::Hyperelastic => FIBRE,
+            LawName::LinearElastic => LINEAR_FIBRE,
         }
     }
 
@@ -86,7 +100,7 @@ impl From<&parameters::Preset> for Preset {
         Preset {
             name: preset.name.to_string(),
             source: preset.source.to_string(),
-            law: LawName::of(preset.table),
+            law: preset.law.into(),
             units: UnitSystem::SI,
             values: preset.values.iter().copied().map(Some).collect(),
             density: Some(preset.density),
@@ -337,7 +351,7 @@ mod tests {
     fn built_in_presets_become_the_same_type() {
         for built_in in &PRESETS {
             let (preset, mm) = (Preset::from(built_in), UnitSystem::parse("mm-tonne-s").expect("a system"));
-            let values = built_in.table.iter().zip(built_in.values);
+            let values = built_in.table().iter().zip(built_in.values);
             let expected: Vec<f64> = values.map(|(row, &value)| mm.from_si(value, row.dimension)).collect();
             assert_eq!(preset.complete(&mm), Ok(expected));
             assert_eq!(preset.density_in(&mm), Some(mm.from_si(built_in.density, DENSITY)));

@@ -46,8 +46,8 @@ impl Tension {
     /// The tension of a material.
     pub fn of(material: &Material) -> Tension {
         match material.law {
-            Law::Hyperelastic(_) => Tension::Logarithmic(material.property("k_el").unwrap_or_default()),
-            Law::LinearElastic { .. } => Tension::Linear(material.property("e_1").unwrap_or_default()),
+            Law::Hyperelastic { properties, .. } => Tension::Logarithmic(properties.k_el),
+            Law::LinearElastic { properties, .. } => Tension::Linear(properties.e_1),
         }
     }
 

@@ -13,8 +13,8 @@ fn material(preset: &str, frame: Rotation, changed: &[(usize, f64)]) -> Material
     for &(index, value) in changed {
         values[index] = value;
     }
-    let law = Law::new(preset.table, &values, frame, Criterion::LargestPrincipal).expect("valid properties");
-    Material { law, values, density: None, label: preset.name.into(), own: String::new() }
+    let law = Law::new(preset.law.into(), &values, frame, Criterion::LargestPrincipal).expect("valid properties");
+    Material { law, density: None, label: preset.name.into(), own: String::new() }
 }
 
 /// The way to the deformation gradient at which the law carries the stress of `target`, from `start`.

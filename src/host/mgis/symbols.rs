@@ -2,7 +2,7 @@
 
 use core::ffi::{CStr, c_char};
 
-use crate::law::parameters::Property;
+use crate::law::parameters::{Property, place, same};
 use crate::law::state::StateVariable;
 
 /// A C string as the value of a symbol.
@@ -86,26 +86,11 @@ impl LongDouble {
     }
 }
 
-const fn same(a: &str, b: &str) -> bool {
-    let (a, b) = (a.as_bytes(), b.as_bytes());
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
-}
-
 /// The least and the greatest allowed value of a property. The least one itself is excluded where the table says so, for which the
 /// symbols have no word.
 pub const fn bounds(table: &[Property], name: &str) -> [LongDouble; 2] {
-    let mut i = 0;
-    while i < table.len() {
-        if same(table[i].name, name) {
-            return [LongDouble::new(table[i].minimum), LongDouble::new(table[i].maximum)];
-        }
-        i += 1;
-    }
-    panic!("no such property")
+    let Property { minimum, maximum, .. } = table[place(table, name)];
+    [LongDouble::new(minimum), LongDouble::new(maximum)]
 }
 
 /// Whether these are the properties of a table that have bounds, in its order: not the components of directions.

@@ -22,8 +22,8 @@ fn media_with(k_ld: f64) -> Vec<Medium<f64>> {
     let mut values = preset.values.to_vec();
     values[4] = k_ld;
     values[5..8].fill(0.0);
-    let law = Law::new(preset.table, &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
-    let material = Material { law, values, density: Some(preset.density), label: String::new(), own: String::new() };
+    let law = Law::new(preset.law.into(), &values, Rotation::Fibre, Criterion::LargestPrincipal).expect("valid");
+    let material = Material { law, density: Some(preset.density), label: String::new(), own: String::new() };
     let control = Control { hourglass: 0.1, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
     vec![Medium::new(&material, preset.density, control).expect("valid")]
 }
