@@ -406,7 +406,7 @@ static void tangents_alone(int way)
     enum { N = 5, LD = 7 };
     for (int first = 0; first + N <= case_count; first += 3) {
         real *properties = copied(cases[first].properties, PROPERTIES);
-        real *f = reals(9 * LD), *fibre = reals(3 * LD), *old = reals(STATE * LD);
+        real *f = reals(9 * LD), *fibre = reals(3 * LD), *old = filled(0.25, STATE * LD);
         for (size_t i = 0; i < N; i++) {
             for (size_t c = 0; c < 9; c++)
                 f[c * LD + i] = (real)cases[first + (int)i].f[c];
@@ -414,6 +414,7 @@ static void tangents_alone(int way)
                 fibre[c * LD + i] = (real)cases[first + (int)i].properties[8 + c];
             old[FAILED * LD + i] = i == 1;
         }
+        const int32_t wanted = first % 2 ? TORON_NOT_FINITE : TORON_OK;
         f[2 * LD + 3] = first % 2 ? NAN : f[2 * LD + 3];
         for (int variant = 0; variant < 24; variant++) {
             real *of_all = reals(54 * LD), *alone = reals(54 * LD);
@@ -435,8 +436,10 @@ static void tangents_alone(int way)
                     if (variant / 12)
                         block.wave_speed = to + 53 * LD + from;
                 }
-                evaluate_block(way, properties, &block);
+                int32_t code = evaluate_block(way, properties, &block);
+                CHECK(code == (n == N || from == 3 ? wanted : TORON_OK), "case %d, point %d: %d", cases[first].id, (int)i - 1, code);
             }
+            CHECK(!untouched(alone + 6 * LD, sizeof(real)), "case %d: no tangent", cases[first].id);
             CHECK(same_bytes(alone, of_all, 54 * LD * sizeof(real)), "case %d, variant %d", cases[first].id, variant);
         }
         release();
