@@ -4,6 +4,7 @@ pub mod acoustic;
 pub mod block;
 pub mod bounds;
 pub(crate) mod derivative;
+pub mod description;
 pub mod error;
 pub(crate) mod failure;
 pub mod hyperelastic;

@@ -10,15 +10,13 @@ use crate::host::c::level;
 use crate::host::structures::{read, structures};
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::description::{self, Description};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::parameters::{self, FIBRE, LINEAR_ELASTIC_PROPERTIES, Property};
-use crate::law::state::{
-    ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ALIVE, LINEAR_ELASTIC_STATE,
-    LINEAR_FAILED, LINEAR_WORK,
-};
+use crate::law::parameters::{FIBRE, LINEAR_ELASTIC_PROPERTIES};
+use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 
 /// The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
@@ -75,13 +73,7 @@ macro_rules! at {
 
 /// What a VUMAT needs of a law.
 trait VumatLaw<T: Precision>: Sized {
-    const PROPERTIES: &'static [Property];
-    /// The number of state variables, and the places of `failed` and `alive` among them.
-    const STATE: usize;
-    const FAILED: usize;
-    const ALIVE: usize;
-    /// How many energies the state has, and the place of the first; their sum is W.
-    const ENERGIES: (usize, usize);
+    const LAW: Description;
 
     /// Checks the properties, for a plane element if `plane`.
     fn new(properties: &[T], plane: bool) -> Result<Self, Error>;
@@ -112,11 +104,7 @@ struct Part<T> {
 }
 
 impl<T: Precision> VumatLaw<T> for Hyperelastic<T> {
-    const PROPERTIES: &'static [Property] = &parameters::HYPERELASTIC;
-    const STATE: usize = HYPERELASTIC_STATE;
-    const FAILED: usize = FAILED;
-    const ALIVE: usize = ALIVE;
-    const ENERGIES: (usize, usize) = (4, ENERGIES);
+    const LAW: Description = description::HYPERELASTIC;
 
     fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
         let law = Hyperelastic::new(properties)?;
@@ -153,11 +141,7 @@ impl<T: Precision> VumatLaw<T> for Hyperelastic<T> {
 }
 
 impl<T: Precision> VumatLaw<T> for LinearElastic<T> {
-    const PROPERTIES: &'static [Property] = &parameters::LINEAR_ELASTIC;
-    const STATE: usize = LINEAR_ELASTIC_STATE;
-    const FAILED: usize = LINEAR_FAILED;
-    const ALIVE: usize = LINEAR_ALIVE;
-    const ENERGIES: (usize, usize) = (1, LINEAR_WORK);
+    const LAW: Description = description::LINEAR_ELASTIC;
 
     fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
         let law = LinearElastic::new(properties)?;
@@ -210,21 +194,21 @@ unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<
         (block.ener_intern_new, "ener_intern_new"),
         (block.ener_inelas_new, "ener_inelas_new"),
     ])?;
-    check_counts(block.ndir, block.nshr, VUMAT_COUNTS, block.nstatev, L::STATE)?;
+    check_counts(block.ndir, block.nshr, VUMAT_COUNTS, block.nstatev, L::LAW.state.len())?;
     let Ok(n) = usize::try_from(block.nblock) else {
         let (code, value) = (status::BAD_COUNT, i64::from(block.nblock));
         return Err(Error::Range { code, name: "nblock", value, least: 0, greatest: i64::MAX });
     };
     let level = level(block.level)?;
-    let count = property_count(block.nprops, L::PROPERTIES)?;
+    let count = property_count(block.nprops, L::LAW.properties)?;
     // SAFETY: not null, and the caller's promise.
-    let law = L::new(unsafe { properties(block.props, count, L::PROPERTIES) }?, block.nshr == 1)?;
+    let law = L::new(unsafe { properties(block.props, count, L::LAW.properties) }?, block.nshr == 1)?;
     // SAFETY: the caller's promise, from here on.
     unsafe {
         for i in 0..n {
             // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
             // nothing.
-            for c in L::STATE..block.nstatev as usize {
+            for c in L::LAW.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
@@ -261,12 +245,13 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 code = if is_finite(stress) { code } else { status::OVERFLOW };
                 at!(block.stress_new, block, c, i) = stress;
             }
-            for c in 0..L::STATE {
+            for c in 0..L::LAW.state.len() {
                 let old = at!(block.state_old, block, c, i);
                 code = if is_finite(old) { code } else { status::STATE_NOT_FINITE };
                 at!(block.state_new, block, c, i) = if is_finite(old) { old } else { zero };
             }
-            at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_new, block, L::FAILED, i);
+            at!(block.state_new, block, L::LAW.alive, i) =
+                T::splat(1.0) - at!(block.state_new, block, L::LAW.failed, i);
             let energy = *block.ener_intern_old.add(i);
             code = if is_finite(energy) { code } else { status::STATE_NOT_FINITE };
             *block.ener_intern_new.add(i) = if is_finite(energy) { energy } else { zero };
@@ -275,8 +260,8 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 for c in 0..components {
                     at!(block.stress_new, block, c, i) = zero;
                 }
-                at!(block.state_new, block, L::FAILED, i) = T::splat(1.0);
-                at!(block.state_new, block, L::ALIVE, i) = zero;
+                at!(block.state_new, block, L::LAW.failed, i) = T::splat(1.0);
+                at!(block.state_new, block, L::LAW.alive, i) = zero;
             }
             worst = worst.min(code);
         }
@@ -346,17 +331,17 @@ unsafe fn finish<L: VumatLaw<T>, T: Precision>(block: &Vumat<T>, i: usize, code:
     // SAFETY: the caller's promise.
     unsafe {
         if code != status::OK {
-            at!(block.state_new, block, L::FAILED, i) = one;
-            at!(block.state_new, block, L::ALIVE, i) = zero;
+            at!(block.state_new, block, L::LAW.failed, i) = one;
+            at!(block.state_new, block, L::LAW.alive, i) = zero;
         }
         let middle = |c: usize| half * (at!(block.stretch_old, block, c, i) + at!(block.stretch_new, block, c, i));
         let u = |c: usize| if c < 3 + block.nshr as usize { middle(c) } else { zero };
         let volume = u(0) * (u(1) * u(2) - u(4) * u(4)) - u(3) * (u(3) * u(2) - u(4) * u(5))
             + u(5) * (u(3) * u(4) - u(1) * u(5));
-        let (count, first) = L::ENERGIES;
+        let first = L::LAW.energies.start;
         let mut energy = at!(block.state_new, block, first, i);
-        for c in 1..count {
-            energy = energy + at!(block.state_new, block, first + c, i);
+        for c in first + 1..L::LAW.energies.end {
+            energy = energy + at!(block.state_new, block, c, i);
         }
         let specific = energy / (*block.density.add(i) * volume);
         // If the deformation or the density is invalid, the energy keeps its old value.

@@ -3,11 +3,11 @@
 use libc::{c_char, size_t};
 
 use crate::host::border::{Message, entry, properties};
+use crate::law::description::{Description, HYPERELASTIC, LINEAR_ELASTIC};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
-use crate::law::parameters::{HYPERELASTIC, LINEAR_ELASTIC, Property};
 use crate::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use crate::law::status;
 
@@ -44,7 +44,7 @@ pub(super) unsafe trait PreparedLaw<T>: Copy {
     /// Its name in C, and the function that prepares it.
     const NAME: &'static str;
     const PREPARED_BY: &'static str;
-    const TABLE: &'static [Property];
+    const LAW: Description;
 
     /// # Errors
     /// The first property that is wrong.
@@ -52,7 +52,7 @@ pub(super) unsafe trait PreparedLaw<T>: Copy {
 }
 
 macro_rules! prepared_laws {
-    ($($structure:ident, $t:ty, $numbers:ident, $law:path, $table:path, $tag:literal, $name:literal, $by:literal;)*) => {$(
+    ($($structure:ident, $t:ty, $numbers:ident, $law:path, $description:path, $tag:literal, $name:literal, $by:literal;)*) => {$(
         const _: () = assert!(size_of::<$structure<$t>>() >= 16 + size_of::<$numbers<$t>>() + 8);
         const _: () = assert!(size_of::<$structure<$t>>().is_multiple_of(8));
         // SAFETY: its values are more than the numbers, which are as many values.
@@ -61,7 +61,7 @@ macro_rules! prepared_laws {
             const TAG: u64 = u64::from_le_bytes(*$tag);
             const NAME: &'static str = $name;
             const PREPARED_BY: &'static str = $by;
-            const TABLE: &'static [Property] = &$table;
+            const LAW: Description = $description;
             fn prepare(properties: &[$t]) -> Result<$numbers<$t>, Error> {
                 Ok($numbers::from(&<$law>::new(properties)?))
             }
@@ -120,7 +120,7 @@ unsafe fn prepare<T: Scalar, L: PreparedLaw<T>>(
             return Err(Error::Size { structure: L::NAME, size, known: size_of::<L>() });
         }
         // SAFETY: the caller's promise.
-        let numbers = L::prepare(unsafe { properties(values, count, L::TABLE) }?)?;
+        let numbers = L::prepare(unsafe { properties(values, count, L::LAW.properties) }?)?;
         // SAFETY: not null, of this size, and the caller's promise; a number whose bytes are all 0 is 0.
         unsafe {
             law.write_bytes(0, 1);

@@ -61,7 +61,7 @@ unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) 
         // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
         worst = worst.min(unsafe { law.raw_block(&pointers) }?);
         // SAFETY: the elements are those of the block.
-        unsafe { elements.mark_failed(&HYPERELASTIC, start, codes.get(..n).unwrap_or(&codes)) };
+        unsafe { elements.mark_failed(HYPERELASTIC.law, start, codes.get(..n).unwrap_or(&codes)) };
         done += n;
     }
     Ok(worst)

@@ -11,13 +11,12 @@ use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::parameters::{self, LINEAR_ELASTIC_PROPERTIES};
-use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
 
 /// Where F of the last step is kept, and where LS-DYNA writes F, in the history from 0.
-const F_OLD: usize = LINEAR_ELASTIC_STATE;
-const F: usize = LINEAR_ELASTIC_STATE + 9;
+const F_OLD: usize = LINEAR_ELASTIC.law.state.len();
+const F: usize = LINEAR_ELASTIC.law.history();
 
 /// The law with the properties of the card. Refuses a history that cannot be this law's.
 ///
@@ -71,7 +70,7 @@ unsafe fn evaluate<T: Precision>(cm: *const T, nhv: i32, elements: &Elements<T>)
             }
         }
         // SAFETY: the elements are those of the block.
-        unsafe { elements.mark_failed(&LINEAR_ELASTIC, start, codes.get(..n).unwrap_or(&codes)) };
+        unsafe { elements.mark_failed(LINEAR_ELASTIC.law, start, codes.get(..n).unwrap_or(&codes)) };
         done += n;
     }
     Ok(worst)

@@ -33,38 +33,31 @@ pub use linear_elastic::{
 use core::ffi::c_int;
 
 use crate::host::border::{check_pointers, store};
+use crate::law::description::{self, Description};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
-use crate::law::state::{ALIVE, FAILED, HYPERELASTIC_STATE, LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
 use crate::law::status;
 
-/// Where a law has what in the history of an element, from 0.
+/// The history of an element: the law's state, the entries of F that are kept for it, and, behind these, F.
 #[derive(Clone, Copy)]
 struct History {
-    /// The law, for messages.
-    law: &'static str,
-    failed: usize,
-    alive: usize,
-    /// NHV: F is behind.
-    variables: usize,
-    /// What to say if there is no F there.
+    law: &'static Description,
+    /// What the number of variables is called in messages.
+    number: &'static str,
+    /// What to say if there is no F.
     no_gradient: &'static str,
 }
 
 const HYPERELASTIC: History = History {
-    law: "number of history variables, NHV",
-    failed: FAILED,
-    alive: ALIVE,
-    variables: HYPERELASTIC_STATE,
+    law: &description::HYPERELASTIC,
+    number: "number of history variables, NHV",
     no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11",
 };
 
 const LINEAR_ELASTIC: History = History {
-    law: "number of history variables, NHV, of the linear elastic law",
-    failed: LINEAR_FAILED,
-    alive: LINEAR_ALIVE,
-    variables: LINEAR_ELASTIC_STATE + 9,
+    law: &description::LINEAR_ELASTIC,
+    number: "number of history variables, NHV, of the linear elastic law",
     no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 19 (linear elastic law)",
 };
 
@@ -108,8 +101,8 @@ impl<T: Scalar> Elements<T> {
     /// # Safety
     /// `codes` has the status of elements of the block, whose history and `failed` may be written.
     #[inline(always)]
-    unsafe fn mark_failed(&self, history: &History, start: usize, codes: &[i32]) {
-        let (failed, alive) = (self.variable(history.failed, start), self.variable(history.alive, start));
+    unsafe fn mark_failed(&self, law: &Description, start: usize, codes: &[i32]) {
+        let (failed, alive) = (self.variable(law.failed, start), self.variable(law.alive, start));
         for (i, &code) in codes.iter().enumerate() {
             // SAFETY: the caller's promise.
             unsafe {
@@ -169,11 +162,11 @@ unsafe fn store_moduli(
 impl History {
     /// Refuses a wrong number of history variables.
     fn check_number(&self, nhv: i32) -> Result<(), Error> {
-        if nhv == self.variables as i32 {
+        if nhv == self.law.history() as i32 {
             return Ok(());
         }
-        let (found, wanted) = (i64::from(nhv), self.variables as i64);
-        Err(Error::Count { code: status::STATE_COUNT, what: self.law, found, wanted })
+        let (found, wanted) = (i64::from(nhv), self.law.history() as i64);
+        Err(Error::Count { code: status::STATE_COUNT, what: self.number, found, wanted })
     }
 
     /// The error of a history without F.
@@ -191,7 +184,7 @@ impl History {
     /// that collapses to a point in one step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first
     /// column of F then seems to be zero. Values that are not finite are left to the law.
     fn is_plausible<T: Scalar>(&self, history: impl Fn(usize) -> T) -> bool {
-        let f = self.variables;
+        let f = self.law.history();
         let h = |j: usize| -> f64 { history(j).into() };
         let is_at = |start: usize| {
             let column = |k: usize| [0, 1, 2].map(|i| h(start + 3 * k + i));
@@ -209,7 +202,7 @@ impl History {
         if (f..f + 9).all(|j| h(j) == 0.0) {
             return false;
         }
-        let [failed, alive] = [self.failed, self.alive].map(h);
+        let [failed, alive] = [self.law.failed, self.law.alive].map(h);
         if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
             // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
             // a collapsed element has a row or column of zeros as well.

@@ -66,8 +66,8 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
         group.check()?;
         let parameters = slice::from_raw_parts(group.uparam, group.parameters as usize);
         let card = Card::of(parameters)?;
-        if group.variables != card.layout.variables as i32 {
-            let (found, wanted) = (i64::from(group.variables), card.layout.variables as i64);
+        if group.variables != card.layout.variables() as i32 {
+            let (found, wanted) = (i64::from(group.variables), card.layout.variables() as i64);
             return Err(Error::Count { code: status::STATE_COUNT, what: "NUVAR", found, wanted });
         }
         if group.elements == 0 {
@@ -176,7 +176,7 @@ impl<T: Precision> Group<T> {
         if from_nodes && self.nodes.is_null() {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
         }
-        let rows = [0, 1, 2].map(|c| self.row(card.layout.fibre + c));
+        let rows = [0, 1, 2].map(|c| self.row(card.layout.fibre() + c));
         for i in 0..self.count() {
             // SAFETY: the caller's promise, i below NEL.
             unsafe {
@@ -216,7 +216,7 @@ impl<T: Precision> Group<T> {
         for (i, &off) in off.iter().enumerate() {
             // SAFETY: i is below NEL.
             unsafe {
-                let deleted = self.row(layout.deleted).add(i);
+                let deleted = self.row(layout.deleted()).add(i);
                 if !one.le(off) && (*deleted).into() == 0.0 {
                     self.latch(layout, i, BY_SOLVER);
                 }
@@ -228,9 +228,9 @@ impl<T: Precision> Group<T> {
     unsafe fn latch(&self, layout: &Layout, i: usize, deleted: f64) {
         // SAFETY: the caller's promise.
         unsafe {
-            *self.row(layout.failed).add(i) = T::splat(1.0);
-            *self.row(layout.alive).add(i) = T::splat(0.0);
-            *self.row(layout.deleted).add(i) = T::splat(deleted);
+            *self.row(layout.law.failed).add(i) = T::splat(1.0);
+            *self.row(layout.law.alive).add(i) = T::splat(0.0);
+            *self.row(layout.deleted()).add(i) = T::splat(deleted);
         }
     }
 
@@ -250,7 +250,7 @@ impl<T: Precision> Group<T> {
         match card.fibre_from {
             FibreFrom::Card => [ptr::null(); 3],
             _ => {
-                let row = |c| self.row(card.layout.fibre + c).wrapping_add(first).cast_const();
+                let row = |c| self.row(card.layout.fibre() + c).wrapping_add(first).cast_const();
                 [row(0), row(1), row(2)]
             }
         }
@@ -299,13 +299,13 @@ impl<T: Precision> Group<T> {
     unsafe fn evaluate_linear(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = LinearElastic::new(card.properties)?;
         let n = self.count();
-        let f_old = components_mut(self.row(card.layout.f_old), n);
+        let f_old = components_mut(self.row(card.layout.f_old()), n);
         // SAFETY: the caller's promise, here and below.
         unsafe { start_at_rest(f_old, n) };
         let part = |first: usize, n: usize, codes: *mut i32| {
             let row = |variable| self.row(variable).wrapping_add(first);
             let block = LinearPointers {
-                f_old: components(row(card.layout.f_old).cast_const(), self.count()),
+                f_old: components(row(card.layout.f_old()).cast_const(), self.count()),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 state_old: row(0),
@@ -362,13 +362,13 @@ impl<T: Precision> Group<T> {
         for (i, &code) in (first..).zip(codes) {
             // SAFETY: the caller's promise; i is below NEL.
             unsafe {
-                let known = (*self.row(layout.deleted).add(i)).into() != 0.0;
+                let known = (*self.row(layout.deleted()).add(i)).into() != 0.0;
                 if known || T::splat(1.0).le(*self.off.add(i)) {
                     continue;
                 }
                 match code {
                     status::FIBRE_DIRECTION => return Err(self.error_of(i, code)),
-                    status::OK => *self.row(layout.deleted).add(i) = T::splat(BY_FAILURE),
+                    status::OK => *self.row(layout.deleted()).add(i) = T::splat(BY_FAILURE),
                     _ => self.latch(layout, i, f64::from(code)),
                 }
             }
