@@ -8,6 +8,7 @@ pub mod description;
 pub mod error;
 pub(crate) mod failure;
 pub mod hyperelastic;
+pub mod interface;
 pub(crate) mod kinematics;
 pub mod linear_elastic;
 pub mod linear_tangent;
