@@ -5,8 +5,8 @@ use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 
-use super::{CHUNK, Elements, HYPERELASTIC, element_range, store_moduli};
-use crate::host::border::{Message, check_pointers, entry, from_entry, properties};
+use super::{bulk_and_shear, check_number, element_range, is_plausible, law, no_gradient, vector};
+use crate::host::border::{Message, check_pointers, entry, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
@@ -19,53 +19,9 @@ use crate::law::number::registers::Registers;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::Request;
-use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use crate::law::state::{ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::tangent::Measure;
-
-/// The law with the properties of the card. Refuses a wrong number of history variables.
-///
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, Error> {
-    HYPERELASTIC.check_number(nhv)?;
-    // SAFETY: the caller's promise.
-    Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
-}
-
-/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
-///
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) -> Result<i32, Error> {
-    let Elements { leading_dimension: stride, .. } = *elements;
-    let mut worst = status::OK;
-    let mut done = 0;
-    while done < elements.count {
-        let start = elements.first + done;
-        let n = CHUNK.min(elements.count - done);
-        let mut codes = [status::OK; CHUNK];
-        let row = |variable: usize| elements.variable(variable, start);
-        let pointers = Pointers {
-            deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
-            energies_old: row(ENERGIES),
-            invariants_old: row(INVARIANTS),
-            failure_old: row(FAILURE_INDEX),
-            stress: from_entry(elements.stress, start),
-            energies: row(ENERGIES),
-            invariants: row(INVARIANTS),
-            failure: row(FAILURE_INDEX),
-            status: codes.as_mut_ptr(),
-            ..Pointers::without_arrays(n, stride)
-        };
-        // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
-        worst = worst.min(unsafe { law.raw_block(&pointers) }?);
-        // SAFETY: the elements are those of the block.
-        unsafe { elements.mark_failed(HYPERELASTIC.law, start, codes.get(..n).unwrap_or(&codes)) };
-        done += n;
-    }
-    Ok(worst)
-}
 
 /// The card's properties, F by columns, and the state of an element.
 type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]);
@@ -77,14 +33,14 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
-unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
-    HYPERELASTIC.check_number(nhv)?;
+unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
+    check_number::<T, Hyperelastic<T>>(nhv)?;
     // SAFETY: the caller's promise.
     unsafe {
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
-        if !HYPERELASTIC.is_plausible(|j| *hsv.add(j)) {
+        if !is_plausible::<T, Hyperelastic<T>>(|j| *hsv.add(j)) {
             Hyperelastic::new(properties)?;
-            return Err(HYPERELASTIC.no_gradient());
+            return Err(no_gradient::<T, Hyperelastic<T>>());
         }
         Ok((properties, &*hsv.add(HYPERELASTIC_STATE).cast(), &*hsv.cast()))
     }
@@ -118,7 +74,7 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Registers>(
+unsafe fn scalar<T: Registers + Precision>(
     cm: *const T,
     sig: *mut T,
     hsv: *mut T,
@@ -174,28 +130,6 @@ pub unsafe extern "C" fn umat_f32(
     unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
 }
 
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn vector<T: Precision>(
-    cm: *const T,
-    stress: [*mut T; 6],
-    hsvs: *mut T,
-    nhv: i32,
-    range: [i32; 3],
-    failels: *mut c_int,
-) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm")])?;
-    let elements = Elements::new(stress, hsvs, range, failels)?;
-    // SAFETY: the caller's promise.
-    unsafe {
-        let law = law(cm, nhv)?;
-        if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *elements.variable(j, elements.first)) {
-            return Err(HYPERELASTIC.no_gradient());
-        }
-        evaluate(&law, &elements)
-    }
-}
-
 /// `toron_lsdyna_umat_vector_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
@@ -222,7 +156,7 @@ pub unsafe extern "C" fn umat_vector_f64(
     // SAFETY: the caller's promise.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
+            vector::<_, Hyperelastic<_>>(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
         })
     }
 }
@@ -253,14 +187,19 @@ pub unsafe extern "C" fn umat_vector_f32(
     // SAFETY: the caller's promise.
     unsafe {
         entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
+            vector::<_, Hyperelastic<_>>(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
         })
     }
 }
 
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
+unsafe fn scalar_tangent<T: Registers + Precision>(
+    cm: *const T,
+    hsv: *const T,
+    nhv: i32,
+    es: *mut T,
+) -> Result<i32, Error> {
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: the caller's promise.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
@@ -335,10 +274,7 @@ unsafe fn vector_tangent<T: Precision>(
     };
     // SAFETY: the caller's promise.
     unsafe {
-        let law = law(cm, nhv)?;
-        if pointers.n > 0 && !HYPERELASTIC.is_plausible(|j| *row(j)) {
-            return Err(HYPERELASTIC.no_gradient());
-        }
+        let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
         law.raw_block(&pointers)
     }
 }
@@ -396,10 +332,10 @@ pub unsafe extern "C" fn bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let moduli = move || {
-        // SAFETY: the caller's promise, here and below.
-        let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
-        Ok(law.bulk_and_shear())
-    };
-    unsafe { entry(Message { text: message, capacity }, move || store_moduli(moduli, bulk, shear)) }
+    // SAFETY: the caller's promise.
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            bulk_and_shear::<Hyperelastic<f64>>(values, count, bulk, shear)
+        })
+    }
 }
