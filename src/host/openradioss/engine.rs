@@ -2,13 +2,12 @@
 
 use core::{ptr, slice};
 
-use crate::law::block::linear::LinearPointers;
-use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::vector::dot;
-use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
@@ -82,9 +81,9 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
         group.take_out_deleted(card.layout);
         group.clear_viscosity();
         if card.layout.number == HYPERELASTIC.number {
-            group.evaluate_hyperelastic(&card)
+            group.step::<Hyperelastic<T>>(&card)
         } else {
-            group.evaluate_linear(&card)
+            group.step::<LinearElastic<T>>(&card)
         }
     }
 }
@@ -267,45 +266,23 @@ impl<T: Precision> Group<T> {
         columns
     }
 
-    unsafe fn evaluate_hyperelastic(&self, card: &Card<'_, T>) -> Result<(), Error> {
-        let law = Hyperelastic::new(card.properties)?;
-        let part = |first: usize, n: usize, codes: *mut i32| {
-            let row = |variable| self.row(variable).wrapping_add(first);
-            let block = Pointers {
-                deformation_gradient: self.columns(first),
-                fibre: self.fibre(card, first),
-                energies_old: row(ENERGIES),
-                invariants_old: row(INVARIANTS),
-                failure_old: row(FAILURE_INDEX),
-                // SAFETY: the caller's promise: not null.
-                density: unsafe { *self.density },
-                stress: from_entry(self.stress, first),
-                energies: row(ENERGIES),
-                invariants: row(INVARIANTS),
-                failure: row(FAILURE_INDEX),
-                wave_speed: self.sound_speed.wrapping_add(first),
-                status: codes,
-                // 1 where OFF is to stay 1, 0 where it is to be 0.
-                active: self.off.wrapping_add(first),
-                ..Pointers::without_arrays(n, self.count())
-            };
-            // SAFETY: the caller's promise; the new state replaces the old one.
-            unsafe { law.raw_block(&block) }
-        };
-        // SAFETY: the caller's promise.
-        unsafe { self.in_chunks(card.layout, part) }
-    }
-
-    unsafe fn evaluate_linear(&self, card: &Card<'_, T>) -> Result<(), Error> {
-        let law = LinearElastic::new(card.properties)?;
+    /// Evaluates the law at the group.
+    ///
+    /// # Errors
+    /// A property that is wrong, a fibre direction that has no length.
+    unsafe fn step<L: Law<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
+        let law = L::new(card.properties)?;
         let n = self.count();
+        // Of a law that does not depend on F at the start of a step, this is not there.
         let f_old = components_mut(self.row(card.layout.f_old()), n);
-        // SAFETY: the caller's promise, here and below.
-        unsafe { start_at_rest(f_old, n) };
-        let part = |first: usize, n: usize, codes: *mut i32| {
+        if L::DESCRIPTION.reads_old_gradient {
+            // SAFETY: the caller's promise, here and below.
+            unsafe { start_at_rest(f_old, n) };
+        }
+        let part = |first: usize, count: usize, codes: *mut i32| {
             let row = |variable| self.row(variable).wrapping_add(first);
-            let block = LinearPointers {
-                f_old: components(row(card.layout.f_old()).cast_const(), self.count()),
+            let points = Points {
+                f_old: components(row(card.layout.f_old()).cast_const(), n),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 state_old: row(0),
@@ -314,16 +291,19 @@ impl<T: Precision> Group<T> {
                 stress: from_entry(self.stress, first),
                 wave_speed: self.sound_speed.wrapping_add(first),
                 status: codes,
+                // 1 where OFF is to stay 1, 0 where it is to be 0.
                 active: self.off.wrapping_add(first),
                 rotation: card.rotation,
                 criterion: card.criterion,
-                ..LinearPointers::without_arrays(n, self.count())
+                ..Points::without_arrays(count, n)
             };
-            unsafe { law.raw_block(&block) }
+            unsafe { law.step(&points) }
         };
         unsafe { self.in_chunks(card.layout, part)? };
-        for (row, f) in f_old.into_iter().zip(self.columns(0)) {
-            unsafe { row.copy_from_nonoverlapping(f, n) };
+        if L::DESCRIPTION.reads_old_gradient {
+            for (row, f) in f_old.into_iter().zip(self.columns(0)) {
+                unsafe { row.copy_from_nonoverlapping(f, n) };
+            }
         }
         Ok(())
     }
