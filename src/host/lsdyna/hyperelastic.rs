@@ -3,10 +3,8 @@
 use core::cell::Cell;
 use core::ffi::c_int;
 
-use libc::{c_char, size_t};
-
-use super::{bulk_and_shear, check_number, element_range, is_plausible, law, no_gradient, vector};
-use crate::host::border::{Message, check_pointers, entry, properties};
+use super::{check_number, element_range, is_plausible, law, no_gradient};
+use crate::host::border::{check_pointers, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
@@ -74,7 +72,7 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Registers + Precision>(
+pub(super) unsafe fn scalar<T: Registers + Precision>(
     cm: *const T,
     sig: *mut T,
     hsv: *mut T,
@@ -94,107 +92,9 @@ unsafe fn scalar<T: Registers + Precision>(
     Ok(status)
 }
 
-/// `toron_lsdyna_umat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn umat_f64(
-    cm: *const f64,
-    sig: *mut f64,
-    hsv: *mut f64,
-    nhv: i32,
-    failel: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
-}
-
-/// `toron_lsdyna_umat_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn umat_f32(
-    cm: *const f32,
-    sig: *mut f32,
-    hsv: *mut f32,
-    nhv: i32,
-    failel: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
-}
-
-/// `toron_lsdyna_umat_vector_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_vector_f64(
-    cm: *const f64,
-    sig1: *mut f64,
-    sig2: *mut f64,
-    sig3: *mut f64,
-    sig4: *mut f64,
-    sig5: *mut f64,
-    sig6: *mut f64,
-    hsvs: *mut f64,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    failels: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            vector::<_, Hyperelastic<_>>(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
-        })
-    }
-}
-
-/// `toron_lsdyna_umat_vector_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_vector_f32(
-    cm: *const f32,
-    sig1: *mut f32,
-    sig2: *mut f32,
-    sig3: *mut f32,
-    sig4: *mut f32,
-    sig5: *mut f32,
-    sig6: *mut f32,
-    hsvs: *mut f32,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    failels: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            vector::<_, Hyperelastic<_>>(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
-        })
-    }
-}
-
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Registers + Precision>(
+pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(
     cm: *const T,
     hsv: *const T,
     nhv: i32,
@@ -219,43 +119,9 @@ unsafe fn scalar_tangent<T: Registers + Precision>(
     Ok(status)
 }
 
-/// `toron_lsdyna_utan_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_f64(
-    cm: *const f64,
-    hsv: *const f64,
-    nhv: i32,
-    es: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
-}
-
-/// `toron_lsdyna_utan_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_f32(
-    cm: *const f32,
-    hsv: *const f32,
-    nhv: i32,
-    es: *mut f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
-}
-
 /// # Safety
 /// As for `toron_lsdyna_utan_vector_f64`.
-unsafe fn vector_tangent<T: Precision>(
+pub(super) unsafe fn vector_tangent<T: Precision>(
     cm: *const T,
     hsvs: *const T,
     nhv: i32,
@@ -276,66 +142,5 @@ unsafe fn vector_tangent<T: Precision>(
     unsafe {
         let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
         law.raw_block(&pointers)
-    }
-}
-
-/// `toron_lsdyna_utan_vector_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_vector_f64(
-    cm: *const f64,
-    hsvs: *const f64,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    dsave: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
-}
-
-/// `toron_lsdyna_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_vector_f32(
-    cm: *const f32,
-    hsvs: *const f32,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    dsave: *mut f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
-}
-
-/// `toron_lsdyna_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn bulk_and_shear_f64(
-    values: *const f64,
-    count: usize,
-    bulk: *mut f64,
-    shear: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            bulk_and_shear::<Hyperelastic<f64>>(values, count, bulk, shear)
-        })
     }
 }

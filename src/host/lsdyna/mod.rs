@@ -21,18 +21,11 @@
 mod hyperelastic;
 mod linear_elastic;
 
-pub use hyperelastic::{
-    bulk_and_shear_f64, umat_f32, umat_f64, umat_vector_f32, umat_vector_f64, utan_f32, utan_f64, utan_vector_f32,
-    utan_vector_f64,
-};
-pub use linear_elastic::{
-    linear_bulk_and_shear_f64, linear_umat_f32, linear_umat_f64, linear_umat_vector_f32, linear_umat_vector_f64,
-    linear_utan_f32, linear_utan_f64, linear_utan_vector_f32, linear_utan_vector_f64,
-};
-
 use core::ffi::c_int;
 
-use crate::host::border::{check_pointers, from_entry, properties, start_at_rest, store};
+use libc::{c_char, size_t};
+
+use crate::host::border::{Message, check_pointers, entry, from_entry, properties, start_at_rest, store};
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::description::Description;
 use crate::law::error::Error;
@@ -296,3 +289,134 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
     }
     !is_elsewhere()
 }
+
+/// The entries of the C interface for a law in one precision.
+macro_rules! entries {
+    ($module:ident, $law:ident, $t:ty: $umat:ident, $umat_vector:ident, $utan:ident, $utan_vector:ident) => {
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $umat(
+            cm: *const $t,
+            sig: *mut $t,
+            hsv: *mut $t,
+            nhv: i32,
+            failel: *mut c_int,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar(cm, sig, hsv, nhv, failel)) }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $umat_vector(
+            cm: *const $t,
+            sig1: *mut $t,
+            sig2: *mut $t,
+            sig3: *mut $t,
+            sig4: *mut $t,
+            sig5: *mut $t,
+            sig6: *mut $t,
+            hsvs: *mut $t,
+            nhv: i32,
+            lft: i32,
+            llt: i32,
+            nlq: i32,
+            failels: *mut c_int,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            let stress = [sig1, sig2, sig3, sig4, sig5, sig6];
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    vector::<$t, $law<$t>>(cm, stress, hsvs, nhv, [lft, llt, nlq], failels)
+                })
+            }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $utan(
+            cm: *const $t,
+            hsv: *const $t,
+            nhv: i32,
+            es: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar_tangent(cm, hsv, nhv, es)) }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $utan_vector(
+            cm: *const $t,
+            hsvs: *const $t,
+            nhv: i32,
+            lft: i32,
+            llt: i32,
+            nlq: i32,
+            dsave: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    $module::vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)
+                })
+            }
+        }
+    };
+}
+
+entries!(hyperelastic, Hyperelastic, f64: umat_f64, umat_vector_f64, utan_f64, utan_vector_f64);
+entries!(hyperelastic, Hyperelastic, f32: umat_f32, umat_vector_f32, utan_f32, utan_vector_f32);
+entries!(linear_elastic, LinearElastic, f64: linear_umat_f64, linear_umat_vector_f64, linear_utan_f64, linear_utan_vector_f64);
+entries!(linear_elastic, LinearElastic, f32: linear_umat_f32, linear_umat_vector_f32, linear_utan_f32, linear_utan_vector_f32);
+
+/// The entry of the C interface for the moduli of a law.
+macro_rules! moduli {
+    ($law:ident: $bulk_and_shear:ident) => {
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $bulk_and_shear(
+            values: *const f64,
+            count: usize,
+            bulk: *mut f64,
+            shear: *mut f64,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    bulk_and_shear::<$law<f64>>(values, count, bulk, shear)
+                })
+            }
+        }
+    };
+}
+
+moduli!(Hyperelastic: bulk_and_shear_f64);
+moduli!(LinearElastic: linear_bulk_and_shear_f64);
