@@ -27,7 +27,7 @@ macro_rules! bound {
 /// The data symbols of a behaviour, from the tables of its law. The properties that have bounds are listed, since a name of a symbol
 /// cannot be computed; the list is checked against the table.
 macro_rules! behaviour {
-    ($module:ident, $behaviour:literal, $properties:path, $state:path, bounds of $($property:literal),*) => {
+    ($module:ident, $behaviour:literal, $law:path, bounds of $($property:literal),*) => {
         mod $module {
             use core::ffi::CStr;
 
@@ -39,10 +39,10 @@ macro_rules! behaviour {
                 Text::new(text)
             }
 
-            const PROPERTIES: usize = $properties.len();
-            const STATE: usize = $state.len();
-            static PROPERTY_NAMES: [[u8; NAME]; PROPERTIES] = property_names(&$properties);
-            static STATE_NAMES: [[u8; NAME]; STATE] = state_names(&$state);
+            const PROPERTIES: usize = $law.properties.len();
+            const STATE: usize = $law.state.len();
+            static PROPERTY_NAMES: [[u8; NAME]; PROPERTIES] = property_names($law.properties);
+            static STATE_NAMES: [[u8; NAME]; STATE] = state_names($law.state);
             const NAME_OF_BEHAVIOUR: &CStr = match CStr::from_bytes_with_nul(concat!($behaviour, "\0").as_bytes()) {
                 Ok(name) => name,
                 Err(_) => c"",
@@ -105,23 +105,23 @@ macro_rules! behaviour {
             pub extern "C" fn set_out_of_bounds_policy(_policy: i32) {}
 
             #[cfg(target_arch = "x86_64")]
-            const _: () = assert!(have_bounds(&$properties, &[$($property),*]), "the list of properties with bounds");
+            const _: () = assert!(have_bounds($law.properties, &[$($property),*]), "the list of properties with bounds");
             $(
                 #[cfg(target_arch = "x86_64")]
-                bound!($behaviour, $property, "Lower", bounds(&$properties, $property)[0]);
+                bound!($behaviour, $property, "Lower", bounds($law.properties, $property)[0]);
                 #[cfg(target_arch = "x86_64")]
-                bound!($behaviour, $property, "Upper", bounds(&$properties, $property)[1]);
+                bound!($behaviour, $property, "Upper", bounds($law.properties, $property)[1]);
             )*
         }
     };
 }
 
 behaviour! {
-    hyperelastic, "ToronHyperelastic", toron::parameters::HYPERELASTIC, toron::state::HYPERELASTIC,
+    hyperelastic, "ToronHyperelastic", toron::law::description::HYPERELASTIC,
     bounds of "k_el", "k_tc", "p", "k_td", "k_ld", "eps_lim", "alpha", "beta"
 }
 behaviour! {
-    linear_elastic, "ToronLinearElastic", toron::parameters::LINEAR_ELASTIC, toron::state::LINEAR_ELASTIC,
+    linear_elastic, "ToronLinearElastic", toron::law::description::LINEAR_ELASTIC,
     bounds of "e_1", "e_2", "g", "sigma_lim"
 }
 

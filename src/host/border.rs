@@ -8,9 +8,10 @@ use libc::{c_char, size_t};
 use super::environment::in_default_environment;
 use crate::law::block::Precision;
 use crate::law::bounds::wrong_number;
+use crate::law::description::Description;
 use crate::law::error::Error;
-use crate::law::linear_elastic::LinearElastic;
-use crate::law::parameters::{FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
+use crate::law::interface::Law;
+use crate::law::parameters::Property;
 use crate::law::status;
 
 /// The properties that a caller passes, read only if their number is right.
@@ -42,15 +43,10 @@ pub(super) fn check_pointers<T>(pointers: &[(*const T, &'static str)]) -> Result
     }
 }
 
-/// The fibre direction among properties of the hyperelastic law; `None` if their number is wrong.
-pub(super) fn fibre_of(properties: &[f64]) -> Option<[f64; 3]> {
-    properties.get(FIBRE..)?.try_into().ok()
-}
-
 /// Whether a direction is neither in the plane of a plane-strain or axisymmetric element nor normal to it: the stress along it
 /// would have components that such an element does not have. False for a direction that is zero or not finite, which is refused
 /// elsewhere.
-pub(super) fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
+fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
     /// A direction typed or computed to this many digits counts as in the plane.
     const TOLERANCE: f64 = 1e-9;
     let (across, along) = (m_1.abs().max(m_2.abs()), m_3.abs());
@@ -60,26 +56,32 @@ pub(super) fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
 /// The error of a direction among the properties that a plane-strain or axisymmetric element does not allow: the stress would have
 /// components that such an element does not have. `index` is that of its first component, from 0.
 #[cold]
-pub(super) fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
+fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
     let wanted = "a direction in the plane (third component 0) or normal to it";
     Error::Direction { code: status::FIBRE_OUT_OF_PLANE, index, name, value, wanted }
 }
 
-/// Checks that the material axes of the linear elastic law lie in the plane of a plane-strain or axisymmetric element, or normal to it.
+/// Checks that the directions of a law lie in the plane of a plane-strain or axisymmetric element, or normal to it.
 ///
 /// # Errors
 /// The direction among the properties that does not.
-pub(super) fn check_plane(law: &LinearElastic, properties: &[f64]) -> Result<(), Error> {
-    let &[.., m_1, m_2, m_3, n_1, n_2, n_3] = properties else { return Ok(()) }; // their number has been checked
-    let axes: [[f64; 3]; 3] = law.reference_axes().into();
-    if out_of_plane([m_1, m_2, m_3]) {
-        return Err(oblique(LINEAR_FIBRE, "fibre direction", [m_1, m_2, m_3]));
+#[inline(never)]
+pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) -> Result<(), Error> {
+    let direction = |first: usize| -> [f64; 3] {
+        let components = properties.get(first..).and_then(<[T]>::first_chunk);
+        components.map_or([0.0; 3], |components: &[T; 3]| components.map(Into::into)) // their number has been checked
+    };
+    let Description { fibre, second_axis, .. } = L::DESCRIPTION;
+    if out_of_plane(direction(fibre)) {
+        return Err(oblique(fibre, "fibre direction", direction(fibre)));
     }
-    // Another axis may be oblique only because of the second one.
-    if axes.into_iter().any(out_of_plane) {
-        return Err(oblique(LINEAR_SECOND_AXIS, "second axis", [n_1, n_2, n_3]));
+    match second_axis {
+        // Another axis may be oblique only because of the second one.
+        Some(second) if law.axes().into_iter().any(out_of_plane) => {
+            Err(oblique(second, "second axis", direction(second)))
+        }
+        _ => Ok(()),
     }
-    Ok(())
 }
 
 /// For hosts that do not pass the F of the last step: sets it to 1 where it is 0, as the host initialises the place where it is kept,

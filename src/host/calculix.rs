@@ -27,10 +27,10 @@ use core::ffi::c_char;
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
+use crate::law::description::{self, Description};
 use crate::law::error::Error;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::parameters::{self, Property};
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
@@ -53,7 +53,7 @@ const EXIT_CODE: i32 = 201;
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
 
 /// The state variables of the linear elastic law, and F of the last increment.
-const LINEAR_HISTORY: usize = LINEAR_ELASTIC_STATE + 9;
+const LINEAR_HISTORY: usize = description::LINEAR_ELASTIC.history();
 
 /// The arguments of CalculiX that the laws use, see its `umat_user.f`.
 #[derive(Clone, Copy, Debug)]
@@ -135,11 +135,12 @@ impl Arguments<'_> {
     /// The constants of the material, if there are as many as the law has properties.
     ///
     /// # Errors
-    /// The errors of a deck that the arguments show; `state` is the number of state variables that the law needs.
-    fn properties(&self, table: &'static [Property], state: usize) -> Result<&[f64], Error> {
+    /// The errors of a deck that the arguments show.
+    fn properties(&self, law: &Description) -> Result<&[f64], Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
         // SAFETY: CalculiX's promise: as many constants as kode says.
-        let properties = unsafe { properties(self.constants, count, table) }?;
+        let properties = unsafe { properties(self.constants, count, law.properties) }?;
+        let state = law.history();
         if self.state_count < state as i32 {
             let (found, wanted) = (i64::from(self.state_count), state as i64);
             let what = "number of state variables (*DEPVAR)";
@@ -180,7 +181,7 @@ impl Arguments<'_> {
     /// # Errors
     /// The errors of a deck that the arguments show.
     fn hyperelastic(&self) -> Result<Answer<HYPERELASTIC_STATE>, Error> {
-        let properties = self.properties(&parameters::HYPERELASTIC, HYPERELASTIC_STATE)?;
+        let properties = self.properties(&description::HYPERELASTIC)?;
         let fibre = match (self.orientation, properties) {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
@@ -199,7 +200,7 @@ impl Arguments<'_> {
     /// # Errors
     /// The errors of a deck that the arguments show.
     fn linear_elastic(&self) -> Result<Answer<LINEAR_HISTORY>, Error> {
-        let values = self.properties(&parameters::LINEAR_ELASTIC, LINEAR_HISTORY)?;
+        let values = self.properties(&description::LINEAR_ELASTIC)?;
         let law = self.oriented(values)?;
         // SAFETY: CalculiX's promise: there are as many as state_count says.
         let mut state = unsafe { *self.old_state.cast::<[f64; LINEAR_HISTORY]>() };

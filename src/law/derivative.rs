@@ -57,48 +57,31 @@ impl<const STATE: bool> Stress<STATE> {
         Request { stress: true, energies: STATE, invariants: STATE, failure: STATE, modes: false, wave_modulus: false };
 }
 
-impl Derivative<0> for NoTangent {
-    type Early<R: Real> = ();
-    type General = Self;
+/// What requests no tangent.
+pub(crate) trait WithoutTangent: Copy {
+    fn results(self) -> Request;
+}
 
-    fn general(self) -> Self {
-        self
-    }
-
+impl WithoutTangent for NoTangent {
     #[inline(always)]
-    fn early<R: Real>(self, _: &Stretch<R>, _: &Section<R>, _: &[[R; 3]; 3]) {}
-
-    #[inline(always)]
-    fn request(self) -> Request {
+    fn results(self) -> Request {
         self.0
-    }
-
-    #[inline(always)]
-    fn may_overflow<R: Real>(self, _: bool) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn of<R: Real>(
-        self,
-        _: &Hyperelastic<R>,
-        _: Kinematics<'_, R>,
-        _: &Kirchhoff<R>,
-        _: &FibreFrame<R>,
-        _: bool,
-        (): &(),
-        _: bool,
-    ) -> [R; 0] {
-        []
     }
 }
 
-impl<const STATE: bool> Derivative<0> for Stress<STATE> {
+impl<const STATE: bool> WithoutTangent for Stress<STATE> {
+    #[inline(always)]
+    fn results(self) -> Request {
+        Self::REQUEST
+    }
+}
+
+impl<Q: WithoutTangent> Derivative<0> for Q {
     type Early<R: Real> = ();
     type General = NoTangent;
 
     fn general(self) -> NoTangent {
-        NoTangent(Self::REQUEST)
+        NoTangent(self.results())
     }
 
     #[inline(always)]
@@ -106,7 +89,7 @@ impl<const STATE: bool> Derivative<0> for Stress<STATE> {
 
     #[inline(always)]
     fn request(self) -> Request {
-        Self::REQUEST
+        self.results()
     }
 
     #[inline(always)]

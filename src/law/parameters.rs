@@ -162,8 +162,6 @@ pub enum LawName {
 }
 
 impl LawName {
-    pub const ALL: [LawName; 2] = [LawName::Hyperelastic, LawName::LinearElastic];
-
     /// The law's properties.
     pub const fn properties(self) -> &'static [Property] {
         match self {

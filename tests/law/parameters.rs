@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use toron::Error;
 use toron::host::units::UnitSystem;
+use toron::law::description;
 use toron::law::linear_elastic::{self, LinearElastic};
 use toron::law::parameters::{
     self, DENSITY, HYPERELASTIC, HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC, LINEAR_ELASTIC_PROPERTIES, NUMBER, PRESETS,
@@ -364,4 +365,19 @@ fn properties_by_name_are_the_rows_of_the_tables() {
     assert_eq!(properties.fibre, ["m_1", "m_2", "m_3"].map(|name| parameters::place(&LINEAR_ELASTIC, name)));
     assert_eq!(properties.second_axis, ["n_1", "n_2", "n_3"].map(|name| parameters::place(&LINEAR_ELASTIC, name)));
     assert_eq!(<[usize; parameters::LINEAR_ELASTIC_PROPERTIES]>::from(properties), places);
+}
+
+#[test]
+fn descriptions_say_where_the_tables_have_what() {
+    for law in [&description::HYPERELASTIC, &description::LINEAR_ELASTIC] {
+        let property = |place: usize| law.properties[place].name;
+        assert_eq!([property(law.fibre), property(law.fibre + 2)], ["m_1", "m_3"], "{}", law.title);
+        assert_eq!(law.second_axis.map(property), law.second_axis.map(|_| "n_1"), "{}", law.title);
+        assert_eq!([law.failed, law.alive].map(|place| law.state[place].name), ["failed", "alive"], "{}", law.title);
+        let energies: Vec<usize> = law.energies.clone().collect();
+        let rows: Vec<usize> =
+            (0..law.state.len()).filter(|&i| law.state[i].dimension.name == "energy/volume").collect();
+        assert_eq!(energies, rows, "{}", law.title);
+    }
+    assert_eq!([description::HYPERELASTIC.history(), description::LINEAR_ELASTIC.history()], [11, 19]);
 }

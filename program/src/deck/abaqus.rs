@@ -37,9 +37,9 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
-        Solver::Explicit | Solver::Both => format!(", DELETE={}", material.interface().openradioss.alive + 1),
+        Solver::Explicit | Solver::Both => format!(", DELETE={}", material.interface().law.alive + 1),
     };
-    let variables = material.interface().state;
+    let variables = material.interface().law.state;
     let _ = writeln!(card, "*DEPVAR{delete}\n{},", variables.len());
     for (i, variable) in variables.iter().enumerate() {
         let _ = writeln!(card, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);

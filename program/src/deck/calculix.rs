@@ -21,5 +21,5 @@ pub fn card(material: &Material) -> String {
     if material.values.len().is_multiple_of(FULL) {
         card += "0.0\n";
     }
-    card + &format!("*DEPVAR\n{}\n", interface.state.len() + interface.kept)
+    card + &format!("*DEPVAR\n{}\n", interface.law.history())
 }

@@ -2,17 +2,14 @@
 //! those of the law's tables.
 
 use toron::host::openradioss::card::{self, Layout};
-use toron::law::state::{self, StateVariable};
+use toron::law::description::{self, Description};
 
 use crate::material::preset::LawName;
 
 /// A law as the hosts see it.
 #[derive(Debug)]
 pub struct Interface {
-    pub title: &'static str,
-    pub state: &'static [StateVariable],
-    /// What LS-DYNA and CalculiX keep behind the state: the nine entries of the last step's F, where the law needs it.
-    pub kept: usize,
+    pub law: &'static Description,
     /// LS-DYNA's number of the material, and with it of the routine: `umat41`.
     pub ls_dyna: u32,
     /// CalculiX's name of the material.
@@ -24,9 +21,7 @@ pub struct Interface {
 }
 
 static HYPERELASTIC: Interface = Interface {
-    title: "hyperelastic yarn law",
-    state: &state::HYPERELASTIC,
-    kept: 0,
+    law: &description::HYPERELASTIC,
     ls_dyna: 41,
     calculix: "@TORON_HYPERELASTIC",
     behaviour: "ToronHyperelastic",
@@ -34,9 +29,7 @@ static HYPERELASTIC: Interface = Interface {
 };
 
 static LINEAR_ELASTIC: Interface = Interface {
-    title: "linear elastic law",
-    state: &state::LINEAR_ELASTIC,
-    kept: 9,
+    law: &description::LINEAR_ELASTIC,
     ls_dyna: 43,
     calculix: "@TORON_LINEARELASTIC",
     behaviour: "ToronLinearElastic",

@@ -31,7 +31,7 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     let count = values.len();
     let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()?).collect();
     let names: Vec<&str> = table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
-    let history = interface.state.len() + interface.kept;
+    let history = interface.law.history();
     let [ortho, hyper] = if fibre == Fibre::Axes { ["1", "-1"] } else { ["0", "1"] };
 
     let mut card = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n", material.name);

@@ -34,7 +34,7 @@ impl Material {
     /// A property that is missing, or values that the law refuses.
     pub fn new(preset: &Preset, units: &UnitSystem, fibre: Option<[f64; 3]>) -> Result<Material, Error> {
         let mut values = preset.complete(units)?;
-        let first = preset.law.first_of_fibre();
+        let first = preset.law.description().fibre;
         if let Some(fibre) = fibre {
             values[first..first + 3].copy_from_slice(&fibre);
         }
@@ -90,7 +90,7 @@ impl Material {
 
     /// Where the fibre's three components are among the values.
     pub fn fibre(&self) -> std::ops::Range<usize> {
-        let first = self.law.first_of_fibre();
+        let first = self.law.description().fibre;
         first..first + 3
     }
 
@@ -99,7 +99,7 @@ impl Material {
         let stresses = self.table().iter().filter(|property| property.dimension == STRESS);
         let names: Vec<&str> = stresses.map(|property| property.name).collect();
         let [length, mass, time] = self.units.names().map(ascii);
-        let (title, stress, density) = (self.interface().title, self.unit(STRESS), self.unit(DENSITY));
+        let (title, stress, density) = (self.interface().law.title, self.unit(STRESS), self.unit(DENSITY));
         [
             format!("{}: {}", self.name, self.source),
             format!("toron, {title}, in {length}, {mass}, {time}"),

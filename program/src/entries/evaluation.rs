@@ -386,7 +386,7 @@ pub fn openradioss(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], li
     if line.is_multiple_of(2) {
         group = OpenradiossGroup::new(n, properties, true).unwrap_or(group);
         for c in 0..3 {
-            group.uvar[(card::HYPERELASTIC.fibre + c) * n..][..n].fill(properties[FIBRE + c]);
+            group.uvar[(card::HYPERELASTIC.fibre() + c) * n..][..n].fill(properties[FIBRE + c]);
         }
     }
     for i in 0..n {
@@ -401,7 +401,7 @@ pub fn openradioss(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], li
     }
     let variable = |number: usize| group.uvar[number * n + at];
     Answer {
-        status: variable(card::HYPERELASTIC.deleted).min(0.0) as i32,
+        status: variable(card::HYPERELASTIC.deleted()).min(0.0) as i32,
         stress: std::array::from_fn(|c| group.stress[c * OpenradiossGroup::<f64>::LENGTH + at]),
         state: std::array::from_fn(variable),
         ..Answer::default()

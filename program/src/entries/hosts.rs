@@ -419,7 +419,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
             n,
             gradient: array(9, Self::LENGTH),
             stress: array(6, Self::LENGTH),
-            uvar: array(layout.variables, n),
+            uvar: array(layout.variables(), n),
             off: Aligned::new(T::from_f64(1.0), n),
             sound_speed: array(1, n),
             uparam,
@@ -436,7 +436,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
         let group = openradioss::Group {
             elements: self.n as i32,
             parameters: self.uparam.len() as i32,
-            variables: card::HYPERELASTIC.variables as i32,
+            variables: card::HYPERELASTIC.variables() as i32,
             time: T::from_f64(1e-6),
             uparam: self.uparam.as_ptr(),
             numbers: null(),

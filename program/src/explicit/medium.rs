@@ -9,8 +9,7 @@ use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
 use crate::material::model::{Law, Material};
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
-use toron::law::state::{FAILED, HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
-use toron::law::{hyperelastic, linear_elastic};
+use toron::law::{description, hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
 
 /// Coefficients of hourglass control and viscosity.
@@ -130,10 +129,11 @@ impl<T: Number> Medium<T> {
 
     /// The law's number of state variables, and where the latch stands among them.
     pub fn state(&self) -> (usize, usize) {
-        match self.entry {
-            Entry::Hyperelastic(_) => (HYPERELASTIC_STATE, FAILED),
-            Entry::LinearElastic { .. } => (LINEAR_ELASTIC_STATE, LINEAR_FAILED),
-            Entry::Solid(_) => (SOLID_STATE, SOLID_FAILED),
-        }
+        let law = match self.entry {
+            Entry::Hyperelastic(_) => &description::HYPERELASTIC,
+            Entry::LinearElastic { .. } => &description::LINEAR_ELASTIC,
+            Entry::Solid(_) => return (SOLID_STATE, SOLID_FAILED),
+        };
+        (law.state.len(), law.failed)
     }
 }

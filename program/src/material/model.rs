@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 
 use super::preset::LawName;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
-use toron::law::state::{self, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
-use toron::law::state::{LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
+use toron::law::state::{FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
+use toron::law::state::{LINEAR_ELASTIC_STATE, LINEAR_LARGEST, LINEAR_STRESS};
 use toron::law::status;
 use toron::law::{hyperelastic, linear_elastic};
 use toron::{Criterion, LinearElastic, Rotation};
@@ -121,10 +121,7 @@ impl Material {
 
     /// The law's table of state variables.
     pub fn state_table(&self) -> &'static [StateVariable] {
-        match self.law {
-            Law::Hyperelastic { .. } => &state::HYPERELASTIC,
-            Law::LinearElastic { .. } => &state::LINEAR_ELASTIC,
-        }
+        self.law.name().description().state
     }
 
     /// The label, and what is other than the preset has it.
@@ -217,19 +214,12 @@ impl Material {
 
     /// Whether the point has failed.
     pub fn failed(&self, memory: &Memory) -> bool {
-        let latch = match self.law {
-            Law::Hyperelastic { .. } => FAILED,
-            Law::LinearElastic { .. } => LINEAR_FAILED,
-        };
-        memory.state[latch] != 0.0
+        memory.state[self.law.name().description().failed] != 0.0
     }
 
     /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work.
     pub fn energy(&self, memory: &Memory) -> f64 {
-        match self.law {
-            Law::Hyperelastic { .. } => memory.state[..INVARIANTS].iter().sum(),
-            Law::LinearElastic { .. } => memory.state[LINEAR_WORK],
-        }
+        memory.state[self.law.name().description().energies.clone()].iter().sum()
     }
 
     /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim.

@@ -12,9 +12,8 @@ use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
-use toron::law::parameters::{
-    self, DENSITY, Dimension, FIBRE, HYPERELASTIC, LINEAR_ELASTIC, LINEAR_FIBRE, PRESETS, Property,
-};
+use toron::law::description::{self, Description};
+use toron::law::parameters::{self, DENSITY, Dimension, PRESETS, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
@@ -36,19 +35,15 @@ impl From<parameters::LawName> for LawName {
 }
 
 impl LawName {
-    pub fn table(self) -> &'static [Property] {
+    pub fn description(self) -> &'static Description {
         match self {
-            LawName::Hyperelastic => &HYPERELASTIC,
-            LawName::LinearElastic => &LINEAR_ELASTIC,
+            LawName::Hyperelastic => &description::HYPERELASTIC,
+            LawName::LinearElastic => &description::LINEAR_ELASTIC,
         }
     }
 
-    /// Where the fibre's three components begin in the table.
-    pub fn first_of_fibre(self) -> usize {
-        match self {
-            LawName::Hyperelastic => FIBRE,
-            LawName::LinearElastic => LINEAR_FIBRE,
-        }
+    pub fn table(self) -> &'static [Property] {
+        self.description().properties
     }
 
     /// As files have it.
@@ -465,8 +460,8 @@ mod tests {
         fn every_bit_reads_back(
             law in prop_oneof![Just(LawName::Hyperelastic), Just(LawName::LinearElastic)],
             density in proptest::option::of(f64::MIN_POSITIVE..f64::MAX),
-            values in HYPERELASTIC.iter().map(allowed).collect::<Vec<_>>(),
-            linear in LINEAR_ELASTIC.iter().map(allowed).collect::<Vec<_>>(),
+            values in parameters::HYPERELASTIC.iter().map(allowed).collect::<Vec<_>>(),
+            linear in parameters::LINEAR_ELASTIC.iter().map(allowed).collect::<Vec<_>>(),
             source in "[^\\p{Cc}]*",
             comment in "\\PC*|(?s).*",
         ) {

@@ -6,7 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
-use crate::host::border::{Message, check_plane, check_pointers, entry, fibre_of, oblique, out_of_plane, properties};
+use crate::host::border::{Message, check_plane, check_pointers, entry, properties};
 use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
@@ -15,7 +15,7 @@ use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::vector::{cross, dot};
-use crate::law::parameters::{self, FIBRE};
+use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_WORK};
 use crate::law::status;
@@ -71,10 +71,7 @@ where
                 let properties =
                     properties(props, property_count(nprops, &parameters::HYPERELASTIC)?, &parameters::HYPERELASTIC)?;
                 if nshr == 1 {
-                    Hyperelastic::new(properties)?;
-                    if let Some(fibre) = fibre_of(properties).filter(|&fibre| out_of_plane(fibre)) {
-                        return Err(oblique(FIBRE, "fibre direction", fibre));
-                    }
+                    check_plane(&Hyperelastic::new(properties)?, properties)?;
                 }
                 Ok(status::OK)
             })

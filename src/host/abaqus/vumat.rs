@@ -5,20 +5,15 @@ use core::mem::MaybeUninit;
 use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
-use crate::host::border::{Message, check_plane, check_pointers, entry, oblique, out_of_plane, properties};
+use crate::host::border::{Message, check_plane, check_pointers, entry, properties};
 use crate::host::c::level;
 use crate::host::structures::{read, structures};
-use crate::law::block::linear::LinearPointers;
-use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::parameters::{self, FIBRE, LINEAR_ELASTIC_PROPERTIES, Property};
-use crate::law::state::{
-    ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ALIVE, LINEAR_ELASTIC_STATE,
-    LINEAR_FAILED, LINEAR_WORK,
-};
 use crate::law::status;
 
 /// The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
@@ -73,125 +68,9 @@ macro_rules! at {
     };
 }
 
-/// What a VUMAT needs of a law.
-trait VumatLaw<T: Precision>: Sized {
-    const PROPERTIES: &'static [Property];
-    /// The number of state variables, and the places of `failed` and `alive` among them.
-    const STATE: usize;
-    const FAILED: usize;
-    const ALIVE: usize;
-    /// How many energies the state has, and the place of the first; their sum is W.
-    const ENERGIES: (usize, usize);
-
-    /// Checks the properties, for a plane element if `plane`.
-    fn new(properties: &[T], plane: bool) -> Result<Self, Error>;
-
-    /// The moduli of the data check.
-    fn moduli(&self) -> [T; 2];
-
-    /// Evaluates the law at `n` points from U at both ends of the increment; state and stress are new ones. Returns the worst status.
-    ///
-    /// # Safety
-    /// The rows have `n` values, those of the state at `state_old` and `state_new` the distance `stride`.
-    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error>;
-}
-
-/// Points of a VUMAT as a law takes them.
-struct Part<T> {
-    n: usize,
-    /// The distance from one state variable to the next.
-    stride: usize,
-    /// F = U, by columns.
-    old: [*const T; 9],
-    new: [*const T; 9],
-    state_old: *const T,
-    state_new: *mut T,
-    stress: [*mut T; 6],
-    codes: *mut i32,
-    level: Option<Level>,
-}
-
-impl<T: Precision> VumatLaw<T> for Hyperelastic<T> {
-    const PROPERTIES: &'static [Property] = &parameters::HYPERELASTIC;
-    const STATE: usize = HYPERELASTIC_STATE;
-    const FAILED: usize = FAILED;
-    const ALIVE: usize = ALIVE;
-    const ENERGIES: (usize, usize) = (4, ENERGIES);
-
-    fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
-        let law = Hyperelastic::new(properties)?;
-        let &[.., m_1, m_2, m_3] = properties else { return Ok(law) }; // their number has been checked
-        let fibre = [m_1.into(), m_2.into(), m_3.into()];
-        if plane && out_of_plane(fibre) {
-            return Err(oblique(FIBRE, "fibre direction", fibre));
-        }
-        Ok(law)
-    }
-
-    fn moduli(&self) -> [T; 2] {
-        self.bulk_and_shear()
-    }
-
-    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error> {
-        let row = |c: usize| c.wrapping_mul(part.stride);
-        let pointers = Pointers {
-            deformation_gradient: part.new,
-            energies_old: part.state_old.wrapping_add(row(ENERGIES)),
-            invariants_old: part.state_old.wrapping_add(row(INVARIANTS)),
-            failure_old: part.state_old.wrapping_add(row(FAILURE_INDEX)),
-            stress: part.stress,
-            energies: part.state_new.wrapping_add(row(ENERGIES)),
-            invariants: part.state_new.wrapping_add(row(INVARIANTS)),
-            failure: part.state_new.wrapping_add(row(FAILURE_INDEX)),
-            status: part.codes,
-            level: part.level,
-            ..Pointers::without_arrays(part.n, part.stride)
-        };
-        // SAFETY: the caller's promise.
-        unsafe { self.raw_block(&pointers) }
-    }
-}
-
-impl<T: Precision> VumatLaw<T> for LinearElastic<T> {
-    const PROPERTIES: &'static [Property] = &parameters::LINEAR_ELASTIC;
-    const STATE: usize = LINEAR_ELASTIC_STATE;
-    const FAILED: usize = LINEAR_FAILED;
-    const ALIVE: usize = LINEAR_ALIVE;
-    const ENERGIES: (usize, usize) = (1, LINEAR_WORK);
-
-    fn new(properties: &[T], plane: bool) -> Result<Self, Error> {
-        let law = LinearElastic::new(properties)?;
-        if plane {
-            let mut values = [0.0; LINEAR_ELASTIC_PROPERTIES];
-            values.iter_mut().zip(properties).for_each(|(value, &property)| *value = property.into());
-            check_plane(&law.lanes(), &values)?;
-        }
-        Ok(law)
-    }
-
-    fn moduli(&self) -> [T; 2] {
-        self.bulk_and_shear()
-    }
-
-    unsafe fn evaluate(&self, part: &Part<T>) -> Result<i32, Error> {
-        let pointers = LinearPointers {
-            f_old: part.old,
-            f_new: part.new,
-            state_old: part.state_old,
-            state_new: part.state_new,
-            stress: part.stress,
-            status: part.codes,
-            level: part.level,
-            ..LinearPointers::without_arrays(part.n, part.stride)
-        };
-        // SAFETY: the caller's promise.
-        unsafe { self.raw_block(&pointers) }
-    }
-}
-
 /// # Safety
 /// As for `toron_abaqus_vumat_f64`.
-unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
+unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
     let mut room = MaybeUninit::uninit();
     // SAFETY: the caller's promise.
     let block = unsafe { read(block, &mut room) }?;
@@ -210,21 +89,25 @@ unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<
         (block.ener_intern_new, "ener_intern_new"),
         (block.ener_inelas_new, "ener_inelas_new"),
     ])?;
-    check_counts(block.ndir, block.nshr, VUMAT_COUNTS, block.nstatev, L::STATE)?;
+    check_counts(block.ndir, block.nshr, VUMAT_COUNTS, block.nstatev, L::DESCRIPTION.state.len())?;
     let Ok(n) = usize::try_from(block.nblock) else {
         let (code, value) = (status::BAD_COUNT, i64::from(block.nblock));
         return Err(Error::Range { code, name: "nblock", value, least: 0, greatest: i64::MAX });
     };
     let level = level(block.level)?;
-    let count = property_count(block.nprops, L::PROPERTIES)?;
+    let table = L::DESCRIPTION.properties;
     // SAFETY: not null, and the caller's promise.
-    let law = L::new(unsafe { properties(block.props, count, L::PROPERTIES) }?, block.nshr == 1)?;
+    let values = unsafe { properties(block.props, property_count(block.nprops, table)?, table) }?;
+    let law = L::new(values)?;
+    if block.nshr == 1 {
+        check_plane(&law, values)?;
+    }
     // SAFETY: the caller's promise, from here on.
     unsafe {
         for i in 0..n {
             // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
             // nothing.
-            for c in L::STATE..block.nstatev as usize {
+            for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
@@ -242,8 +125,8 @@ unsafe fn vumat<L: VumatLaw<T>, T: Precision>(block: *const Vumat<T>) -> Result<
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) -> i32 {
-    let [bulk, shear] = law.moduli();
+unsafe fn elastic_check<L: Law<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) -> i32 {
+    let [bulk, shear] = law.bulk_and_shear();
     let (zero, mut worst) = (T::splat(0.0), status::OK);
     let is_finite = |x: T| (x * zero).le(zero);
     let components = 3 + block.nshr as usize;
@@ -261,12 +144,13 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 code = if is_finite(stress) { code } else { status::OVERFLOW };
                 at!(block.stress_new, block, c, i) = stress;
             }
-            for c in 0..L::STATE {
+            for c in 0..L::DESCRIPTION.state.len() {
                 let old = at!(block.state_old, block, c, i);
                 code = if is_finite(old) { code } else { status::STATE_NOT_FINITE };
                 at!(block.state_new, block, c, i) = if is_finite(old) { old } else { zero };
             }
-            at!(block.state_new, block, L::ALIVE, i) = T::splat(1.0) - at!(block.state_new, block, L::FAILED, i);
+            at!(block.state_new, block, L::DESCRIPTION.alive, i) =
+                T::splat(1.0) - at!(block.state_new, block, L::DESCRIPTION.failed, i);
             let energy = *block.ener_intern_old.add(i);
             code = if is_finite(energy) { code } else { status::STATE_NOT_FINITE };
             *block.ener_intern_new.add(i) = if is_finite(energy) { energy } else { zero };
@@ -275,8 +159,8 @@ unsafe fn elastic_check<L: VumatLaw<T>, T: Precision>(law: &L, block: &Vumat<T>,
                 for c in 0..components {
                     at!(block.stress_new, block, c, i) = zero;
                 }
-                at!(block.state_new, block, L::FAILED, i) = T::splat(1.0);
-                at!(block.state_new, block, L::ALIVE, i) = zero;
+                at!(block.state_new, block, L::DESCRIPTION.failed, i) = T::splat(1.0);
+                at!(block.state_new, block, L::DESCRIPTION.alive, i) = zero;
             }
             worst = worst.min(code);
         }
@@ -291,7 +175,7 @@ const CHUNK: usize = 64;
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn stretched<L: VumatLaw<T>, T: Precision>(
+unsafe fn stretched<L: Law<T>, T: Precision>(
     law: &L,
     block: &Vumat<T>,
     n: usize,
@@ -314,19 +198,18 @@ unsafe fn stretched<L: VumatLaw<T>, T: Precision>(
             let [a, b] = unused.each_mut().map(|row| row.as_mut_ptr());
             [stress[4], stress[5]] = [a, b];
         }
-        let part = Part {
-            n: CHUNK.min(n - start),
-            stride: n,
-            old: columns(block.stretch_old),
-            new: columns(block.stretch_new),
+        let points = Points {
+            f_old: columns(block.stretch_old),
+            f_new: columns(block.stretch_new),
             state_old: block.state_old.wrapping_add(start),
             state_new: block.state_new.wrapping_add(start),
             stress,
-            codes: codes.as_mut_ptr(),
+            status: codes.as_mut_ptr(),
             level,
+            ..Points::without_arrays(CHUNK.min(n - start), n)
         };
         // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
-        worst = worst.min(unsafe { law.evaluate(&part) }?);
+        worst = worst.min(unsafe { law.step(&points) }?);
         for (i, &code) in (start..n).zip(&codes) {
             // SAFETY: i < n.
             unsafe { finish::<L, T>(block, i, code) };
@@ -341,22 +224,22 @@ unsafe fn stretched<L: VumatLaw<T>, T: Precision>(
 ///
 /// # Safety
 /// As for [`vumat`], for a point i < nblock whose new state is written.
-unsafe fn finish<L: VumatLaw<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
+unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
     let (zero, half, one) = (T::splat(0.0), T::splat(0.5), T::splat(1.0));
     // SAFETY: the caller's promise.
     unsafe {
         if code != status::OK {
-            at!(block.state_new, block, L::FAILED, i) = one;
-            at!(block.state_new, block, L::ALIVE, i) = zero;
+            at!(block.state_new, block, L::DESCRIPTION.failed, i) = one;
+            at!(block.state_new, block, L::DESCRIPTION.alive, i) = zero;
         }
         let middle = |c: usize| half * (at!(block.stretch_old, block, c, i) + at!(block.stretch_new, block, c, i));
         let u = |c: usize| if c < 3 + block.nshr as usize { middle(c) } else { zero };
         let volume = u(0) * (u(1) * u(2) - u(4) * u(4)) - u(3) * (u(3) * u(2) - u(4) * u(5))
             + u(5) * (u(3) * u(4) - u(1) * u(5));
-        let (count, first) = L::ENERGIES;
+        let first = L::DESCRIPTION.energies.start;
         let mut energy = at!(block.state_new, block, first, i);
-        for c in 1..count {
-            energy = energy + at!(block.state_new, block, first + c, i);
+        for c in first + 1..L::DESCRIPTION.energies.end {
+            energy = energy + at!(block.state_new, block, c, i);
         }
         let specific = energy / (*block.density.add(i) * volume);
         // If the deformation or the density is invalid, the energy keeps its old value.

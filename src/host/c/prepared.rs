@@ -3,11 +3,11 @@
 use libc::{c_char, size_t};
 
 use crate::host::border::{Message, entry, properties};
+use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::number::real::Scalar;
-use crate::law::parameters::{HYPERELASTIC, LINEAR_ELASTIC, Property};
 use crate::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use crate::law::status;
 
@@ -37,46 +37,39 @@ pub struct LinearElasticLaw<T> {
 ///
 /// # Safety
 /// The type is `repr(C)`: tag, size, and numbers, of which the first are those of `Numbers`.
-pub(super) unsafe trait PreparedLaw<T>: Copy {
-    type Numbers: Copy;
+pub(super) unsafe trait PreparedLaw<T: Precision>: Copy {
+    type Law: Law<T>;
+    type Numbers: Copy + for<'a> From<&'a Self::Law>;
     /// Eight letters: the law, the precision, the version of the numbers' order and meaning.
     const TAG: u64;
     /// Its name in C, and the function that prepares it.
     const NAME: &'static str;
     const PREPARED_BY: &'static str;
-    const TABLE: &'static [Property];
-
-    /// # Errors
-    /// The first property that is wrong.
-    fn prepare(properties: &[T]) -> Result<Self::Numbers, Error>;
 }
 
 macro_rules! prepared_laws {
-    ($($structure:ident, $t:ty, $numbers:ident, $law:path, $table:path, $tag:literal, $name:literal, $by:literal;)*) => {$(
+    ($($structure:ident, $t:ty, $numbers:ident, $law:path, $tag:literal, $name:literal, $by:literal;)*) => {$(
         const _: () = assert!(size_of::<$structure<$t>>() >= 16 + size_of::<$numbers<$t>>() + 8);
         const _: () = assert!(size_of::<$structure<$t>>().is_multiple_of(8));
         // SAFETY: its values are more than the numbers, which are as many values.
         unsafe impl PreparedLaw<$t> for $structure<$t> {
+            type Law = $law;
             type Numbers = $numbers<$t>;
             const TAG: u64 = u64::from_le_bytes(*$tag);
             const NAME: &'static str = $name;
             const PREPARED_BY: &'static str = $by;
-            const TABLE: &'static [Property] = &$table;
-            fn prepare(properties: &[$t]) -> Result<$numbers<$t>, Error> {
-                Ok($numbers::from(&<$law>::new(properties)?))
-            }
         }
     )*};
 }
 
 prepared_laws! {
-    HyperelasticLaw, f64, PreparedHyperelastic, Hyperelastic<f64>, HYPERELASTIC, b"HE-f64-1", "toron_hyperelastic_f64",
+    HyperelasticLaw, f64, PreparedHyperelastic, Hyperelastic<f64>, b"HE-f64-1", "toron_hyperelastic_f64",
         "toron_hyperelastic_prepare_f64";
-    HyperelasticLaw, f32, PreparedHyperelastic, Hyperelastic<f32>, HYPERELASTIC, b"HE-f32-1", "toron_hyperelastic_f32",
+    HyperelasticLaw, f32, PreparedHyperelastic, Hyperelastic<f32>, b"HE-f32-1", "toron_hyperelastic_f32",
         "toron_hyperelastic_prepare_f32";
-    LinearElasticLaw, f64, PreparedLinearElastic, LinearElastic<f64>, LINEAR_ELASTIC, b"LE-f64-1", "toron_linear_elastic_f64",
+    LinearElasticLaw, f64, PreparedLinearElastic, LinearElastic<f64>, b"LE-f64-1", "toron_linear_elastic_f64",
         "toron_linear_elastic_prepare_f64";
-    LinearElasticLaw, f32, PreparedLinearElastic, LinearElastic<f32>, LINEAR_ELASTIC, b"LE-f32-1", "toron_linear_elastic_f32",
+    LinearElasticLaw, f32, PreparedLinearElastic, LinearElastic<f32>, b"LE-f32-1", "toron_linear_elastic_f32",
         "toron_linear_elastic_prepare_f32";
 }
 
@@ -88,7 +81,7 @@ prepared_laws! {
 /// # Safety
 /// `law` is null or points to a structure of this type.
 #[inline(always)]
-pub(super) unsafe fn numbers<'a, T, L: PreparedLaw<T>>(law: *const L) -> Result<&'a L::Numbers, Error> {
+pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L) -> Result<&'a L::Numbers, Error> {
     if law.is_null() {
         return Err(Error::Null { name: "law" });
     }
@@ -105,7 +98,7 @@ pub(super) unsafe fn numbers<'a, T, L: PreparedLaw<T>>(law: *const L) -> Result<
 
 /// # Safety
 /// As for `toron_hyperelastic_prepare_f64`.
-unsafe fn prepare<T: Scalar, L: PreparedLaw<T>>(
+unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
     law: *mut L,
     size: size_t,
     values: *const T,
@@ -120,7 +113,8 @@ unsafe fn prepare<T: Scalar, L: PreparedLaw<T>>(
             return Err(Error::Size { structure: L::NAME, size, known: size_of::<L>() });
         }
         // SAFETY: the caller's promise.
-        let numbers = L::prepare(unsafe { properties(values, count, L::TABLE) }?)?;
+        let values = unsafe { properties(values, count, L::Law::DESCRIPTION.properties) }?;
+        let numbers = L::Numbers::from(&L::Law::new(values)?);
         // SAFETY: not null, of this size, and the caller's promise; a number whose bytes are all 0 is 0.
         unsafe {
             law.write_bytes(0, 1);

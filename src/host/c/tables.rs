@@ -8,10 +8,11 @@ use crate::host::environment::in_default_environment;
 use crate::host::structures::{Structure, write};
 use crate::host::units::UnitSystem;
 use crate::law::bounds::wrong_number;
+use crate::law::description::{self, Description};
 use crate::law::error::Error;
 use crate::law::number::real::Scalar;
 use crate::law::parameters::{self, Dimension, Property};
-use crate::law::state::{self, StateVariable};
+use crate::law::state::StateVariable;
 use crate::law::status;
 
 /// A row of the tables of properties and state variables. Set `size`; the rest is written. Texts are null-terminated UTF-8.
@@ -101,15 +102,15 @@ impl From<&StateVariable> for TableRow {
     }
 }
 
-/// The tables of properties and of state variables of a law.
+/// The law of a number.
 ///
 /// # Errors
 /// There is no such law.
-fn tables(law: i32) -> Result<(&'static [Property], &'static [StateVariable]), Error> {
+fn description(law: i32) -> Result<&'static Description, Error> {
     const LAST: i64 = TORON_LINEAR_ELASTIC as i64;
     match law {
-        TORON_HYPERELASTIC => Ok((&parameters::HYPERELASTIC, &state::HYPERELASTIC)),
-        TORON_LINEAR_ELASTIC => Ok((&parameters::LINEAR_ELASTIC, &state::LINEAR_ELASTIC)),
+        TORON_HYPERELASTIC => Ok(&description::HYPERELASTIC),
+        TORON_LINEAR_ELASTIC => Ok(&description::LINEAR_ELASTIC),
         _ => {
             let (code, name, value) = (status::UNKNOWN_NAME, "law", i64::from(law));
             Err(Error::Range { code, name, value, least: 0, greatest: LAST })
@@ -164,7 +165,7 @@ unsafe fn index_of(
 #[inline(never)]
 pub unsafe extern "C" fn property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { look_up(Message { text: message, capacity }, || Ok(tables(law)?.0.len() as i32)) }
+    unsafe { look_up(Message { text: message, capacity }, || Ok(description(law)?.properties.len() as i32)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -180,7 +181,7 @@ pub unsafe extern "C" fn property(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { look_up(Message { text: message, capacity }, || write_row(tables(law)?.0, index, row)) }
+    unsafe { look_up(Message { text: message, capacity }, || write_row(description(law)?.properties, index, row)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -200,7 +201,7 @@ pub unsafe extern "C" fn property_index(
         unsafe { index_of(property, "property", "property", table.iter().map(|row| row.name), message) }
     };
     // SAFETY: the caller's promise.
-    unsafe { look_up(message, || Ok(find(tables(law)?.0))) }
+    unsafe { look_up(message, || Ok(find(description(law)?.properties))) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -210,7 +211,7 @@ pub unsafe extern "C" fn property_index(
 #[inline(never)]
 pub unsafe extern "C" fn state_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { look_up(Message { text: message, capacity }, || Ok(tables(law)?.1.len() as i32)) }
+    unsafe { look_up(Message { text: message, capacity }, || Ok(description(law)?.state.len() as i32)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -226,7 +227,7 @@ pub unsafe extern "C" fn state_variable(
     capacity: size_t,
 ) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { look_up(Message { text: message, capacity }, || write_row(tables(law)?.1, index, row)) }
+    unsafe { look_up(Message { text: message, capacity }, || write_row(description(law)?.state, index, row)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
@@ -241,7 +242,7 @@ pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char, message:
         unsafe { index_of(variable, "state variable", "variable", table.iter().map(|row| row.name), message) }
     };
     // SAFETY: the caller's promise.
-    unsafe { look_up(message, || Ok(find(tables(law)?.1))) }
+    unsafe { look_up(message, || Ok(find(description(law)?.state))) }
 }
 
 /// # Safety

@@ -3,10 +3,8 @@
 use core::cell::Cell;
 use core::ffi::c_int;
 
-use libc::{c_char, size_t};
-
-use super::{CHUNK, Elements, HYPERELASTIC, element_range, store_moduli};
-use crate::host::border::{Message, check_pointers, entry, from_entry, properties};
+use super::{check_number, element_range, is_plausible, law, no_gradient};
+use crate::host::border::{check_pointers, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
 use crate::law::derivative::SixBySix;
@@ -19,53 +17,9 @@ use crate::law::number::registers::Registers;
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::Request;
-use crate::law::state::{ALIVE, ENERGIES, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
+use crate::law::state::{ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::tangent::Measure;
-
-/// The law with the properties of the card. Refuses a wrong number of history variables.
-///
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn law<T: Precision>(cm: *const T, nhv: i32) -> Result<Hyperelastic<T>, Error> {
-    HYPERELASTIC.check_number(nhv)?;
-    // SAFETY: the caller's promise.
-    Hyperelastic::new(unsafe { properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC) }?)
-}
-
-/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
-///
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn evaluate<T: Precision>(law: &Hyperelastic<T>, elements: &Elements<T>) -> Result<i32, Error> {
-    let Elements { leading_dimension: stride, .. } = *elements;
-    let mut worst = status::OK;
-    let mut done = 0;
-    while done < elements.count {
-        let start = elements.first + done;
-        let n = CHUNK.min(elements.count - done);
-        let mut codes = [status::OK; CHUNK];
-        let row = |variable: usize| elements.variable(variable, start);
-        let pointers = Pointers {
-            deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
-            energies_old: row(ENERGIES),
-            invariants_old: row(INVARIANTS),
-            failure_old: row(FAILURE_INDEX),
-            stress: from_entry(elements.stress, start),
-            energies: row(ENERGIES),
-            invariants: row(INVARIANTS),
-            failure: row(FAILURE_INDEX),
-            status: codes.as_mut_ptr(),
-            ..Pointers::without_arrays(n, stride)
-        };
-        // SAFETY: the caller's promise; the arrays are those of n elements from `start` on.
-        worst = worst.min(unsafe { law.raw_block(&pointers) }?);
-        // SAFETY: the elements are those of the block.
-        unsafe { elements.mark_failed(&HYPERELASTIC, start, codes.get(..n).unwrap_or(&codes)) };
-        done += n;
-    }
-    Ok(worst)
-}
 
 /// The card's properties, F by columns, and the state of an element.
 type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]);
@@ -77,14 +31,14 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 ///
 /// # Safety
 /// `cm` has the law's properties, `hsv` its state and F.
-unsafe fn element<'a, T: Scalar>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
-    HYPERELASTIC.check_number(nhv)?;
+unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
+    check_number::<T, Hyperelastic<T>>(nhv)?;
     // SAFETY: the caller's promise.
     unsafe {
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
-        if !HYPERELASTIC.is_plausible(|j| *hsv.add(j)) {
+        if !is_plausible::<T, Hyperelastic<T>>(|j| *hsv.add(j)) {
             Hyperelastic::new(properties)?;
-            return Err(HYPERELASTIC.no_gradient());
+            return Err(no_gradient::<T, Hyperelastic<T>>());
         }
         Ok((properties, &*hsv.add(HYPERELASTIC_STATE).cast(), &*hsv.cast()))
     }
@@ -118,7 +72,7 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
 
 /// # Safety
 /// As for `toron_lsdyna_umat_f64`.
-unsafe fn scalar<T: Registers>(
+pub(super) unsafe fn scalar<T: Registers + Precision>(
     cm: *const T,
     sig: *mut T,
     hsv: *mut T,
@@ -138,129 +92,14 @@ unsafe fn scalar<T: Registers>(
     Ok(status)
 }
 
-/// `toron_lsdyna_umat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn umat_f64(
-    cm: *const f64,
-    sig: *mut f64,
-    hsv: *mut f64,
-    nhv: i32,
-    failel: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
-}
-
-/// `toron_lsdyna_umat_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn umat_f32(
-    cm: *const f32,
-    sig: *mut f32,
-    hsv: *mut f32,
-    nhv: i32,
-    failel: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar(cm, sig, hsv, nhv, failel)) }
-}
-
-/// # Safety
-/// As for `toron_lsdyna_umat_vector_f64`.
-unsafe fn vector<T: Precision>(
-    cm: *const T,
-    stress: [*mut T; 6],
-    hsvs: *mut T,
-    nhv: i32,
-    range: [i32; 3],
-    failels: *mut c_int,
-) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm")])?;
-    let elements = Elements::new(stress, hsvs, range, failels)?;
-    // SAFETY: the caller's promise.
-    unsafe {
-        let law = law(cm, nhv)?;
-        if elements.count > 0 && !HYPERELASTIC.is_plausible(|j| *elements.variable(j, elements.first)) {
-            return Err(HYPERELASTIC.no_gradient());
-        }
-        evaluate(&law, &elements)
-    }
-}
-
-/// `toron_lsdyna_umat_vector_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_vector_f64(
-    cm: *const f64,
-    sig1: *mut f64,
-    sig2: *mut f64,
-    sig3: *mut f64,
-    sig4: *mut f64,
-    sig5: *mut f64,
-    sig6: *mut f64,
-    hsvs: *mut f64,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    failels: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
-        })
-    }
-}
-
-/// `toron_lsdyna_umat_vector_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_vector_f32(
-    cm: *const f32,
-    sig1: *mut f32,
-    sig2: *mut f32,
-    sig3: *mut f32,
-    sig4: *mut f32,
-    sig5: *mut f32,
-    sig6: *mut f32,
-    hsvs: *mut f32,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    failels: *mut c_int,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            vector(cm, [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, [lft, llt, nlq], failels)
-        })
-    }
-}
-
 /// # Safety
 /// As for `toron_lsdyna_utan_f64`.
-unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es: *mut T) -> Result<i32, Error> {
+pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(
+    cm: *const T,
+    hsv: *const T,
+    nhv: i32,
+    es: *mut T,
+) -> Result<i32, Error> {
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
     // SAFETY: the caller's promise.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
@@ -280,43 +119,9 @@ unsafe fn scalar_tangent<T: Registers>(cm: *const T, hsv: *const T, nhv: i32, es
     Ok(status)
 }
 
-/// `toron_lsdyna_utan_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_f64(
-    cm: *const f64,
-    hsv: *const f64,
-    nhv: i32,
-    es: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
-}
-
-/// `toron_lsdyna_utan_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_f32(
-    cm: *const f32,
-    hsv: *const f32,
-    nhv: i32,
-    es: *mut f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || scalar_tangent(cm, hsv, nhv, es)) }
-}
-
 /// # Safety
 /// As for `toron_lsdyna_utan_vector_f64`.
-unsafe fn vector_tangent<T: Precision>(
+pub(super) unsafe fn vector_tangent<T: Precision>(
     cm: *const T,
     hsvs: *const T,
     nhv: i32,
@@ -335,71 +140,7 @@ unsafe fn vector_tangent<T: Precision>(
     };
     // SAFETY: the caller's promise.
     unsafe {
-        let law = law(cm, nhv)?;
-        if pointers.n > 0 && !HYPERELASTIC.is_plausible(|j| *row(j)) {
-            return Err(HYPERELASTIC.no_gradient());
-        }
+        let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
         law.raw_block(&pointers)
     }
-}
-
-/// `toron_lsdyna_utan_vector_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_vector_f64(
-    cm: *const f64,
-    hsvs: *const f64,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    dsave: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
-}
-
-/// `toron_lsdyna_utan_vector_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn utan_vector_f32(
-    cm: *const f32,
-    hsvs: *const f32,
-    nhv: i32,
-    lft: i32,
-    llt: i32,
-    nlq: i32,
-    dsave: *mut f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)) }
-}
-
-/// `toron_lsdyna_bulk_and_shear_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn bulk_and_shear_f64(
-    values: *const f64,
-    count: usize,
-    bulk: *mut f64,
-    shear: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let moduli = move || {
-        // SAFETY: the caller's promise, here and below.
-        let law = Hyperelastic::new(unsafe { properties(values, count, &parameters::HYPERELASTIC) }?)?;
-        Ok(law.bulk_and_shear())
-    };
-    unsafe { entry(Message { text: message, capacity }, move || store_moduli(moduli, bulk, shear)) }
 }

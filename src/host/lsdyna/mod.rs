@@ -21,52 +21,40 @@
 mod hyperelastic;
 mod linear_elastic;
 
-pub use hyperelastic::{
-    bulk_and_shear_f64, umat_f32, umat_f64, umat_vector_f32, umat_vector_f64, utan_f32, utan_f64, utan_vector_f32,
-    utan_vector_f64,
-};
-pub use linear_elastic::{
-    linear_bulk_and_shear_f64, linear_umat_f32, linear_umat_f64, linear_umat_vector_f32, linear_umat_vector_f64,
-    linear_utan_f32, linear_utan_f64, linear_utan_vector_f32, linear_utan_vector_f64,
-};
-
 use core::ffi::c_int;
 
-use crate::host::border::{check_pointers, store};
+use libc::{c_char, size_t};
+
+use crate::host::border::{Message, check_pointers, entry, from_entry, properties, start_at_rest, store};
+use crate::law::block::{Precision, components, components_mut};
+use crate::law::description::Description;
 use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
+use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
-use crate::law::state::{ALIVE, FAILED, HYPERELASTIC_STATE, LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED};
 use crate::law::status;
 
-/// Where a law has what in the history of an element, from 0.
-#[derive(Clone, Copy)]
-struct History {
-    /// The law, for messages.
-    law: &'static str,
-    failed: usize,
-    alive: usize,
-    /// NHV: F is behind.
-    variables: usize,
-    /// What to say if there is no F there.
-    no_gradient: &'static str,
+/// A law as a user material: its history is the law's state, the entries of F that are kept for it, and, behind these, F.
+trait Material<T: Precision>: Law<T> {
+    /// What the number of history variables, NHV, is called in messages.
+    const NUMBER: &'static str;
+    /// What to say if there is no F behind them.
+    const NO_GRADIENT: &'static str;
 }
 
-const HYPERELASTIC: History = History {
-    law: "number of history variables, NHV",
-    failed: FAILED,
-    alive: ALIVE,
-    variables: HYPERELASTIC_STATE,
-    no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11",
-};
+impl<T: Precision> Material<T> for Hyperelastic<T> {
+    const NUMBER: &'static str = "number of history variables, NHV";
+    const NO_GRADIENT: &'static str =
+        "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11";
+}
 
-const LINEAR_ELASTIC: History = History {
-    law: "number of history variables, NHV, of the linear elastic law",
-    failed: LINEAR_FAILED,
-    alive: LINEAR_ALIVE,
-    variables: LINEAR_ELASTIC_STATE + 9,
-    no_gradient: "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 19 (linear elastic law)",
-};
+impl<T: Precision> Material<T> for LinearElastic<T> {
+    const NUMBER: &'static str = "number of history variables, NHV, of the linear elastic law";
+    const NO_GRADIENT: &'static str =
+        "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 19 (linear elastic law)";
+}
 
 /// The elements that a vectorised routine evaluates at once.
 const CHUNK: usize = 64;
@@ -108,8 +96,8 @@ impl<T: Scalar> Elements<T> {
     /// # Safety
     /// `codes` has the status of elements of the block, whose history and `failed` may be written.
     #[inline(always)]
-    unsafe fn mark_failed(&self, history: &History, start: usize, codes: &[i32]) {
-        let (failed, alive) = (self.variable(history.failed, start), self.variable(history.alive, start));
+    unsafe fn mark_failed(&self, law: &Description, start: usize, codes: &[i32]) {
+        let (failed, alive) = (self.variable(law.failed, start), self.variable(law.alive, start));
         for (i, &code) in codes.iter().enumerate() {
             // SAFETY: the caller's promise.
             unsafe {
@@ -150,15 +138,16 @@ fn element_range([lft, llt, nlq]: [i32; 3]) -> Result<[usize; 3], Error> {
 /// Stores the moduli that the card asks for, for contact and the time step.
 ///
 /// # Safety
-/// Each pointer that is not null may be written.
-unsafe fn store_moduli(
-    moduli: impl FnOnce() -> Result<[f64; 2], Error>,
+/// `values` has `count` properties, if it is not null; the other pointers that are not null may be written.
+unsafe fn bulk_and_shear<L: Law<f64>>(
+    values: *const f64,
+    count: usize,
     bulk: *mut f64,
     shear: *mut f64,
 ) -> Result<i32, Error> {
     check_pointers(&[(bulk, "bulk"), (shear, "shear")])?;
-    let [k, g] = moduli()?;
-    // SAFETY: not null, and the caller's promise.
+    // SAFETY: the caller's promise, here and below.
+    let [k, g] = L::new(unsafe { properties(values, count, L::DESCRIPTION.properties) }?)?.bulk_and_shear();
     unsafe {
         store(&[k], bulk);
         store(&[g], shear);
@@ -166,56 +155,268 @@ unsafe fn store_moduli(
     Ok(status::OK)
 }
 
-impl History {
-    /// Refuses a wrong number of history variables.
-    fn check_number(&self, nhv: i32) -> Result<(), Error> {
-        if nhv == self.variables as i32 {
-            return Ok(());
-        }
-        let (found, wanted) = (i64::from(nhv), self.variables as i64);
-        Err(Error::Count { code: status::STATE_COUNT, what: self.law, found, wanted })
+/// Refuses a wrong number of history variables.
+fn check_number<T: Precision, L: Material<T>>(nhv: i32) -> Result<(), Error> {
+    let variables = L::DESCRIPTION.history();
+    if nhv == variables as i32 {
+        return Ok(());
     }
-
-    /// The error of a history without F.
-    fn no_gradient(&self) -> Error {
-        Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: self.no_gradient }
-    }
-
-    /// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
-    /// below NHV + 9.
-    ///
-    /// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
-    /// zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show. After a call,
-    /// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also with
-    /// rows or columns of zeros where the element has collapsed, unless a first F is seen elsewhere. Nine zeros are no F: an element
-    /// that collapses to a point in one step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first
-    /// column of F then seems to be zero. Values that are not finite are left to the law.
-    fn is_plausible<T: Scalar>(&self, history: impl Fn(usize) -> T) -> bool {
-        let f = self.variables;
-        let h = |j: usize| -> f64 { history(j).into() };
-        let is_at = |start: usize| {
-            let column = |k: usize| [0, 1, 2].map(|i| h(start + 3 * k + i));
-            let [a, b] = [0, 1].map(column);
-            let near = |deviations: [f64; 3]| deviations.iter().all(|x| x.abs() < 0.25);
-            // The history has a third column only of an F that starts before its place.
-            let third = |c: [f64; 3]| near([dot(c, c) - 1.0, dot(a, c), dot(b, c)]);
-            near([dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)]) && (start > f || third(column(2)))
-        };
-        let is_elsewhere = || {
-            let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
-            let mut starts = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
-            starts.any(is_at)
-        };
-        if (f..f + 9).all(|j| h(j) == 0.0) {
-            return false;
-        }
-        let [failed, alive] = [self.failed, self.alive].map(h);
-        if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
-            // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
-            // a collapsed element has a row or column of zeros as well.
-            let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-            return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
-        }
-        !is_elsewhere()
-    }
+    let (found, wanted) = (i64::from(nhv), variables as i64);
+    Err(Error::Count { code: status::STATE_COUNT, what: L::NUMBER, found, wanted })
 }
+
+/// The error of a history without F.
+fn no_gradient<T: Precision, L: Material<T>>() -> Error {
+    Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: L::NO_GRADIENT }
+}
+
+/// The law with the properties of the card. Refuses a history that cannot be this law's: `first(j)` is hsv(j + 1) of the first of
+/// `count` elements, j below NHV + 9.
+///
+/// # Safety
+/// `cm` has the law's properties.
+unsafe fn law<T: Precision, L: Material<T>>(
+    cm: *const T,
+    nhv: i32,
+    count: usize,
+    first: impl Fn(usize) -> T,
+) -> Result<L, Error> {
+    check_number::<T, L>(nhv)?;
+    let table = L::DESCRIPTION.properties;
+    // SAFETY: the caller's promise.
+    let law = L::new(unsafe { properties(cm, table.len(), table) }?)?;
+    if count > 0 && !is_plausible::<T, L>(first) {
+        return Err(no_gradient::<T, L>());
+    }
+    Ok(law)
+}
+
+/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
+///
+/// # Safety
+/// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their history.
+unsafe fn evaluate<T: Precision, L: Material<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
+    let Elements { leading_dimension: stride, first, count, .. } = *elements;
+    // SAFETY: the caller's promise, here and below.
+    let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
+    let (mut worst, mut done) = (status::OK, 0);
+    while done < count {
+        let (start, n) = (first + done, CHUNK.min(count - done));
+        let row = |variable: usize| elements.variable(variable, start);
+        let (f, mut codes) = (row(L::DESCRIPTION.history()), [status::OK; CHUNK]);
+        // Of a law that does not depend on F at the start of a step, this is F at its end, which is not written.
+        let f_old = components_mut(row(L::DESCRIPTION.state.len()), stride);
+        if L::DESCRIPTION.reads_old_gradient {
+            unsafe { start_at_rest(f_old, n) };
+        }
+        let points = Points {
+            f_old: components(row(L::DESCRIPTION.state.len()).cast_const(), stride),
+            f_new: components(f.cast_const(), stride),
+            state_old: row(0),
+            state_new: row(0),
+            stress: from_entry(elements.stress, start),
+            status: codes.as_mut_ptr(),
+            ..Points::without_arrays(n, stride)
+        };
+        worst = worst.min(unsafe { law.step(&points) }?);
+        let codes = codes.get(..n).unwrap_or(&codes);
+        if L::DESCRIPTION.reads_old_gradient {
+            for (i, _) in codes.iter().enumerate().filter(|(_, code)| **code == status::OK) {
+                for (old, new) in f_old.into_iter().zip(points.f_new) {
+                    unsafe { *old.add(i) = *new.add(i) };
+                }
+            }
+        }
+        // SAFETY: the elements are those of the block.
+        unsafe { elements.mark_failed(&L::DESCRIPTION, start, codes) };
+        done += n;
+    }
+    Ok(worst)
+}
+
+/// A vectorised material routine: the elements `range` of a block.
+///
+/// # Safety
+/// As for [`evaluate`], for arrays that are not null.
+unsafe fn vector<T: Precision, L: Material<T>>(
+    cm: *const T,
+    stress: [*mut T; 6],
+    hsvs: *mut T,
+    nhv: i32,
+    range: [i32; 3],
+    failels: *mut c_int,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm")])?;
+    let elements = Elements::new(stress, hsvs, range, failels)?;
+    // SAFETY: the caller's promise.
+    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
+}
+
+/// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
+/// below NHV + 9.
+///
+/// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
+/// zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show. After a call,
+/// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also with
+/// rows or columns of zeros where the element has collapsed, unless a first F is seen elsewhere. Nine zeros are no F: an element
+/// that collapses to a point in one step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first
+/// column of F then seems to be zero. Values that are not finite are left to the law.
+fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
+    let f = L::DESCRIPTION.history();
+    let h = |j: usize| -> f64 { history(j).into() };
+    let is_at = |start: usize| {
+        let column = |k: usize| [0, 1, 2].map(|i| h(start + 3 * k + i));
+        let [a, b] = [0, 1].map(column);
+        let near = |deviations: [f64; 3]| deviations.iter().all(|x| x.abs() < 0.25);
+        // The history has a third column only of an F that starts before its place.
+        let third = |c: [f64; 3]| near([dot(c, c) - 1.0, dot(a, c), dot(b, c)]);
+        near([dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)]) && (start > f || third(column(2)))
+    };
+    let is_elsewhere = || {
+        let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
+        let mut starts = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
+        starts.any(is_at)
+    };
+    if (f..f + 9).all(|j| h(j) == 0.0) {
+        return false;
+    }
+    let [failed, alive] = [L::DESCRIPTION.failed, L::DESCRIPTION.alive].map(h);
+    if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
+        // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
+        // a collapsed element has a row or column of zeros as well.
+        let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
+        return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
+    }
+    !is_elsewhere()
+}
+
+/// The entries of the C interface for a law in one precision.
+macro_rules! entries {
+    ($module:ident, $law:ident, $t:ty: $umat:ident, $umat_vector:ident, $utan:ident, $utan_vector:ident) => {
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $umat(
+            cm: *const $t,
+            sig: *mut $t,
+            hsv: *mut $t,
+            nhv: i32,
+            failel: *mut c_int,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar(cm, sig, hsv, nhv, failel)) }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $umat_vector(
+            cm: *const $t,
+            sig1: *mut $t,
+            sig2: *mut $t,
+            sig3: *mut $t,
+            sig4: *mut $t,
+            sig5: *mut $t,
+            sig6: *mut $t,
+            hsvs: *mut $t,
+            nhv: i32,
+            lft: i32,
+            llt: i32,
+            nlq: i32,
+            failels: *mut c_int,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            let stress = [sig1, sig2, sig3, sig4, sig5, sig6];
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    vector::<$t, $law<$t>>(cm, stress, hsvs, nhv, [lft, llt, nlq], failels)
+                })
+            }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $utan(
+            cm: *const $t,
+            hsv: *const $t,
+            nhv: i32,
+            es: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar_tangent(cm, hsv, nhv, es)) }
+        }
+
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $utan_vector(
+            cm: *const $t,
+            hsvs: *const $t,
+            nhv: i32,
+            lft: i32,
+            llt: i32,
+            nlq: i32,
+            dsave: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    $module::vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)
+                })
+            }
+        }
+    };
+}
+
+entries!(hyperelastic, Hyperelastic, f64: umat_f64, umat_vector_f64, utan_f64, utan_vector_f64);
+entries!(hyperelastic, Hyperelastic, f32: umat_f32, umat_vector_f32, utan_f32, utan_vector_f32);
+entries!(linear_elastic, LinearElastic, f64: linear_umat_f64, linear_umat_vector_f64, linear_utan_f64, linear_utan_vector_f64);
+entries!(linear_elastic, LinearElastic, f32: linear_umat_f32, linear_umat_vector_f32, linear_utan_f32, linear_utan_vector_f32);
+
+/// The entry of the C interface for the moduli of a law.
+macro_rules! moduli {
+    ($law:ident: $bulk_and_shear:ident) => {
+        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $bulk_and_shear(
+            values: *const f64,
+            count: usize,
+            bulk: *mut f64,
+            shear: *mut f64,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    bulk_and_shear::<$law<f64>>(values, count, bulk, shear)
+                })
+            }
+        }
+    };
+}
+
+moduli!(Hyperelastic: bulk_and_shear_f64);
+moduli!(LinearElastic: linear_bulk_and_shear_f64);

@@ -3,13 +3,13 @@
 use core::cell::Cell;
 use core::slice;
 
-use crate::host::border::{fibre_of, oblique, out_of_plane};
+use crate::host::border;
 use crate::law::derivative::{self, JaumannModulus, NineByNine, NoTangent, SixBySix};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::number::level::Level;
-use crate::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
+use crate::law::parameters::HYPERELASTIC_PROPERTIES;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::{Request, nan_unless_finite};
 use crate::law::state::{FAILED, HYPERELASTIC_STATE};
@@ -95,11 +95,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
 /// The first property that is wrong, or a fibre direction that is neither in the plane nor normal to it.
 #[inline(never)]
 fn check_plane(properties: &[f64]) -> Result<(), Error> {
-    Hyperelastic::new(properties)?;
-    match fibre_of(properties) {
-        Some(value) if out_of_plane(value) => Err(oblique(FIBRE, "fibre direction", value)),
-        _ => Ok(()),
-    }
+    border::check_plane(&Hyperelastic::new(properties)?, properties)
 }
 
 /// Writes the results of a point to MGIS's arrays.

@@ -36,7 +36,8 @@ const fn terminated(name: &str) -> [u8; NAME] {
 }
 
 /// The names of a table of properties, each with its terminating null.
-pub const fn property_names<const N: usize>(table: &[Property; N]) -> [[u8; NAME]; N] {
+pub const fn property_names<const N: usize>(table: &[Property]) -> [[u8; NAME]; N] {
+    assert!(table.len() == N, "a name for each row");
     let (mut names, mut i) = ([[0; NAME]; N], 0);
     while i < N {
         names[i] = terminated(table[i].name);
@@ -46,7 +47,8 @@ pub const fn property_names<const N: usize>(table: &[Property; N]) -> [[u8; NAME
 }
 
 /// The names of a table of state variables, each with its terminating null.
-pub const fn state_names<const N: usize>(table: &[StateVariable; N]) -> [[u8; NAME]; N] {
+pub const fn state_names<const N: usize>(table: &[StateVariable]) -> [[u8; NAME]; N] {
+    assert!(table.len() == N, "a name for each row");
     let (mut names, mut i) = ([[0; NAME]; N], 0);
     while i < N {
         names[i] = terminated(table[i].name);

@@ -1,12 +1,10 @@
 //! What starter and engine agree on: the numbers in UPARAM and the variables in UVAR.
 
+use crate::law::description::{self, Description};
 use crate::law::error::Error;
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::real::Scalar;
-use crate::law::parameters::{self, Property};
-use crate::law::state::{
-    self, ALIVE, FAILED, HYPERELASTIC_STATE, LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, StateVariable,
-};
+use crate::law::parameters;
 
 /// The most numbers that a law has in UPARAM.
 pub const MOST_PARAMETERS: usize = 1 + parameters::LINEAR_ELASTIC_PROPERTIES + OPTIONS.len();
@@ -61,52 +59,14 @@ pub enum FibreFrom {
 pub struct Layout {
     /// UPARAM(1), and nn of `/MAT/USERnn`.
     pub number: i32,
-    pub name: &'static str,
-    pub properties: &'static [Property],
-    pub state: &'static [StateVariable],
-    /// Index of the first component of the fibre direction among the properties.
-    pub fibre_property: usize,
+    pub law: &'static Description,
     /// How many of [`OPTIONS`] it has.
     pub options: usize,
-    /// Indices into UVAR, from 0: the law's latch and flag, the fibre's three components, `deleted`, and the nine of the old F.
-    pub failed: usize,
-    pub alive: usize,
-    pub fibre: usize,
-    pub deleted: usize,
-    pub f_old: usize,
-    /// NUVAR.
-    pub variables: usize,
 }
 
-pub static HYPERELASTIC: Layout = Layout {
-    number: 1,
-    name: "hyperelastic yarn law",
-    properties: &parameters::HYPERELASTIC,
-    state: &state::HYPERELASTIC,
-    fibre_property: parameters::FIBRE,
-    options: 1,
-    failed: FAILED,
-    alive: ALIVE,
-    fibre: HYPERELASTIC_STATE,
-    deleted: HYPERELASTIC_STATE + 3,
-    f_old: HYPERELASTIC_STATE + 4,
-    variables: HYPERELASTIC_STATE + 4,
-};
+pub static HYPERELASTIC: Layout = Layout { number: 1, law: &description::HYPERELASTIC, options: 1 };
 
-pub static LINEAR_ELASTIC: Layout = Layout {
-    number: 2,
-    name: "linear elastic law",
-    properties: &parameters::LINEAR_ELASTIC,
-    state: &state::LINEAR_ELASTIC,
-    fibre_property: parameters::LINEAR_FIBRE,
-    options: OPTIONS.len(),
-    failed: LINEAR_FAILED,
-    alive: LINEAR_ALIVE,
-    fibre: LINEAR_ELASTIC_STATE,
-    deleted: LINEAR_ELASTIC_STATE + 3,
-    f_old: LINEAR_ELASTIC_STATE + 4,
-    variables: LINEAR_ELASTIC_STATE + 4 + 9,
-};
+pub static LINEAR_ELASTIC: Layout = Layout { number: 2, law: &description::LINEAR_ELASTIC, options: OPTIONS.len() };
 
 impl Layout {
     /// The law of `/MAT/USERnn`.
@@ -123,7 +83,25 @@ impl Layout {
 
     /// NUPARAM.
     pub fn parameters(&self) -> usize {
-        1 + self.properties.len() + self.options
+        1 + self.law.properties.len() + self.options
+    }
+
+    /// Indices into UVAR, from 0, behind the law's state: the fibre's three components, `deleted`, and the nine of the old F.
+    pub fn fibre(&self) -> usize {
+        self.law.state.len()
+    }
+
+    pub fn deleted(&self) -> usize {
+        self.fibre() + 3
+    }
+
+    pub fn f_old(&self) -> usize {
+        self.deleted() + 1
+    }
+
+    /// NUVAR.
+    pub fn variables(&self) -> usize {
+        self.f_old() + self.law.kept()
     }
 
     /// The names of the variables behind the state, in order.
@@ -132,7 +110,7 @@ impl Layout {
             "fibre_1", "fibre_2", "fibre_3", "deleted", "F11_old", "F21_old", "F31_old", "F12_old", "F22_old",
             "F32_old", "F13_old", "F23_old", "F33_old",
         ];
-        NAMES.split_at_checked(self.variables - self.state.len()).map_or(&[], |(names, _)| names)
+        NAMES.split_at_checked(self.variables() - self.law.state.len()).map_or(&[], |(names, _)| names)
     }
 }
 
@@ -158,7 +136,7 @@ impl<'a, T: Scalar> Card<'a, T> {
             let (found, wanted) = (uparam.len() as i64, layout.parameters() as i64);
             return Err(Error::Count { code: crate::law::status::PROPERTY_COUNT, what: "NUPARAM", found, wanted });
         }
-        let (properties, options) = rest.split_at_checked(layout.properties.len()).unwrap_or((rest, &[]));
+        let (properties, options) = rest.split_at_checked(layout.law.properties.len()).unwrap_or((rest, &[]));
         Self::with_options(layout, properties, options)
     }
 

@@ -2,13 +2,12 @@
 
 use core::{ptr, slice};
 
-use crate::law::block::linear::LinearPointers;
-use crate::law::block::{Pointers, Precision, components, components_mut};
+use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::vector::dot;
-use crate::law::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
 use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
@@ -66,8 +65,8 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
         group.check()?;
         let parameters = slice::from_raw_parts(group.uparam, group.parameters as usize);
         let card = Card::of(parameters)?;
-        if group.variables != card.layout.variables as i32 {
-            let (found, wanted) = (i64::from(group.variables), card.layout.variables as i64);
+        if group.variables != card.layout.variables() as i32 {
+            let (found, wanted) = (i64::from(group.variables), card.layout.variables() as i64);
             return Err(Error::Count { code: status::STATE_COUNT, what: "NUVAR", found, wanted });
         }
         if group.elements == 0 {
@@ -82,9 +81,9 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
         group.take_out_deleted(card.layout);
         group.clear_viscosity();
         if card.layout.number == HYPERELASTIC.number {
-            group.evaluate_hyperelastic(&card)
+            group.step::<Hyperelastic<T>>(&card)
         } else {
-            group.evaluate_linear(&card)
+            group.step::<LinearElastic<T>>(&card)
         }
     }
 }
@@ -176,7 +175,7 @@ impl<T: Precision> Group<T> {
         if from_nodes && self.nodes.is_null() {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
         }
-        let rows = [0, 1, 2].map(|c| self.row(card.layout.fibre + c));
+        let rows = [0, 1, 2].map(|c| self.row(card.layout.fibre() + c));
         for i in 0..self.count() {
             // SAFETY: the caller's promise, i below NEL.
             unsafe {
@@ -216,7 +215,7 @@ impl<T: Precision> Group<T> {
         for (i, &off) in off.iter().enumerate() {
             // SAFETY: i is below NEL.
             unsafe {
-                let deleted = self.row(layout.deleted).add(i);
+                let deleted = self.row(layout.deleted()).add(i);
                 if !one.le(off) && (*deleted).into() == 0.0 {
                     self.latch(layout, i, BY_SOLVER);
                 }
@@ -228,9 +227,9 @@ impl<T: Precision> Group<T> {
     unsafe fn latch(&self, layout: &Layout, i: usize, deleted: f64) {
         // SAFETY: the caller's promise.
         unsafe {
-            *self.row(layout.failed).add(i) = T::splat(1.0);
-            *self.row(layout.alive).add(i) = T::splat(0.0);
-            *self.row(layout.deleted).add(i) = T::splat(deleted);
+            *self.row(layout.law.failed).add(i) = T::splat(1.0);
+            *self.row(layout.law.alive).add(i) = T::splat(0.0);
+            *self.row(layout.deleted()).add(i) = T::splat(deleted);
         }
     }
 
@@ -250,7 +249,7 @@ impl<T: Precision> Group<T> {
         match card.fibre_from {
             FibreFrom::Card => [ptr::null(); 3],
             _ => {
-                let row = |c| self.row(card.layout.fibre + c).wrapping_add(first).cast_const();
+                let row = |c| self.row(card.layout.fibre() + c).wrapping_add(first).cast_const();
                 [row(0), row(1), row(2)]
             }
         }
@@ -267,45 +266,23 @@ impl<T: Precision> Group<T> {
         columns
     }
 
-    unsafe fn evaluate_hyperelastic(&self, card: &Card<'_, T>) -> Result<(), Error> {
-        let law = Hyperelastic::new(card.properties)?;
-        let part = |first: usize, n: usize, codes: *mut i32| {
-            let row = |variable| self.row(variable).wrapping_add(first);
-            let block = Pointers {
-                deformation_gradient: self.columns(first),
-                fibre: self.fibre(card, first),
-                energies_old: row(ENERGIES),
-                invariants_old: row(INVARIANTS),
-                failure_old: row(FAILURE_INDEX),
-                // SAFETY: the caller's promise: not null.
-                density: unsafe { *self.density },
-                stress: from_entry(self.stress, first),
-                energies: row(ENERGIES),
-                invariants: row(INVARIANTS),
-                failure: row(FAILURE_INDEX),
-                wave_speed: self.sound_speed.wrapping_add(first),
-                status: codes,
-                // 1 where OFF is to stay 1, 0 where it is to be 0.
-                active: self.off.wrapping_add(first),
-                ..Pointers::without_arrays(n, self.count())
-            };
-            // SAFETY: the caller's promise; the new state replaces the old one.
-            unsafe { law.raw_block(&block) }
-        };
-        // SAFETY: the caller's promise.
-        unsafe { self.in_chunks(card.layout, part) }
-    }
-
-    unsafe fn evaluate_linear(&self, card: &Card<'_, T>) -> Result<(), Error> {
-        let law = LinearElastic::new(card.properties)?;
+    /// Evaluates the law at the group.
+    ///
+    /// # Errors
+    /// A property that is wrong, a fibre direction that has no length.
+    unsafe fn step<L: Law<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
+        let law = L::new(card.properties)?;
         let n = self.count();
-        let f_old = components_mut(self.row(card.layout.f_old), n);
-        // SAFETY: the caller's promise, here and below.
-        unsafe { start_at_rest(f_old, n) };
-        let part = |first: usize, n: usize, codes: *mut i32| {
+        // Of a law that does not depend on F at the start of a step, this is not there.
+        let f_old = components_mut(self.row(card.layout.f_old()), n);
+        if L::DESCRIPTION.reads_old_gradient {
+            // SAFETY: the caller's promise, here and below.
+            unsafe { start_at_rest(f_old, n) };
+        }
+        let part = |first: usize, count: usize, codes: *mut i32| {
             let row = |variable| self.row(variable).wrapping_add(first);
-            let block = LinearPointers {
-                f_old: components(row(card.layout.f_old).cast_const(), self.count()),
+            let points = Points {
+                f_old: components(row(card.layout.f_old()).cast_const(), n),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 state_old: row(0),
@@ -314,16 +291,19 @@ impl<T: Precision> Group<T> {
                 stress: from_entry(self.stress, first),
                 wave_speed: self.sound_speed.wrapping_add(first),
                 status: codes,
+                // 1 where OFF is to stay 1, 0 where it is to be 0.
                 active: self.off.wrapping_add(first),
                 rotation: card.rotation,
                 criterion: card.criterion,
-                ..LinearPointers::without_arrays(n, self.count())
+                ..Points::without_arrays(count, n)
             };
-            unsafe { law.raw_block(&block) }
+            unsafe { law.step(&points) }
         };
         unsafe { self.in_chunks(card.layout, part)? };
-        for (row, f) in f_old.into_iter().zip(self.columns(0)) {
-            unsafe { row.copy_from_nonoverlapping(f, n) };
+        if L::DESCRIPTION.reads_old_gradient {
+            for (row, f) in f_old.into_iter().zip(self.columns(0)) {
+                unsafe { row.copy_from_nonoverlapping(f, n) };
+            }
         }
         Ok(())
     }
@@ -362,13 +342,13 @@ impl<T: Precision> Group<T> {
         for (i, &code) in (first..).zip(codes) {
             // SAFETY: the caller's promise; i is below NEL.
             unsafe {
-                let known = (*self.row(layout.deleted).add(i)).into() != 0.0;
+                let known = (*self.row(layout.deleted()).add(i)).into() != 0.0;
                 if known || T::splat(1.0).le(*self.off.add(i)) {
                     continue;
                 }
                 match code {
                     status::FIBRE_DIRECTION => return Err(self.error_of(i, code)),
-                    status::OK => *self.row(layout.deleted).add(i) = T::splat(BY_FAILURE),
+                    status::OK => *self.row(layout.deleted()).add(i) = T::splat(BY_FAILURE),
                     _ => self.latch(layout, i, f64::from(code)),
                 }
             }

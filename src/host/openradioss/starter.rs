@@ -28,7 +28,7 @@ pub struct Read<T> {
 /// There is no such law, too few or too many values, a wrong property or option, too little room in UPARAM.
 pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result<Read<T>, Error> {
     let layout = Layout::of(number)?;
-    let (needed, wanted) = (layout.properties.len(), layout.parameters());
+    let (needed, wanted) = (layout.law.properties.len(), layout.parameters());
     let count = |what, found: usize, wanted: usize| {
         Err(Error::Count { code: status::PROPERTY_COUNT, what, found: found as i64, wanted: wanted as i64 })
     };
@@ -55,21 +55,20 @@ pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result
         give_a_direction(layout, own);
     }
     let modulus = modulus_at_rest(&Card::of(own)?)?;
-    Ok(Read { parameters: wanted, variables: layout.variables, modulus })
+    Ok(Read { parameters: wanted, variables: layout.variables(), modulus })
 }
 
 /// Sets a fibre direction that is 0 0 0 to an axis that is not along the second axis: elements have their own.
 fn give_a_direction<T: Precision>(layout: &Layout, uparam: &mut [T]) {
-    let Some([m_1, m_2, m_3, rest @ ..]) = uparam.get_mut(1 + layout.fibre_property..) else { return };
-    if [*m_1, *m_2, *m_3].iter().any(|&m| m.into() != 0.0) {
+    let read = |first: usize| uparam.get(1 + first..).and_then(<[_]>::first_chunk).map(|v: &[T; 3]| v.map(Into::into));
+    if read(layout.law.fibre) != Some([0.0; 3]) {
         return;
     }
-    let second: [f64; 3] = match rest {
-        [n_1, n_2, n_3, ..] if layout.number != HYPERELASTIC.number => [(*n_1).into(), (*n_2).into(), (*n_3).into()],
-        _ => [0.0; 3],
-    };
+    let second: [f64; 3] = layout.law.second_axis.and_then(read).unwrap_or_default();
     let along_x = second[0].abs() > second[1].abs() + second[2].abs();
-    *(if along_x { m_2 } else { m_1 }) = T::splat(1.0);
+    if let Some(axis) = uparam.get_mut(1 + layout.law.fibre + usize::from(along_x)) {
+        *axis = T::splat(1.0);
+    }
 }
 
 /// ρ0 c² of the fastest wave in the unstressed material.
@@ -95,13 +94,13 @@ fn modulus_at_rest<T: Precision>(card: &Card<'_, T>) -> Result<T, Error> {
 /// UPARAM is not what [`read`] has written.
 pub fn listing<T: Precision>(uparam: &[T], line: usize, sink: &mut dyn FnMut(&str)) -> Result<bool, Error> {
     let layout = Card::of(uparam)?.layout;
-    let (values, variables) = (layout.parameters() - 1, layout.variables);
+    let (values, variables) = (layout.parameters() - 1, layout.variables());
     const HEAD: usize = 3;
     if line < HEAD {
         match line {
             0 => {
                 sink("     toron: ");
-                sink(layout.name);
+                sink(layout.law.title);
             }
             1 => {
                 sink("     the elements need ");
@@ -118,7 +117,8 @@ pub fn listing<T: Precision>(uparam: &[T], line: usize, sink: &mut dyn FnMut(&st
         describe_integer(i as i64 + 1, sink);
         sink(" ");
         let others = layout.other_variables();
-        let name = layout.state.get(i).map(|row| row.name).or_else(|| others.get(i - layout.state.len()).copied());
+        let name =
+            layout.law.state.get(i).map(|row| row.name).or_else(|| others.get(i - layout.law.state.len()).copied());
         sink(name.unwrap_or_default());
     } else {
         return Ok(false);
@@ -129,14 +129,14 @@ pub fn listing<T: Precision>(uparam: &[T], line: usize, sink: &mut dyn FnMut(&st
 /// The line of value `i` of the card.
 fn value_line<T: Precision>(layout: &Layout, uparam: &[T], i: usize, sink: &mut dyn FnMut(&str)) {
     sink("       ");
-    match layout.properties.get(i) {
+    match layout.law.properties.get(i) {
         Some(property) => {
             sink(property.name);
             sink(" (");
             sink(property.meaning);
             sink(")");
         }
-        None => sink(OPTIONS.get(i - layout.properties.len()).map_or("", |option| option.name)),
+        None => sink(OPTIONS.get(i - layout.law.properties.len()).map_or("", |option| option.name)),
     }
     sink(" = ");
     describe_number(uparam.get(i + 1).map_or(0.0, |&value| value.into()), sink);

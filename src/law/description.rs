@@ -1,0 +1,65 @@
+//! What a law is to those who call it: its name, its tables, and where these have what every host needs.
+
+use core::ops::Range;
+
+use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
+use super::state::{
+    self, ALIVE, ENERGIES, FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED, LINEAR_WORK, StateVariable,
+};
+
+/// A law as the hosts see it.
+#[derive(Debug)]
+pub struct Description {
+    /// What the law is called in listings.
+    pub title: &'static str,
+    pub properties: &'static [Property],
+    pub state: &'static [StateVariable],
+    /// Index of the first component of the fibre direction among the properties, and that of a second axis.
+    pub fibre: usize,
+    pub second_axis: Option<usize>,
+    /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per reference
+    /// volume.
+    pub failed: usize,
+    pub alive: usize,
+    pub energies: Range<usize>,
+    /// Whether a step depends on F at its start.
+    pub reads_old_gradient: bool,
+}
+
+/// The hyperelastic law.
+pub const HYPERELASTIC: Description = Description {
+    title: "hyperelastic yarn law",
+    properties: &parameters::HYPERELASTIC,
+    state: &state::HYPERELASTIC,
+    fibre: FIBRE,
+    second_axis: None,
+    failed: FAILED,
+    alive: ALIVE,
+    energies: ENERGIES..INVARIANTS,
+    reads_old_gradient: false,
+};
+
+/// The linear elastic law.
+pub const LINEAR_ELASTIC: Description = Description {
+    title: "linear elastic law",
+    properties: &parameters::LINEAR_ELASTIC,
+    state: &state::LINEAR_ELASTIC,
+    fibre: LINEAR_FIBRE,
+    second_axis: Some(LINEAR_SECOND_AXIS),
+    failed: LINEAR_FAILED,
+    alive: LINEAR_ALIVE,
+    energies: LINEAR_WORK..LINEAR_WORK + 1,
+    reads_old_gradient: true,
+};
+
+impl Description {
+    /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
+    pub const fn kept(&self) -> usize {
+        if self.reads_old_gradient { 9 } else { 0 }
+    }
+
+    /// How many numbers a host keeps for a point: the state, and these entries of F.
+    pub const fn history(&self) -> usize {
+        self.state.len() + self.kept()
+    }
+}

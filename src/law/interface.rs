@@ -1,0 +1,184 @@
+//! What a host asks of a law: its description, its preparation from properties, and a step at many points. A host that is written for
+//! any [`Law`] names none.
+
+use core::ptr::{null, null_mut};
+
+use super::block::linear::LinearPointers;
+use super::block::{Pointers, Precision};
+use super::description::{self, Description};
+use super::error::Error;
+use super::hyperelastic::Hyperelastic;
+use super::kinematics::FibreFrame;
+use super::linear_elastic::{Criterion, LinearElastic, Rotation};
+use super::number::level::Level;
+use super::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
+
+/// A law, prepared from its properties.
+pub trait Law<T: Precision>: Copy {
+    const DESCRIPTION: Description;
+
+    /// Checks the properties, in the order of the description, and prepares the law.
+    ///
+    /// # Errors
+    /// The first property that is wrong, with its value and what is allowed.
+    fn new(properties: &[T]) -> Result<Self, Error>;
+
+    /// The material axes in the reference placement: fibre, second axis, third axis.
+    fn axes(&self) -> [[f64; 3]; 3];
+
+    /// Bulk and shear modulus of an isotropic solid in which no wave is slower than the law's fastest one at rest, or that along the
+    /// fibre: for hosts that compute their time step and contact stiffness from two elastic constants.
+    fn bulk_and_shear(&self) -> [T; 2];
+
+    /// Evaluates a step at every point. Returns the worst (most negative) of the status codes.
+    ///
+    /// # Errors
+    /// A null deformation gradient, a leading dimension below n, a density that is not positive if the wave speed is requested.
+    ///
+    /// # Safety
+    /// Every pointer that is not null points to as many values as its field says, valid for reading or writing; outputs overlap
+    /// nothing but, exactly, the old state that they replace.
+    unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error>;
+}
+
+/// Points of a host in component-major arrays, `n` values next to each other in each component. Of these arrays `fibre` and the last
+/// three outputs may be null: they are absent, and what is absent is not computed.
+#[derive(Clone, Copy, Debug)]
+pub struct Points<T> {
+    pub n: usize,
+    /// The distance from one state variable to the next.
+    pub leading_dimension: usize,
+    /// F at the start of the step, by columns; read only by a law whose description says so.
+    pub f_old: [*const T; 9],
+    /// F at its end, by columns.
+    pub f_new: [*const T; 9],
+    /// The fibre direction of each point, of any length; null for that of the properties.
+    pub fibre: [*const T; 3],
+    /// The law's state variables, old and new.
+    pub state_old: *const T,
+    pub state_new: *mut T,
+    /// The reference density; read only for the wave speed.
+    pub density: T,
+    /// Cauchy stress 11 22 33 12 23 31.
+    pub stress: [*mut T; 6],
+    /// A bound of the wave speed.
+    pub wave_speed: *mut T,
+    /// A status code for each point.
+    pub status: *mut i32,
+    /// For each point 1, or 0 if it has failed or cannot be evaluated.
+    pub active: *mut T,
+    /// Choices of a law that has them.
+    pub rotation: Rotation,
+    pub criterion: Criterion,
+    /// The instructions to use, or the best that the processor has if those are lower; `None` for the best.
+    pub level: Option<Level>,
+}
+
+impl<T: Precision> Points<T> {
+    /// `n` points without arrays yet: for the fields that a host does not name.
+    #[inline(always)]
+    pub fn without_arrays(n: usize, leading_dimension: usize) -> Self {
+        Points {
+            n,
+            leading_dimension,
+            f_old: [null(); 9],
+            f_new: [null(); 9],
+            fibre: [null(); 3],
+            state_old: null(),
+            state_new: null_mut(),
+            density: T::splat(0.0),
+            stress: [null_mut(); 6],
+            wave_speed: null_mut(),
+            status: null_mut(),
+            active: null_mut(),
+            rotation: Rotation::Fibre,
+            criterion: Criterion::LargestPrincipal,
+            level: None,
+        }
+    }
+}
+
+impl<T: Precision> Law<T> for Hyperelastic<T> {
+    const DESCRIPTION: Description = description::HYPERELASTIC;
+
+    #[inline(always)]
+    fn new(properties: &[T]) -> Result<Self, Error> {
+        Hyperelastic::new(properties)
+    }
+
+    fn axes(&self) -> [[f64; 3]; 3] {
+        let FibreFrame { m, t1, t2 } = self.lanes().frame;
+        [m, t1, t2]
+    }
+
+    #[inline(always)]
+    fn bulk_and_shear(&self) -> [T; 2] {
+        Hyperelastic::bulk_and_shear(self)
+    }
+
+    #[inline(always)]
+    unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
+        let row = |first: usize| first.wrapping_mul(points.leading_dimension);
+        let old = |first: usize| points.state_old.wrapping_add(row(first));
+        let new = |first: usize| points.state_new.wrapping_add(row(first));
+        let pointers = Pointers {
+            deformation_gradient: points.f_new,
+            fibre: points.fibre,
+            energies_old: old(ENERGIES),
+            invariants_old: old(INVARIANTS),
+            failure_old: old(FAILURE_INDEX),
+            density: points.density,
+            stress: points.stress,
+            energies: new(ENERGIES),
+            invariants: new(INVARIANTS),
+            failure: new(FAILURE_INDEX),
+            wave_speed: points.wave_speed,
+            status: points.status,
+            active: points.active,
+            level: points.level,
+            ..Pointers::without_arrays(points.n, points.leading_dimension)
+        };
+        // SAFETY: the arrays are those of the points; the parts of the state are where the table of its rows has them.
+        unsafe { self.raw_block(&pointers) }
+    }
+}
+
+impl<T: Precision> Law<T> for LinearElastic<T> {
+    const DESCRIPTION: Description = description::LINEAR_ELASTIC;
+
+    #[inline(always)]
+    fn new(properties: &[T]) -> Result<Self, Error> {
+        LinearElastic::new(properties)
+    }
+
+    fn axes(&self) -> [[f64; 3]; 3] {
+        self.lanes().axes
+    }
+
+    #[inline(always)]
+    fn bulk_and_shear(&self) -> [T; 2] {
+        LinearElastic::bulk_and_shear(self)
+    }
+
+    #[inline(always)]
+    unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
+        let pointers = LinearPointers {
+            f_old: points.f_old,
+            f_new: points.f_new,
+            fibre: points.fibre,
+            state_old: points.state_old,
+            state_new: points.state_new,
+            density: points.density,
+            stress: points.stress,
+            wave_speed: points.wave_speed,
+            status: points.status,
+            active: points.active,
+            rotation: points.rotation,
+            criterion: points.criterion,
+            level: points.level,
+            ..LinearPointers::without_arrays(points.n, points.leading_dimension)
+        };
+        // SAFETY: the arrays are those of the points.
+        unsafe { self.raw_block(&pointers) }
+    }
+}
