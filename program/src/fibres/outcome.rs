@@ -2,7 +2,7 @@
 //! those of the half that LAMMPS has computed.
 
 use super::frame::Frame;
-use super::history::{Line, Station};
+use super::history::{self, Line, Station};
 use super::model::{Model, Striking, micro};
 use super::run::Raw;
 use super::scene::{Case, Striker};
@@ -82,7 +82,8 @@ pub struct Outcome {
 
 impl Outcome {
     pub fn new(units: &UnitSystem, case: &Case, model: Model, raw: Raw) -> Outcome {
-        let samples = samples(units, &model, &raw.lines);
+        let lines: Vec<Line> = raw.rows.iter().filter_map(|row| history::line(row)).collect();
+        let samples = samples(units, &model, &lines);
         let smith = Tension::Hooke(case.fibre.modulus).smith(case.speed, case.fibre.density);
         let driven = matches!(case.striker, Striker::Driven { .. });
         // A broken fibre has no plateau.
@@ -176,7 +177,7 @@ fn samples(units: &UnitSystem, model: &Model, lines: &[Line]) -> Vec<Sample> {
     let whole = 2.0 * energy;
     let (mass, held) = match model.striker {
         Striking::Cylinder { mass, held, .. } => (mass, held),
-        Striking::Driven { .. } => (0.0, true),
+        Striking::Driven { .. } | Striking::Walls(_) => (0.0, true),
     };
     let driven = model.near == 0;
     let striking = |v: f64| if held { 0.0 } else { 0.5 * mass * v * v };
@@ -254,7 +255,7 @@ fn fronts(units: &UnitSystem, model: &Model, frame: &Frame, smith: &Smith) -> Fr
         (layer * fibres..(layer + 1) * fibres).map(values).sum::<f64>() / fibres as f64
     };
     let velocities: Vec<f64> =
-        (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.velocities[bead], layer)).collect();
+        (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.values[bead], layer)).collect();
     let transverse = front(&velocities, FRONT * model.speed).map_or(0.0, |place| {
         let (layer, part) = (place as usize, place.fract());
         let [here, next] =

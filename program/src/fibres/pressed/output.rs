@@ -1,0 +1,103 @@
+//! The files of figures of pressed sections: a table of energies a case, and the file that the identification reads.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use super::outcome::{Part, Pressed};
+use crate::common::error::Error;
+use crate::common::run_directory::file_error;
+use crate::common::text_table::{Column, or_dash};
+use crate::common::units::{TIME, number, unit};
+use crate::fibres::report::column;
+use crate::fibres::scene::{Case, Packing, Scene, Striker, Walls};
+use crate::identify::written::{DEVIATION, Fibre, RANDOM_DEVIATION, Set, Written};
+use toron::law::parameters::STRESS;
+
+pub type Results<'a> = [(&'a Case, Pressed)];
+
+/// Of the preset that is fitted.
+const YARN: &str = "fibres";
+
+/// Writes the history of a case.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(), Error> {
+    let [time, stress] = [TIME, STRESS].map(|dimension| unit(&scene.units, dimension));
+    let mut text = format!("time ({time}),stretch (-)");
+    for of in ["", " of the section"] {
+        let _ = write!(text, ",I_tc{of} (-),I_td{of} (-),energy{of} ({stress})");
+    }
+    for name in ["energy in the walls", "work of the walls", "energy lost by friction", "energy lost by damping", "kinetic energy"] {
+        let _ = write!(text, ",{name} ({stress})");
+    }
+    text.push('\n');
+    for sample in &result.samples {
+        let _ = write!(text, "{:.9e},{:.9}", sample.time, sample.stretch);
+        for Part { invariants: [i_tc, i_td], energy } in [sample.middle, sample.whole] {
+            let _ = write!(text, ",{i_tc:.8},{i_td:.8},{energy:.7e}");
+        }
+        for energy in [sample.walls, sample.work, sample.friction, sample.damping, sample.kinetic] {
+            let _ = write!(text, ",{energy:.7e}");
+        }
+        text.push('\n');
+    }
+    std::fs::write(file, text).map_err(|error| file_error(file, &error))
+}
+
+/// The file that `toron fit` reads: the middles of the sections that are pressed on all sides or between sides that are held.
+pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
+    let loading = |case: &Case| match case.striker {
+        Striker::Walls { walls: Walls::AllSides, .. } => Some("compaction"),
+        Striker::Walls { walls: Walls::TopAndBottom | Walls::Sides, .. } => Some("compression"),
+        _ => None,
+    };
+    let set = |(case, result): &'_ (&'_ Case, Pressed)| {
+        let loading = loading(case)?;
+        Some((case.name.clone(), loading, case.packing, result.samples.iter().fold(0.0, |most: f64, s| most.max(s.middle.energy))))
+    };
+    let sets: Vec<_> = results.iter().filter_map(set).collect();
+    let (case, result) = results.iter().find(|(case, _)| loading(case) == Some("compaction"))?;
+    let volume_fraction = result.model.section.fraction();
+    let fibre = case.fibre;
+    let written = Written {
+        title: &scene.title,
+        units: &scene.units,
+        name: YARN,
+        source: &format!("{}: fibres in LAMMPS", scene.title),
+        density: Some(fibre.density * volume_fraction),
+        fibre: fibre.strain_at_failure.map(|strain_at_failure| Fibre { modulus: fibre.modulus, volume_fraction, strain_at_failure }),
+        sets: sets
+            .iter()
+            .map(|(name, loading, packing, largest)| Set {
+                name,
+                loading,
+                abscissa: Some(if *loading == "compaction" { "I_tc" } else { "I_td" }),
+                largest: *largest,
+                deviation: if *packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION },
+            })
+            .collect(),
+    };
+    Some(written.text())
+}
+
+/// The columns of the terminal's table, the most important first.
+pub fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
+    let results: Vec<_> = results.iter().collect();
+    let stress = unit(&scene.units, STRESS);
+    let share = |part: f64, whole: f64| number(100.0 * part / whole);
+    vec![
+        column(&results, ["case", ""], |case, _| case.name.clone()),
+        column(&results, ["middle:", "I_tc"], |_, result| format!("{:.4}", result.last().middle.invariants[0])),
+        column(&results, ["", "I_td"], |_, result| format!("{:.4}", result.last().middle.invariants[1])),
+        column(&results, ["energy,", &stress], |_, result| number(result.last().middle.energy)),
+        column(&results, ["section:", "I_tc"], |_, result| format!("{:.4}", result.last().whole.invariants[0])),
+        column(&results, ["", "I_td"], |_, result| format!("{:.4}", result.last().whole.invariants[1])),
+        column(&results, ["energy,", &stress], |_, result| number(result.last().whole.energy)),
+        column(&results, ["work,", &stress], |_, result| number(result.last().work)),
+        column(&results, ["friction,", "%"], |_, result| share(result.last().friction, result.last().work)),
+        column(&results, ["damping,", "%"], |_, result| share(result.last().damping, result.last().work)),
+        column(&results, ["kinetic,", "% at most"], |_, result| number(100.0 * result.restlessness())),
+        column(&results, ["run", "s"], |_, result| or_dash(result.seconds, |seconds| format!("{seconds:.1}"))),
+    ]
+}
