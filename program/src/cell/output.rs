@@ -62,9 +62,9 @@ pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
     let solver = if scene.explicit { "the explicit host" } else { "CalculiX" };
     let source = scene.yarn.source.clone().unwrap_or_else(|| format!("{}: fibres in {solver}", scene.title));
     let set = |outcome: &Outcome| Set {
-        name: outcome.load.name(),
+        name: outcome.load.name().to_string(),
         loading: if outcome.load == Load::Compaction { "compaction" } else { "compression" },
-        abscissa: None,
+        columns: None,
         largest: outcome.increments.iter().fold(0.0, |largest: f64, increment| largest.max(increment.energy)),
         deviation: if scene.arrangement.is_random() { RANDOM_DEVIATION } else { DEVIATION },
     };
@@ -75,7 +75,11 @@ pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
         name: &scene.yarn.name,
         source: &source,
         density: scene.fibre.density.map(|density| density * volume_fraction),
-        fibre: scene.fibre.strain_at_failure.map(|strain_at_failure| Fibre { modulus, volume_fraction, strain_at_failure }),
+        fibre: scene.fibre.strain_at_failure.map(|strain_at_failure| Fibre {
+            modulus,
+            volume_fraction,
+            strain_at_failure,
+        }),
         sets: outcomes.iter().map(set).collect(),
     };
     written.text()

@@ -81,6 +81,7 @@ pub struct CaseFile {
     pub walls: Option<Spanned<Walls>>,
     pub closing: Option<Spanned<f64>>,
     pub damping: Option<Spanned<f64>>,
+    pub preset: Option<Spanned<String>>,
     pub law: Option<Spanned<String>>,
 }
 
@@ -141,6 +142,7 @@ impl CaseFile {
             ("walls", self.walls.as_ref().map(Spanned::span), presses, walls),
             ("closing", number(&self.closing), presses, walls),
             ("damping", number(&self.damping), presses, walls),
+            ("preset", self.preset.as_ref().map(Spanned::span), presses, walls),
             ("width", number(&self.width), sections(&[SectionName::Circle, SectionName::Ellipse]), round),
             ("height", number(&self.height), sections(&[SectionName::Ellipse]), ellipse),
             ("aspect", number(&self.aspect), sections(&[SectionName::Ellipse, SectionName::Box]), long),
@@ -183,6 +185,7 @@ impl CaseFile {
             walls: own.walls.or(base.walls),
             closing: own.closing.or(base.closing),
             damping: own.damping.or(base.damping),
+            preset: own.preset.or(base.preset),
             law: own.law.or(base.law),
         }
     }

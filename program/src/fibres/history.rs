@@ -116,9 +116,15 @@ mod tests {
     fn lines_that_were_written_again_count_once() {
         let written =
             |step: u64, time: f64| format!("{step} {time} 1 2 3 4 5 6 7 8 9 10 11 {}\n", "0 1 0.5 0.3 ".repeat(4));
-        let text =
-            written(10, 1.0) + &written(20, 2.0) + &written(30, 3.0) + "40 4.0 1 2\n" + &written(20, 2.5) + &written(30, 3.5) + "40 4";
-        let read: Vec<Line> = rows(&text, COLUMNS + 4 * STATION_COLUMNS, 100.0).iter().filter_map(|row| line(row)).collect();
+        let text = written(10, 1.0)
+            + &written(20, 2.0)
+            + &written(30, 3.0)
+            + "40 4.0 1 2\n"
+            + &written(20, 2.5)
+            + &written(30, 3.5)
+            + "40 4";
+        let read: Vec<Line> =
+            rows(&text, COLUMNS + 4 * STATION_COLUMNS, 100.0).iter().filter_map(|row| line(row)).collect();
         assert_eq!(
             read.iter().map(|line| (line.step, line.time)).collect::<Vec<_>>(),
             [(10, 1.0), (20, 2.5), (30, 3.5)]

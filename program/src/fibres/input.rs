@@ -107,7 +107,8 @@ fn head(text: &mut String, model: &Model) {
         model.beads
     );
     if let Striking::Walls(Pressing { middle, .. }) = model.striker {
-        let _ = write!(text, "group fibres id 1:{beads}\ngroup free id 1:{beads}\ngroup middle id 1:{}\n", middle.fibres);
+        let _ =
+            write!(text, "group fibres id 1:{beads}\ngroup free id 1:{beads}\ngroup middle id 1:{}\n", middle.fibres);
     } else {
         yarn_groups(text, model);
     }

@@ -102,7 +102,6 @@ pub struct Pressing {
     pub middle: Middle,
 }
 
-
 impl Model {
     /// # Errors
     /// The fibres do not go into the section.
@@ -127,7 +126,7 @@ impl Model {
         let end = to(case.end, TIME);
         let striker = match case.striker {
             Striker::Driven { ramp } => Striking::Driven { ramp: to(ramp, TIME) },
-            Striker::Walls { walls, closing, damping } => {
+            Striker::Walls { walls, closing, damping, .. } => {
                 let braking = damping * (contact[0] * bead_mass).sqrt();
                 Striking::Walls(Pressing {
                     walls,

@@ -254,8 +254,7 @@ fn fronts(units: &UnitSystem, model: &Model, frame: &Frame, smith: &Smith) -> Fr
     let of_layer = |values: &dyn Fn(usize) -> f64, layer: usize| {
         (layer * fibres..(layer + 1) * fibres).map(values).sum::<f64>() / fibres as f64
     };
-    let velocities: Vec<f64> =
-        (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.values[bead], layer)).collect();
+    let velocities: Vec<f64> = (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.values[bead], layer)).collect();
     let transverse = front(&velocities, FRONT * model.speed).map_or(0.0, |place| {
         let (layer, part) = (place as usize, place.fract());
         let [here, next] =

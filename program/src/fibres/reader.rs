@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
-use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, Striker, Walls};
+use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
 use crate::common::units::SPEED;
+use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
@@ -256,6 +257,20 @@ impl Reader<'_> {
         Ok(Contact { coefficients, length })
     }
 
+    /// The law's section of a preset.
+    fn law(&self, name: &Spanned<String>) -> Result<SectionLaw, Error> {
+        let error = |message: &str| self.source.error(name.span(), message);
+        let preset = Preset::find(name.get_ref(), self.source.folder(), error)?;
+        let values = preset.complete(self.units)?;
+        let value = |property: &str| {
+            let index = preset.law.table().iter().position(|known| known.name == property);
+            index.map(|index| values[index]).ok_or_else(|| {
+                error(&format!("preset \"{}\" has no {property}; allowed: one of the hyperelastic law", name.get_ref()))
+            })
+        };
+        Ok(SectionLaw { k_tc: value("k_tc")?, p: value("p")?, k_td: value("k_td")? })
+    }
+
     fn striker(&self, fibre: &Fibre, spacing: f64) -> Result<Striker, Error> {
         let file = self.file;
         if file.striker() == StrikerName::Driven {
@@ -273,6 +288,7 @@ impl Reader<'_> {
                 walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
                 closing: share,
                 damping: self.source.zero_or_more("damping", &file.damping, DAMPING)?,
+                law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
             });
         }
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::model::{Model, Striking};
-use super::pressed;
 use super::outcome::{Fronts, Outcome};
+use super::pressed;
 use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
 use crate::common::text_table::{Column, files, or_dash, shortened, table};

@@ -109,7 +109,22 @@ pub enum Striker {
     Driven { ramp: f64 },
     /// Walls without friction press the section, from rest to rest as half a cosine, until this part of the way between two that
     /// close is gone. Beads are braked at this rate, over the frequency √(a₁/m) of a bead on a contact.
-    Walls { walls: Walls, closing: f64, damping: f64 },
+    Walls { walls: Walls, closing: f64, damping: f64, law: Option<SectionLaw> },
+}
+
+/// What a yarn's law says of its section: W_tc = k_tc ⟨−I_tc⟩^p and W_td = ½ k_td I_td².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SectionLaw {
+    pub k_tc: f64,
+    pub p: f64,
+    pub k_td: f64,
+}
+
+impl SectionLaw {
+    /// W_tc + W_td.
+    pub fn energy(&self, [i_tc, i_td]: [f64; 2]) -> f64 {
+        self.k_tc * (-i_tc).max(0.0).powf(self.p) + 0.5 * self.k_td * i_td * i_td
+    }
 }
 
 /// The walls of a box around the section, and which of them close.

@@ -19,7 +19,7 @@ pub struct Written<'a> {
     /// Of the yarn.
     pub density: Option<f64>,
     pub fibre: Option<Fibre>,
-    pub sets: Vec<Set<'a>>,
+    pub sets: Vec<Set>,
 }
 
 /// A fibre's modulus and strain at failure, and the fibres' part of the yarn.
@@ -30,11 +30,11 @@ pub struct Fibre {
 }
 
 /// The energies of a load, in the file NAME.csv.
-pub struct Set<'a> {
-    pub name: &'a str,
+pub struct Set {
+    pub name: String,
     pub loading: &'static str,
-    /// The column that is the abscissa, if it is not the first known one.
-    pub abscissa: Option<&'static str>,
+    /// The columns of abscissa and energy, if they are not the first known ones.
+    pub columns: Option<[&'static str; 2]>,
     /// The largest energy, and the energies' standard deviation as a part of it.
     pub largest: f64,
     pub deviation: f64,
@@ -62,10 +62,10 @@ impl Written<'_> {
                 fibre.strain_at_failure
             );
         }
-        for Set { name, loading, abscissa, largest, deviation } in &self.sets {
+        for Set { name, loading, columns, largest, deviation } in &self.sets {
             let _ = write!(text, "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n");
-            if let Some(abscissa) = abscissa {
-                let _ = writeln!(text, "abscissa = \"{abscissa}\"");
+            if let Some([abscissa, energy]) = columns {
+                let _ = writeln!(text, "abscissa = \"{abscissa}\"\ncolumns = {{ energy = \"{energy}\" }}");
             }
             let _ = writeln!(
                 text,

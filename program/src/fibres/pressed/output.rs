@@ -17,6 +17,7 @@ pub type Results<'a> = [(&'a Case, Pressed)];
 
 /// Of the preset that is fitted.
 const YARN: &str = "fibres";
+const COMPACTION: &str = "compaction";
 
 /// Writes the history of a case.
 ///
@@ -28,7 +29,13 @@ pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(),
     for of in ["", " of the section"] {
         let _ = write!(text, ",I_tc{of} (-),I_td{of} (-),energy{of} ({stress})");
     }
-    for name in ["energy in the walls", "work of the walls", "energy lost by friction", "energy lost by damping", "kinetic energy"] {
+    for name in [
+        "energy in the walls",
+        "work of the walls",
+        "energy lost by friction",
+        "energy lost by damping",
+        "kinetic energy",
+    ] {
         let _ = write!(text, ",{name} ({stress})");
     }
     text.push('\n');
@@ -45,38 +52,38 @@ pub fn write_history(file: &Path, scene: &Scene, result: &Pressed) -> Result<(),
     std::fs::write(file, text).map_err(|error| file_error(file, &error))
 }
 
-/// The file that `toron fit` reads: the middles of the sections that are pressed on all sides or between sides that are held.
+/// The file that `toron fit` reads: the sections that are pressed on all sides or between sides that are held, as the walls say.
 pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
     let loading = |case: &Case| match case.striker {
-        Striker::Walls { walls: Walls::AllSides, .. } => Some("compaction"),
+        Striker::Walls { walls: Walls::AllSides, .. } => Some(COMPACTION),
         Striker::Walls { walls: Walls::TopAndBottom | Walls::Sides, .. } => Some("compression"),
         _ => None,
     };
-    let set = |(case, result): &'_ (&'_ Case, Pressed)| {
-        let loading = loading(case)?;
-        Some((case.name.clone(), loading, case.packing, result.samples.iter().fold(0.0, |most: f64, s| most.max(s.middle.energy))))
+    let set = |case: &'_ Case, result: &Pressed| {
+        Some(Set {
+            name: case.name.clone(),
+            loading: loading(case)?,
+            // The middle's own invariants come back where fibres snap.
+            columns: Some(["stretch", "energy of the section"]),
+            largest: result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.whole.energy)),
+            deviation: if case.packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION },
+        })
     };
-    let sets: Vec<_> = results.iter().filter_map(set).collect();
-    let (case, result) = results.iter().find(|(case, _)| loading(case) == Some("compaction"))?;
+    let (case, result) = results.iter().find(|(case, _)| loading(case) == Some(COMPACTION))?;
     let volume_fraction = result.model.section.fraction();
-    let fibre = case.fibre;
+    let modulus = case.fibre.modulus;
     let written = Written {
         title: &scene.title,
         units: &scene.units,
         name: YARN,
         source: &format!("{}: fibres in LAMMPS", scene.title),
-        density: Some(fibre.density * volume_fraction),
-        fibre: fibre.strain_at_failure.map(|strain_at_failure| Fibre { modulus: fibre.modulus, volume_fraction, strain_at_failure }),
-        sets: sets
-            .iter()
-            .map(|(name, loading, packing, largest)| Set {
-                name,
-                loading,
-                abscissa: Some(if *loading == "compaction" { "I_tc" } else { "I_td" }),
-                largest: *largest,
-                deviation: if *packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION },
-            })
-            .collect(),
+        density: Some(case.fibre.density * volume_fraction),
+        fibre: case.fibre.strain_at_failure.map(|strain_at_failure| Fibre {
+            modulus,
+            volume_fraction,
+            strain_at_failure,
+        }),
+        sets: results.iter().filter_map(|(case, result)| set(case, result)).collect(),
     };
     Some(written.text())
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::outcome::{Pressed, Sample};
 use crate::common::error::Error;
 use crate::common::units::unit;
-use crate::fibres::scene::{Case, Scene};
+use crate::fibres::scene::{Case, Scene, Striker};
 use crate::picture::history;
 use crate::picture::panel::{self, Panel, Series, tidy};
 use crate::picture::style::COLOURS;
@@ -23,7 +23,10 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Presse
     };
     let stress = unit(&scene.units, STRESS);
     let panel = |title, unit: &str, series| Panel { title, unit: unit.to_string(), series: tidy(series), limit: None };
-    let energies = vec![line(0, "middle", &|s| s.middle.energy), line(1, "whole section", &|s| s.whole.energy)];
+    let mut energies = vec![line(0, "middle", &|s| s.middle.energy), line(1, "whole section", &|s| s.whole.energy)];
+    if let Striker::Walls { law: Some(law), .. } = case.striker {
+        energies.push(line(2, "the law at the middle's invariants", &|s| law.energy(s.middle.invariants)));
+    }
     let work = vec![
         line(0, "work", &|s| s.work),
         line(1, "fibres", &|s| s.whole.energy),
