@@ -65,6 +65,7 @@ pub fn fit_file(scene: &Scene, model: &Model, outcomes: &[Outcome]) -> String {
         name: outcome.load.name().to_string(),
         loading: if outcome.load == Load::Compaction { "compaction" } else { "compression" },
         columns: None,
+        range: None,
         largest: outcome.increments.iter().fold(0.0, |largest: f64, increment| largest.max(increment.energy)),
         deviation: if scene.arrangement.is_random() { RANDOM_DEVIATION } else { DEVIATION },
     };

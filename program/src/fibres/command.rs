@@ -17,12 +17,11 @@ use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error};
+use crate::impact::summary::{STRAINS, write_strains};
 
 const SUMMARY: &str = "summary.csv";
 /// The file for the identification.
 const FIT: &str = "fit.toml";
-/// Between a case's name and the number of a table of strains.
-const STRAINS: &str = "-strain-";
 /// Ticks of the progress bar for each case.
 const TICKS: f64 = 1000.0;
 
@@ -74,10 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     directory.remove(FIT)?;
     for case in &scene.cases {
         directory.remove_files_of(&case.name, PICTURES, 0)?;
-        let strains = (1..).map(|number| format!("{}{STRAINS}{number}.csv", case.name));
-        for table in strains.take_while(|table| output.join(table).exists()) {
-            directory.remove(&table)?;
-        }
+        directory.remove_series(&case.name, STRAINS)?;
     }
     let bar = progress::bar(
         TICKS as u64 * scene.cases.len() as u64,
@@ -180,7 +176,8 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
     for (number, frame) in (1..).zip(&result.frames) {
         let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
         picture::write(&svg, &png, scene, case, result, frame)?;
-        summary::write_strains(&file(&format!("{STRAINS}{number}.csv")), &scene.units, &result.model, frame)?;
+        write_strains(&file(&format!("{STRAINS}{number}.csv")), result.strains(&scene.units, frame))?;
     }
+    plot::write_strains(&file("-strain.svg"), &file("-strain.png"), scene, case, result)?;
     Ok(())
 }

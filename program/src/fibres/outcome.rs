@@ -122,6 +122,14 @@ impl Outcome {
         self.samples.get(last + 1).map(|sample| sample.time)
     }
 
+    /// The places of the trusses at rest, and the mean and the largest strain of those that are whole.
+    pub fn strains(&self, units: &UnitSystem, frame: &Frame) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let length = micro(units, LENGTH) * self.model.spacing;
+        let strains =
+            move |layer: usize| Some((length * (layer as f64 + 0.5), frame.strain(layer, self.model.limit())?));
+        (0..frame.layers() - 1).filter_map(strains)
+    }
+
     /// The speed that the projectile keeps when it has torn the yarn.
     pub fn residual_speed(&self) -> Option<f64> {
         let Striking::Cylinder { held: false, .. } = self.model.striker else { return None };

@@ -122,7 +122,8 @@ fn list_files(scene: &Scene, results: &Results, pressed: &pressed::output::Resul
         (true, "NAME.csv", "the history of case NAME"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-fibres-1.svg, .png, …", "the fibres at the times of pictures"),
-        (strains, "NAME-strain-1.csv, …", "the strain along the yarn then"),
+        (strains, "NAME-strain.svg, .png", "the strain along the yarn then"),
+        (strains, "NAME-strain-1.csv, …", "the same as tables"),
         (true, "NAME/", "what LAMMPS has read and written"),
         (pressed::output::fit_file(scene, pressed).is_some(), "fit.toml", "what toron fit reads"),
     ];

@@ -35,6 +35,8 @@ pub struct Set {
     pub loading: &'static str,
     /// The columns of abscissa and energy, if they are not the first known ones.
     pub columns: Option<[&'static str; 2]>,
+    /// Of the abscissa, where the curve goes on beyond what is elastic.
+    pub range: Option<[f64; 2]>,
     /// The largest energy, and the energies' standard deviation as a part of it.
     pub largest: f64,
     pub deviation: f64,
@@ -62,10 +64,13 @@ impl Written<'_> {
                 fibre.strain_at_failure
             );
         }
-        for Set { name, loading, columns, largest, deviation } in &self.sets {
+        for Set { name, loading, columns, range, largest, deviation } in &self.sets {
             let _ = write!(text, "\n[[data]]\nname = \"{name}\"\nfile = \"{name}.csv\"\nloading = \"{loading}\"\n");
             if let Some([abscissa, energy]) = columns {
                 let _ = writeln!(text, "abscissa = \"{abscissa}\"\ncolumns = {{ energy = \"{energy}\" }}");
+            }
+            if let Some([from, to]) = range {
+                let _ = writeln!(text, "range = [{from:?}, {to:?}]");
             }
             let _ = writeln!(
                 text,

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::outcome::{Part, Pressed};
+use super::outcome::{Part, Pressed, Sample};
 use crate::common::error::Error;
 use crate::common::run_directory::file_error;
 use crate::common::text_table::{Column, or_dash};
@@ -60,13 +60,16 @@ pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
         _ => None,
     };
     let set = |case: &'_ Case, result: &Pressed| {
+        let largest = result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.whole.energy));
+        let deviation = if case.packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION };
         Some(Set {
             name: case.name.clone(),
             loading: loading(case)?,
             // The middle's own invariants come back where fibres snap.
             columns: Some(["stretch", "energy of the section"]),
-            largest: result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.whole.energy)),
-            deviation: if case.packing == Packing::Hexagonal { DEVIATION } else { RANDOM_DEVIATION },
+            range: snap(&result.samples, deviation * largest).map(|stretch| [stretch, 1.0]),
+            largest,
+            deviation,
         })
     };
     let (case, result) = results.iter().find(|(case, _)| loading(case) == Some(COMPACTION))?;
@@ -86,6 +89,21 @@ pub fn fit_file(scene: &Scene, results: &Results) -> Option<String> {
         sets: results.iter().filter_map(|(case, result)| set(case, result)).collect(),
     };
     Some(written.text())
+}
+
+/// The stretch from which on the section's energy has fallen by more than this: fibres have snapped to other places, where it is no
+/// longer that of an elastic section.
+fn snap(samples: &[Sample], least: f64) -> Option<f64> {
+    let mut highest = *samples.first()?;
+    for sample in samples {
+        if sample.whole.energy < highest.whole.energy - least {
+            return Some(highest.stretch);
+        }
+        if sample.whole.energy > highest.whole.energy {
+            highest = *sample;
+        }
+    }
+    None
 }
 
 /// The columns of the terminal's table, the most important first.
