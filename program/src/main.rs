@@ -146,7 +146,8 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),
-        Command::Fibres(arguments) => fibres::command::run(&arguments),
+        Command::Fibres(arguments) => fibres::command::run(&arguments)
+            .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
         Command::Impact { scene, output } => impact::command::run(&scene, &output),
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),

@@ -70,6 +70,19 @@ impl RunDirectory {
         Ok(removed)
     }
 
+    /// Removes the tables of a case that are numbered from 1 on after this.
+    ///
+    /// # Errors
+    /// A file cannot be removed.
+    pub fn remove_series(&self, case: &str, between: &str) -> Result<usize, Error> {
+        let names = (1..).map(|number| format!("{case}{between}{number}.csv"));
+        let mut removed = 0;
+        for name in names.take_while(|name| self.path.join(name).exists()) {
+            removed += usize::from(self.remove(&name)?);
+        }
+        Ok(removed)
+    }
+
     /// What to say of files that were removed; nothing of none.
     pub fn removal(&self, files: usize) -> String {
         match files {

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::path::Path;
 
 use crate::common::error::Error;
-use crate::common::run_directory::file_error;
+use crate::common::run_directory::{file_error, is_file};
+use crate::impact::summary::STRAINS;
 
 const TIME: &str = "time";
 /// The columns that are drawn.
@@ -29,39 +30,61 @@ impl Beside {
     }
 
     fn parse(text: &str) -> Result<Beside, String> {
-        let mut lines = text.lines();
-        let titles: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-        let place = |name: &str| {
-            let found = titles.iter().position(|title| *title == name);
-            found.ok_or_else(|| format!("no column {name}; allowed: a history of toron impact, its NAME.csv"))
-        };
-        let time = place(TIME)?;
-        let places = COLUMNS.iter().map(|&name| Ok((name, place(name)?))).collect::<Result<Vec<_>, String>>()?;
-        let (mut times, mut columns) = (Vec::new(), HashMap::new());
-        for (number, line) in (2..).zip(lines) {
-            let cells: Vec<&str> = line.split(',').collect();
-            let value = |place: usize| {
-                let cell = cells.get(place).copied().unwrap_or_default();
-                cell.parse::<f64>().map_err(|_| format!("line {number}: \"{cell}\"; allowed: a number"))
-            };
-            times.push(value(time)?);
-            for &(name, place) in &places {
-                columns.entry(name).or_insert_with(Vec::new).push(value(place)?);
-            }
-        }
-        if times.is_empty() { Err("no line".to_string()) } else { Ok(Beside { times, columns }) }
+        let mut columns = table(text, &[&COLUMNS[..], &[TIME]].concat())?;
+        let times = columns.pop().unwrap_or_default();
+        Ok(Beside { times, columns: COLUMNS.into_iter().zip(columns).collect() })
     }
 
     /// The value of one of the columns at a time, between two lines by a straight line; at the ends, the last one there is.
     pub fn at(&self, name: &str, time: f64) -> f64 {
-        let Some(values) = self.columns.get(name) else { return f64::NAN };
-        let after = self.times.partition_point(|&known| known < time);
-        let (Some(before), true) = (after.checked_sub(1), after < values.len()) else {
-            return values[after.min(values.len() - 1)];
-        };
-        let part = (time - self.times[before]) / (self.times[after] - self.times[before]);
-        values[before] + part * (values[after] - values[before])
+        self.columns.get(name).map_or(f64::NAN, |values| between(&self.times, values, time))
     }
+}
+
+/// A value between two of an ascending abscissa by a straight line; at the ends, the last one there is.
+fn between(abscissa: &[f64], values: &[f64], place: f64) -> f64 {
+    let after = abscissa.partition_point(|&known| known < place);
+    let (Some(before), true) = (after.checked_sub(1), after < values.len()) else {
+        return values[after.min(values.len() - 1)];
+    };
+    let part = (place - abscissa[before]) / (abscissa[after] - abscissa[before]);
+    values[before] + part * (values[after] - values[before])
+}
+
+/// The law's mean strains in % at these places along the yarn, out of the table of this number beside its history; none where its
+/// run was over before.
+///
+/// # Errors
+/// The table cannot be read, or is none of `toron impact`.
+pub fn strains(history: &Path, number: usize, places: impl Iterator<Item = f64>) -> Result<Option<Vec<f64>>, Error> {
+    let name = history.file_stem().unwrap_or_default().to_string_lossy();
+    let file = history.with_file_name(format!("{name}{STRAINS}{number}.csv"));
+    if !is_file(&file)? {
+        return Ok(None);
+    }
+    let text = std::fs::read_to_string(&file).map_err(|error| file_error(&file, &error))?;
+    let columns = table(&text, &["place", "strain_mean"]).map_err(|message| file_error(&file, &message))?;
+    Ok(Some(places.map(|place| 100.0 * between(&columns[0], &columns[1], place)).collect()))
+}
+
+/// The columns of these names.
+fn table(text: &str, names: &[&str]) -> Result<Vec<Vec<f64>>, String> {
+    let mut lines = text.lines();
+    let titles: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let place = |name: &&str| {
+        let found = titles.iter().position(|title| title == name);
+        found.ok_or_else(|| format!("no column {name}; allowed: what toron impact has written"))
+    };
+    let places = names.iter().map(place).collect::<Result<Vec<_>, String>>()?;
+    let mut columns = vec![Vec::new(); names.len()];
+    for (number, line) in (2..).zip(lines) {
+        let cells: Vec<&str> = line.split(',').collect();
+        for (column, &place) in columns.iter_mut().zip(&places) {
+            let cell = cells.get(place).copied().unwrap_or_default();
+            column.push(cell.parse().map_err(|_| format!("line {number}: \"{cell}\"; allowed: a number"))?);
+        }
+    }
+    if columns.iter().any(Vec::is_empty) { Err("no line".to_string()) } else { Ok(columns) }
 }
 
 #[cfg(test)]

@@ -8,18 +8,20 @@ use super::beside::Beside;
 use super::lammps::Lammps;
 use super::model::Model;
 use super::outcome::Outcome;
+use super::pressed::outcome::Pressed;
 use super::reader::PICTURES;
 use super::run::Folder;
 use super::scene::{Case, Scene};
-use super::{picture, plot, report, summary};
+use super::{picture, plot, pressed, report, summary};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::progress::{self, Lines};
-use crate::common::run_directory::RunDirectory;
+use crate::common::run_directory::{RunDirectory, file_error};
+use crate::impact::summary::{STRAINS, write_strains};
 
 const SUMMARY: &str = "summary.csv";
-/// Between a case's name and the number of a table of strains.
-const STRAINS: &str = "-strain-";
+/// The file for the identification.
+const FIT: &str = "fit.toml";
 /// Ticks of the progress bar for each case.
 const TICKS: f64 = 1000.0;
 
@@ -30,7 +32,7 @@ pub struct Arguments {
     scene: PathBuf,
     /// Where the files go.
     #[arg(short, long, default_value = "toron-out")]
-    output: PathBuf,
+    pub output: PathBuf,
     /// Write what LAMMPS reads, and do not run it.
     #[arg(long)]
     write_only: bool,
@@ -44,11 +46,12 @@ pub struct Arguments {
 
 /// Runs the cases of a scene and writes what came of them.
 ///
-/// A case that has no result keeps no other from having one.
+/// A case that has no result keeps no other from having one. Returns the path of the file that the identification reads, if
+/// sections were pressed that tell its parameters.
 ///
 /// # Errors
 /// The input, no LAMMPS, a file that cannot be written, or the cases that have no result.
-pub fn run(arguments: &Arguments) -> Result<(), Error> {
+pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     let scene = Scene::read(&arguments.scene)?;
     let models: Result<Vec<Model>, Error> = scene.cases.iter().map(|case| Model::new(&scene.units, case)).collect();
     let models = models?;
@@ -62,48 +65,58 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     if arguments.write_only {
         print(&written(&scene, output));
-        return Ok(());
+        return Ok(None);
     }
     // Those that are there already need no LAMMPS.
     let lammps = if folders.iter().all(Folder::is_done) { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
     directory.remove(SUMMARY)?;
+    directory.remove(FIT)?;
     for case in &scene.cases {
         directory.remove_files_of(&case.name, PICTURES, 0)?;
-        let strains = (1..).map(|number| format!("{}{STRAINS}{number}.csv", case.name));
-        for table in strains.take_while(|table| output.join(table).exists()) {
-            directory.remove(&table)?;
-        }
+        directory.remove_series(&case.name, STRAINS)?;
     }
     let bar = progress::bar(
         TICKS as u64 * scene.cases.len() as u64,
         "{wide_bar} {percent} %, {eta} left",
         ProgressDrawTarget::stderr(),
     );
-    let (mut results, mut errors) = (Vec::new(), Vec::new());
+    let (mut results, mut pressed, mut errors) = (Vec::new(), Vec::new(), Vec::new());
     for (number, ((case, model), folder)) in scene.cases.iter().zip(&models).zip(&folders).enumerate() {
         let mut observer = Observer { bar: &bar, number, case, lines: Lines::from(0.0) };
-        let mut run = || -> Result<Outcome, Error> {
+        let mut run = || -> Result<(), Error> {
             let seconds = match &lammps {
                 Some(lammps) if !folder.is_done() => {
                     Some(folder.run(lammps, arguments.ranks.into(), &mut |part| observer.progress(part))?)
                 }
                 _ => None,
             };
-            let result = Outcome::new(&scene.units, case, model.clone(), folder.read(seconds)?);
-            write_case(&scene, case, &result, output)?;
-            Ok(result)
+            let raw = folder.read(seconds)?;
+            if let Some(result) = Pressed::new(&scene.units, model.clone(), &raw) {
+                write_pressed(&scene, case, &result, output)?;
+                pressed.push((case, result));
+            } else {
+                let result = Outcome::new(&scene.units, case, model.clone(), raw);
+                write_case(&scene, case, &result, output)?;
+                results.push((case, result));
+            }
+            Ok(())
         };
-        match run() {
-            Ok(result) => results.push((case, result)),
-            Err(error) => errors.push((case, error)),
+        if let Err(error) = run() {
+            errors.push((case, error));
         }
     }
     bar.finish_and_clear();
     if !results.is_empty() {
         summary::write(&output.join(SUMMARY), &scene, &results)?;
-        print(&report::report(&scene, &results, output));
     }
-    combine(&errors)
+    if !(results.is_empty() && pressed.is_empty()) {
+        print(&report::report(&scene, &results, &pressed, output));
+    }
+    combine(&errors)?;
+    let Some(text) = pressed::output::fit_file(&scene, &pressed) else { return Ok(None) };
+    let fit = output.join(FIT);
+    std::fs::write(&fit, text).map_err(|error| file_error(&fit, &error))?;
+    Ok(Some(fit))
 }
 
 /// What there is to run by hand, and how.
@@ -144,6 +157,17 @@ impl Observer<'_> {
     }
 }
 
+fn write_pressed(scene: &Scene, case: &Case, result: &Pressed, output: &Path) -> Result<(), Error> {
+    let file = |ending: &str| output.join(format!("{}{ending}", case.name));
+    pressed::output::write_history(&file(".csv"), scene, result)?;
+    pressed::plot::write(&file(".svg"), &file(".png"), scene, case, result)?;
+    for (number, frame) in (1..).zip(&result.frames) {
+        let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
+        pressed::picture::write(&svg, &png, scene, case, result, frame)?;
+    }
+    Ok(())
+}
+
 fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Result<(), Error> {
     let file = |ending: &str| output.join(format!("{}{ending}", case.name));
     summary::write_history(&file(".csv"), result)?;
@@ -152,7 +176,8 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
     for (number, frame) in (1..).zip(&result.frames) {
         let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{number}.{ending}")));
         picture::write(&svg, &png, scene, case, result, frame)?;
-        summary::write_strains(&file(&format!("{STRAINS}{number}.csv")), &scene.units, &result.model, frame)?;
+        write_strains(&file(&format!("{STRAINS}{number}.csv")), result.strains(&scene.units, frame))?;
     }
+    plot::write_strains(&file("-strain.svg"), &file("-strain.png"), scene, case, result)?;
     Ok(())
 }

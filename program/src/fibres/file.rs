@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::scene::Walls;
 use crate::common::toml_file::{Unused, over};
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -10,6 +11,7 @@ use crate::common::toml_file::{Unused, over};
 pub enum SectionName {
     Circle,
     Ellipse,
+    Box,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -24,6 +26,7 @@ pub enum PackingName {
 pub enum StrikerName {
     Cylinder,
     Driven,
+    Walls,
 }
 
 #[derive(Deserialize)]
@@ -75,7 +78,11 @@ pub struct CaseFile {
     pub sample: Option<Spanned<f64>>,
     pub pictures: Option<Spanned<Vec<f64>>>,
     pub step: Option<Spanned<f64>>,
-    pub law: Option<String>,
+    pub walls: Option<Spanned<Walls>>,
+    pub closing: Option<Spanned<f64>>,
+    pub damping: Option<Spanned<f64>>,
+    pub preset: Option<Spanned<String>>,
+    pub law: Option<Spanned<String>>,
 }
 
 impl FibreFile {
@@ -106,27 +113,43 @@ impl CaseFile {
     /// A key of this table that none of these cases reads: its place, and the message.
     pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let number = |value: &Option<Spanned<f64>>| value.as_ref().map(Spanned::span);
-        let cylinder = "belongs to a cylinder, and striker is driven; allowed: one of the two";
-        let driven = "belongs to striker = \"driven\", and a cylinder strikes; allowed: one of the two";
-        let ellipse = "belongs to an ellipse, and section is circle; allowed: section = \"ellipse\"";
-        let random = "belongs to a random packing, and packing is hexagonal; allowed: packing = \"random\"";
-        let strikes = cases.iter().any(|case| case.striker() == StrikerName::Cylinder);
-        let drives = cases.iter().any(|case| case.striker() == StrikerName::Driven);
-        let is_ellipse = cases.iter().any(|case| case.section() == SectionName::Ellipse);
+        let strikers = |allowed: &[StrikerName]| cases.iter().any(|case| allowed.contains(&case.striker()));
+        let strikes = strikers(&[StrikerName::Cylinder]);
+        let drives = strikers(&[StrikerName::Driven]);
+        let along = strikers(&[StrikerName::Cylinder, StrikerName::Driven]);
+        let presses = strikers(&[StrikerName::Walls]);
+        let sections = |allowed: &[SectionName]| cases.iter().any(|case| allowed.contains(&case.section()));
         let is_random = cases.iter().any(|case| case.packing() == PackingName::Random);
+        let cylinder = "a cylinder; allowed: with striker = \"cylinder\"";
+        let driven = "striker = \"driven\"; allowed: with that";
+        let struck = "fibres that are struck along a yarn; allowed: with striker = \"cylinder\" or \"driven\"";
+        let walls = "striker = \"walls\"; allowed: with that";
+        let round = "a circle or an ellipse; allowed: with section = \"circle\" or \"ellipse\"";
+        let ellipse = "an ellipse; allowed: with section = \"ellipse\"";
+        let long = "an ellipse or a box; allowed: with section = \"ellipse\" or \"box\"";
+        let random = "a random packing; allowed: with packing = \"random\"";
         let keys = [
             ("mass", number(&self.mass), strikes, cylinder),
             ("radius", number(&self.radius), strikes, cylinder),
             ("held", self.held.as_ref().map(Spanned::span), strikes, cylinder),
             ("projectile-friction", number(&self.projectile_friction), strikes, cylinder),
             ("projectile-stiffness", number(&self.projectile_stiffness), strikes, cylinder),
+            ("law", self.law.as_ref().map(Spanned::span), strikes, cylinder),
             ("ramp", number(&self.ramp), drives, driven),
-            ("aspect", number(&self.aspect), is_ellipse, ellipse),
-            ("height", number(&self.height), is_ellipse, ellipse),
+            ("half-length", number(&self.half_length), along, struck),
+            ("spacing", number(&self.spacing), along, struck),
+            ("speed", number(&self.speed), along, struck),
+            ("walls", self.walls.as_ref().map(Spanned::span), presses, walls),
+            ("closing", number(&self.closing), presses, walls),
+            ("damping", number(&self.damping), presses, walls),
+            ("preset", self.preset.as_ref().map(Spanned::span), presses, walls),
+            ("width", number(&self.width), sections(&[SectionName::Circle, SectionName::Ellipse]), round),
+            ("height", number(&self.height), sections(&[SectionName::Ellipse]), ellipse),
+            ("aspect", number(&self.aspect), sections(&[SectionName::Ellipse, SectionName::Box]), long),
             ("seed", self.seed.as_ref().map(Spanned::span), is_random, random),
         ];
         let (key, span, _, message) = keys.into_iter().find(|(_, span, is_read, _)| span.is_some() && !is_read)?;
-        Some((span?, format!("{key} {message}")))
+        Some((span?, format!("{key} belongs to {message}")))
     }
 
     /// This table, with the keys of `base` where it has none.
@@ -159,6 +182,10 @@ impl CaseFile {
             sample: own.sample.or(base.sample),
             pictures: own.pictures.or(base.pictures),
             step: own.step.or(base.step),
+            walls: own.walls.or(base.walls),
+            closing: own.closing.or(base.closing),
+            damping: own.damping.or(base.damping),
+            preset: own.preset.or(base.preset),
             law: own.law.or(base.law),
         }
     }

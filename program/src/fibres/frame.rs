@@ -11,8 +11,8 @@ use crate::common::run_directory::file_error;
 pub struct Frame {
     pub step: u64,
     pub positions: Vec<[f64; 3]>,
-    /// Velocities against the blow.
-    pub velocities: Vec<f64>,
+    /// Velocities against the blow; of a pressed section, the energies of the contacts, half of each at either bead.
+    pub values: Vec<f64>,
     fibres: usize,
     spacing: f64,
 }
@@ -70,7 +70,7 @@ fn frame(text: &str, model: &Model) -> Option<Frame> {
         let mut numbers = line.split_whitespace().skip(1).map(|number| number.parse::<f64>().ok());
         let mut next = || numbers.next().flatten();
         frame.positions.push([next()?, next()?, next()?]);
-        frame.velocities.push(next()?);
+        frame.values.push(next()?);
     }
     (frame.positions.len() == model.all_beads()).then_some(frame)
 }

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::input::{COLUMNS, STATION_COLUMNS};
-use super::model::Model;
+use super::model::{Model, Striking};
+use super::pressed;
 use crate::common::error::Error;
 use crate::common::run_directory::file_error;
 
@@ -44,25 +45,31 @@ pub struct Station {
 ///
 /// # Errors
 /// It cannot be read.
-pub fn read(file: &Path, model: &Model) -> Result<Vec<Line>, Error> {
+pub fn read(file: &Path, model: &Model) -> Result<Vec<Vec<f64>>, Error> {
     let text = std::fs::read_to_string(file).map_err(|error| file_error(file, &error))?;
-    Ok(lines(&text, model.steps))
+    let columns = match model.striker {
+        Striking::Walls(_) => pressed::input::COLUMNS,
+        _ => COLUMNS + STATION_COLUMNS * model.stations.len(),
+    };
+    Ok(rows(&text, columns, model.steps as f64))
 }
 
-/// What cannot be read is the end of a line that was being written.
-fn lines(text: &str, last: u64) -> Vec<Line> {
-    let mut lines: Vec<Line> = Vec::new();
-    for line in text.lines().filter_map(line).filter(|line| (1..=last).contains(&line.step)) {
-        let kept = lines.iter().take_while(|known| known.step < line.step).count();
-        lines.truncate(kept);
-        lines.push(line);
+/// The numbers of each line, the first of which is its step. What cannot be read is the end of a line that was being written.
+fn rows(text: &str, columns: usize, last: f64) -> Vec<Vec<f64>> {
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for line in text.lines() {
+        let row: Vec<f64> = line.split_whitespace().map_while(|number| number.parse().ok()).collect();
+        if row.len() == columns && (1.0..=last).contains(&row[0]) {
+            let kept = rows.iter().take_while(|known| known[0] < row[0]).count();
+            rows.truncate(kept);
+            rows.push(row);
+        }
     }
-    lines
+    rows
 }
 
-fn line(text: &str) -> Option<Line> {
-    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|number| number.parse().ok()).collect();
-    let numbers = numbers?;
+/// The line that these numbers are, of a yarn.
+pub fn line(numbers: &[f64]) -> Option<Line> {
     let (run, stations) = numbers.split_at_checked(COLUMNS)?;
     let [step, time, speed, way, force, power, kinetic, trusses, contact, pressed, left, fastest, longest] = *run
     else {
@@ -97,8 +104,8 @@ fn line(text: &str) -> Option<Line> {
 }
 
 /// The last step of which a line has been written.
-pub fn last_step(file: &Path, model: &Model) -> u64 {
-    read(file, model).ok().and_then(|lines| lines.last().map(|line| line.step)).unwrap_or(0)
+pub fn last_step(file: &Path, model: &Model) -> f64 {
+    read(file, model).ok().and_then(|rows| rows.last().map(|row| row[0])).unwrap_or(0.0)
 }
 
 #[cfg(test)]
@@ -107,11 +114,17 @@ mod tests {
 
     #[test]
     fn lines_that_were_written_again_count_once() {
-        let line =
+        let written =
             |step: u64, time: f64| format!("{step} {time} 1 2 3 4 5 6 7 8 9 10 11 {}\n", "0 1 0.5 0.3 ".repeat(4));
-        let text =
-            line(10, 1.0) + &line(20, 2.0) + &line(30, 3.0) + "40 4.0 1 2\n" + &line(20, 2.5) + &line(30, 3.5) + "40 4";
-        let read = lines(&text, 100);
+        let text = written(10, 1.0)
+            + &written(20, 2.0)
+            + &written(30, 3.0)
+            + "40 4.0 1 2\n"
+            + &written(20, 2.5)
+            + &written(30, 3.5)
+            + "40 4";
+        let read: Vec<Line> =
+            rows(&text, COLUMNS + 4 * STATION_COLUMNS, 100.0).iter().filter_map(|row| line(row)).collect();
         assert_eq!(
             read.iter().map(|line| (line.step, line.time)).collect::<Vec<_>>(),
             [(10, 1.0), (20, 2.5), (30, 3.5)]

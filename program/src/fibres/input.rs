@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::model::{Model, Striking, middle_stiffness};
+use super::model::{Model, Pressing, Striking, middle_stiffness};
+use super::pressed;
 
 /// The files of a run, in its folder.
 pub const INPUT: &str = "in.lmp";
@@ -27,13 +28,14 @@ pub const STATION_COLUMNS: usize = 4;
 pub fn beads(model: &Model) -> String {
     let fibres = model.centres.len();
     let beads = model.all_beads();
+    let bonds = fibres * (model.beads - 1);
     let projectile = usize::from(matches!(model.striker, Striking::Cylinder { .. }));
     let mut text = String::with_capacity(64 * beads);
     let _ = write!(
         text,
         "beads of {fibres} fibres\n\n{} atoms\n{} bonds\n{} atom types\n1 bond types\n2 extra special per atom\n\n",
         beads + projectile,
-        fibres * (model.beads - 1),
+        bonds,
         1 + projectile
     );
     let far =
@@ -43,7 +45,8 @@ pub fn beads(model: &Model) -> String {
     // LAMMPS takes a sphere's density; the bead at mid-span stands for half a spacing, and so does the clamped one.
     let volume = std::f64::consts::PI / 6.0 * model.diameter.powi(3);
     for layer in 0..model.beads {
-        let share = if layer == 0 || layer == model.beads - 1 { 0.5 } else { 1.0 };
+        let is_end = bonds > 0 && (layer == 0 || layer == model.beads - 1);
+        let share = if is_end { 0.5 } else { 1.0 };
         let (x, density) = (layer as f64 * model.spacing, share * model.bead_mass / volume);
         for (fibre, [z, y]) in model.centres.iter().enumerate() {
             let id = layer * fibres + fibre + 1;
@@ -54,8 +57,10 @@ pub fn beads(model: &Model) -> String {
         let density = mass.max(model.bead_mass) / volume;
         let _ = writeln!(text, "{} 2 0 0 0 {} {:e} {density:e}", beads + 1, fibres + 1, model.diameter);
     }
-    text.push_str("\nBonds\n\n");
-    for first in 1..=fibres * (model.beads - 1) {
+    if bonds > 0 {
+        text.push_str("\nBonds\n\n");
+    }
+    for first in 1..=bonds {
         let _ = writeln!(text, "{first} 1 {first} {}", first + fibres);
     }
     text
@@ -67,11 +72,14 @@ pub fn input(model: &Model) -> String {
     head(&mut text, model);
     contact(&mut text, model);
     motion(&mut text, model);
-    match model.striker {
+    match &model.striker {
         Striking::Cylinder { .. } => cylinder(&mut text, model),
-        Striking::Driven { ramp } => driven(&mut text, model, ramp),
+        Striking::Driven { ramp } => driven(&mut text, model, *ramp),
+        Striking::Walls(pressing) => pressed::input::write(&mut text, model, pressing),
     }
-    measures(&mut text, model);
+    if !matches!(model.striker, Striking::Walls(_)) {
+        measures(&mut text, model);
+    }
     runs(&mut text, model);
     text
 }
@@ -80,6 +88,8 @@ fn head(text: &mut String, model: &Model) {
     let fibres = model.centres.len();
     let beads = model.all_beads();
     let skin = SKIN * model.diameter;
+    // What walls press keeps its place along the fibres.
+    let boundary = if matches!(model.striker, Striking::Walls(_)) { "f s s" } else { "s m m" };
     // Where a truss breaks near a border between two processors, both must know the beads around it to the third neighbour.
     let reach = 3.5 * model.longest.unwrap_or(1.2 * model.spacing).max(model.diameter) + skin;
     let _ = write!(
@@ -89,28 +99,18 @@ fn head(text: &mut String, model: &Model) {
          atom_style hybrid bond sphere\n\
          atom_modify map array\n\
          processors * 1 1\n\
-         boundary s m m\n\
+         boundary {boundary}\n\
          newton on\n\
          comm_modify vel yes cutoff {reach:e}\n\
          special_bonds lj 0 1 1\n\
          if \"$(is_defined(variable,{RESTART}))\" then \"read_restart ${{{RESTART}}}\" else \"read_data {BEADS}\"\n\n",
         model.beads
     );
-    let layers = |first: usize, last: usize| format!("{}:{}", first * fibres + 1, (last + 1) * fibres);
-    let _ = write!(
-        text,
-        "group fibres id 1:{beads}\n\
-         group symmetry id {}\n\
-         group clamp id {}\n\
-         group free subtract all symmetry clamp\n",
-        layers(0, 0),
-        layers(model.beads - 1, model.beads - 1)
-    );
-    for (number, &station) in (1..).zip(&model.stations) {
-        let _ = writeln!(text, "group station{number} id {}", layers(station, station));
-    }
-    if model.near > 0 {
-        let _ = write!(text, "group near id {}\ngroup projectile id {}\n", layers(0, model.near - 1), beads + 1);
+    if let Striking::Walls(Pressing { middle, .. }) = model.striker {
+        let _ =
+            write!(text, "group fibres id 1:{beads}\ngroup free id 1:{beads}\ngroup middle id 1:{}\n", middle.fibres);
+    } else {
+        yarn_groups(text, model);
     }
     let _ = write!(
         text,
@@ -130,13 +130,34 @@ fn head(text: &mut String, model: &Model) {
     );
 }
 
+/// Layers of beads.
+fn yarn_groups(text: &mut String, model: &Model) {
+    let (fibres, beads) = (model.centres.len(), model.all_beads());
+    let layers = |first: usize, last: usize| format!("{}:{}", first * fibres + 1, (last + 1) * fibres);
+    let _ = write!(
+        text,
+        "group fibres id 1:{beads}\n\
+         group symmetry id {}\n\
+         group clamp id {}\n\
+         group free subtract all symmetry clamp\n",
+        layers(0, 0),
+        layers(model.beads - 1, model.beads - 1)
+    );
+    for (number, &station) in (1..).zip(&model.stations) {
+        let _ = writeln!(text, "group station{number} id {}", layers(station, station));
+    }
+    if model.near > 0 {
+        let _ = write!(text, "group near id {}\ngroup projectile id {}\n", layers(0, model.near - 1), beads + 1);
+    }
+}
+
 /// The contact of fibres: LAMMPS has Coulomb's friction for a linear contact.
 fn contact(text: &mut String, model: &Model) {
     let [a, b, c] = model.contact;
     let (friction, sticking) = (model.friction, model.sticking);
     if model.centres.len() == 1 {
         let _ = writeln!(text, "pair_style zero {:e}\npair_coeff * *", model.diameter);
-    } else if is_linear(model) {
+    } else if is_linear(model) && !matches!(model.striker, Striking::Walls(_)) {
         let _ = writeln!(text, "pair_style gran/hooke {a:e} NULL 0 {sticking:e} {friction:e} 1\npair_coeff * *");
     } else {
         let energy = format!("\"{:e}*d^2+{:e}*d^3+{:e}*d^4; d=radi+radj-r\"", a / 2.0, b / 3.0, c / 4.0);
@@ -294,13 +315,17 @@ fn runs(text: &mut String, model: &Model) {
     // A run that goes on from a restart file has some of these behind it.
     for stop in &stops {
         let _ = writeln!(text, "if \"$(step) < {stop}\" then \"run {stop} upto\"");
-        if model.near > 0 {
-            let _ = writeln!(
-                text,
-                "if \"$(step) == {stop}\" then \"write_dump fibres custom {} id x y z vy modify sort id format float %.9g\"",
-                frame(*stop)
-            );
-        }
+        let last = match model.striker {
+            Striking::Cylinder { .. } => "vy",
+            Striking::Walls(_) => "c_each",
+            // All instants are in one file.
+            Striking::Driven { .. } => continue,
+        };
+        let _ = writeln!(
+            text,
+            "if \"$(step) == {stop}\" then \"write_dump fibres custom {} id x y z {last} modify sort id format float %.9g\"",
+            frame(*stop)
+        );
     }
     let _ =
         write!(text, "if \"$(step) < {}\" then \"run {} upto\"\nprint done file {DONE}\n", model.steps, model.steps);

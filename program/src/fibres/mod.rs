@@ -2,7 +2,7 @@
 //!
 //! The physics is LAMMPS's. What stands here is the geometry ([`section`], [`model`]), the input that it reads ([`input`]), how it
 //! is found and run ([`lammps`], [`run`]), and what becomes of what it writes: [`history`] and [`frame`] read it, [`outcome`] has
-//! the quantities that are computed from it.
+//! the quantities that are computed from it. [`pressed`] is the section between walls.
 
 pub mod beside;
 pub mod command;
@@ -15,6 +15,7 @@ pub mod model;
 pub mod outcome;
 pub mod picture;
 pub mod plot;
+pub mod pressed;
 pub mod reader;
 pub mod report;
 pub mod run;

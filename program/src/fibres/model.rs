@@ -1,6 +1,7 @@
 //! A case in the units of LAMMPS's `micro` (µm, pg, µs: forces in nN, energies in fJ, speeds in m/s), as its input has it.
 
-use super::scene::{Case, MASS, Striker, contact_dimension};
+use super::pressed::middle::Middle;
+use super::scene::{Case, MASS, Striker, Walls, contact_dimension};
 use super::section::Section;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, SPEED, TIME};
@@ -21,6 +22,8 @@ const STICKING: f64 = 0.2;
 const CONTACTS: f64 = 12.0;
 /// Beads that are further from mid-span than this, in radii of the projectile, never touch it.
 const NEAR: f64 = 1.5;
+/// Walls are so many times as stiff as the first touch of two fibres.
+const WALL: f64 = 10.0;
 /// How many times a run writes a restart file.
 const RESTARTS: u64 = 40;
 
@@ -81,6 +84,22 @@ pub enum Striking {
     Driven {
         ramp: f64,
     },
+    Walls(Pressing),
+}
+
+/// Walls that press the section.
+#[derive(Clone, Copy, Debug)]
+pub struct Pressing {
+    pub walls: Walls,
+    pub closing: f64,
+    pub duration: f64,
+    /// Half the ways between them at rest, across the yarn and along the blow.
+    pub half: [f64; 2],
+    /// Of their contact with a bead: force over depth.
+    pub stiffness: f64,
+    /// The force against a bead's motion, over its speed.
+    pub braking: f64,
+    pub middle: Middle,
 }
 
 impl Model {
@@ -90,7 +109,8 @@ impl Model {
         let to = |value: f64, dimension: Dimension| value / micro(units, dimension);
         let section = Section::pack(case.fibres, case.outline, case.packing, case.fibre.diameter)
             .map_err(|message| Error::Input(format!("case {}: {message}", case.name)))?;
-        let trusses = (case.half_length / case.spacing).round().max(2.0);
+        let pressed = matches!(case.striker, Striker::Walls { .. });
+        let trusses = if pressed { 1.0 } else { (case.half_length / case.spacing).round().max(2.0) };
         let half_length = to(case.half_length, LENGTH);
         let spacing = half_length / trusses;
         let diameter = to(case.fibre.diameter, LENGTH);
@@ -103,8 +123,22 @@ impl Model {
         let single = case.fibres == 1;
         let stiffness = if single { 0.0 } else { stiffest(contact, diameter) };
         let top = section.centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max);
+        let end = to(case.end, TIME);
         let striker = match case.striker {
             Striker::Driven { ramp } => Striking::Driven { ramp: to(ramp, TIME) },
+            Striker::Walls { walls, closing, damping, .. } => {
+                let braking = damping * (contact[0] * bead_mass).sqrt();
+                Striking::Walls(Pressing {
+                    walls,
+                    closing,
+                    duration: end,
+                    half: section.size.map(|size| 0.5 * diameter * size),
+                    stiffness: WALL * contact[0],
+                    braking,
+                    middle: Middle::of(&section, case.packing, diameter)
+                        .map_err(|message| Error::Input(format!("case {}: {message}", case.name)))?,
+                })
+            }
             Striker::Cylinder { radius, mass, held, friction, stiffness } => {
                 let radius = to(radius, LENGTH);
                 Striking::Cylinder {
@@ -117,23 +151,26 @@ impl Model {
                 }
             }
         };
-        let struck = if let Striking::Cylinder { stiffness, .. } = striker { stiffness } else { 0.0 };
+        let struck = match striker {
+            Striking::Cylinder { stiffness, .. } => stiffness,
+            Striking::Driven { .. } => 0.0,
+            Striking::Walls(Pressing { stiffness, .. }) => stiffness,
+        };
         // Central differences are stable to 2/ω: the chain's ω is 2c/spacing, a bead's between its neighbours √(k/m).
         let chain = spacing / (modulus / density).sqrt();
         let bead = 2.0 / ((CONTACTS * stiffness).max(2.0 * struck) / bead_mass).sqrt();
-        let largest = chain.min(bead);
-        let end = to(case.end, TIME);
+        let largest = if pressed { bead } else { chain.min(bead) };
         let lines = (end / to(case.sample, TIME)).round().max(1.0);
         // A whole number of strides between two lines, and of lines in the run.
-        let stride = if matches!(striker, Striking::Driven { .. }) { 1 } else { STRIDE };
+        let stride = if matches!(striker, Striking::Cylinder { .. }) { STRIDE } else { 1 };
         let sample = (end / lines / (case.step * largest * stride as f64)).ceil() as u64 * stride;
         let step = end / lines / sample as f64;
         let steps = lines as u64 * sample;
         let near = match striker {
             Striking::Cylinder { radius, .. } => (NEAR * radius / spacing).ceil() as usize,
-            Striking::Driven { .. } => 0,
+            Striking::Driven { .. } | Striking::Walls(_) => 0,
         };
-        let beads = trusses as usize + 1;
+        let beads = if pressed { 1 } else { trusses as usize + 1 };
         Ok(Model {
             beads,
             spacing,

@@ -2,7 +2,7 @@
 //! those of the half that LAMMPS has computed.
 
 use super::frame::Frame;
-use super::history::{Line, Station};
+use super::history::{self, Line, Station};
 use super::model::{Model, Striking, micro};
 use super::run::Raw;
 use super::scene::{Case, Striker};
@@ -82,7 +82,8 @@ pub struct Outcome {
 
 impl Outcome {
     pub fn new(units: &UnitSystem, case: &Case, model: Model, raw: Raw) -> Outcome {
-        let samples = samples(units, &model, &raw.lines);
+        let lines: Vec<Line> = raw.rows.iter().filter_map(|row| history::line(row)).collect();
+        let samples = samples(units, &model, &lines);
         let smith = Tension::Hooke(case.fibre.modulus).smith(case.speed, case.fibre.density);
         let driven = matches!(case.striker, Striker::Driven { .. });
         // A broken fibre has no plateau.
@@ -119,6 +120,14 @@ impl Outcome {
         let limit = TORN * self.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.force));
         let last = self.samples.iter().rposition(|sample| sample.force > limit)?;
         self.samples.get(last + 1).map(|sample| sample.time)
+    }
+
+    /// The places of the trusses at rest, and the mean and the largest strain of those that are whole.
+    pub fn strains(&self, units: &UnitSystem, frame: &Frame) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let length = micro(units, LENGTH) * self.model.spacing;
+        let strains =
+            move |layer: usize| Some((length * (layer as f64 + 0.5), frame.strain(layer, self.model.limit())?));
+        (0..frame.layers() - 1).filter_map(strains)
     }
 
     /// The speed that the projectile keeps when it has torn the yarn.
@@ -176,7 +185,7 @@ fn samples(units: &UnitSystem, model: &Model, lines: &[Line]) -> Vec<Sample> {
     let whole = 2.0 * energy;
     let (mass, held) = match model.striker {
         Striking::Cylinder { mass, held, .. } => (mass, held),
-        Striking::Driven { .. } => (0.0, true),
+        Striking::Driven { .. } | Striking::Walls(_) => (0.0, true),
     };
     let driven = model.near == 0;
     let striking = |v: f64| if held { 0.0 } else { 0.5 * mass * v * v };
@@ -253,8 +262,7 @@ fn fronts(units: &UnitSystem, model: &Model, frame: &Frame, smith: &Smith) -> Fr
     let of_layer = |values: &dyn Fn(usize) -> f64, layer: usize| {
         (layer * fibres..(layer + 1) * fibres).map(values).sum::<f64>() / fibres as f64
     };
-    let velocities: Vec<f64> =
-        (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.velocities[bead], layer)).collect();
+    let velocities: Vec<f64> = (0..frame.layers()).map(|layer| of_layer(&|bead| -frame.values[bead], layer)).collect();
     let transverse = front(&velocities, FRONT * model.speed).map_or(0.0, |place| {
         let (layer, part) = (place as usize, place.fract());
         let [here, next] =

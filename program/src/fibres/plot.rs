@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::beside::Beside;
-use super::model::Striking;
+use super::beside::{self, Beside};
+use super::frame::Frame;
+use super::model::{Striking, micro};
 use super::outcome::{Outcome, Sample};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::units::{ENERGY, SPEED, TIME, unit};
+use crate::common::units::{ENERGY, LENGTH, SPEED, TIME, time, unit};
 use crate::impact::outcome::STATIONS;
 use crate::picture::history;
 use crate::picture::panel::{self, Panel, Series, tidy};
@@ -31,6 +32,41 @@ pub fn write_history(
         failure: result.first_break(),
     };
     history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result, law), &abscissa)
+}
+
+/// Mean strain along the yarn at the times of the pictures, and the law's beside, where its run has drawn the yarn at as many.
+///
+/// # Errors
+/// A file cannot be written or read.
+pub fn write_strains(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Outcome) -> Result<(), Error> {
+    let mut panels = Vec::new();
+    let instant = |frame: &Frame| micro(&scene.units, TIME) * frame.step as f64 * result.model.step;
+    let length = micro(&scene.units, LENGTH) * result.model.spacing;
+    let trusses = result.model.beads - 1;
+    for (number, frame) in (1..).zip(&result.frames) {
+        // A gap is where no truss is whole.
+        let mut mean = vec![f64::NAN; trusses];
+        for (place, [strain, _]) in result.strains(&scene.units, frame) {
+            mean[(place / length) as usize] = 100.0 * strain;
+        }
+        let mut series = vec![Series { name: "fibres, mean".to_string(), colour: COLOURS[0], values: mean }];
+        let places = (0..trusses).map(|layer| length * (layer as f64 + 0.5));
+        let law = case.law.as_deref().map(|law| beside::strains(law, number, places)).transpose()?.flatten();
+        if let Some(values) = law {
+            series.push(Series { name: "law".to_string(), colour: COLOURS[1], values });
+        }
+        let unit = format!("% at {}", time(&scene.units, instant(frame)));
+        panels.push(Panel { title: "Strain along the yarn", unit, series, limit: None });
+    }
+    if panels.is_empty() {
+        return Ok(());
+    }
+    let abscissa = panel::Abscissa {
+        label: format!("place from mid-span, at rest ({})", scene.units.names()[0]),
+        values: (0..trusses).map(|layer| length * (layer as f64 + 0.5)).collect(),
+        failure: None,
+    };
+    history::write(svg, png, [&scene.title, &case.name], panels, &abscissa)
 }
 
 fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) -> [Panel; 6] {

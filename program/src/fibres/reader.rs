@@ -6,10 +6,11 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::file::{CaseFile, FibreFile, PackingName, SceneFile, SectionName, StrikerName};
-use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, Striker};
+use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, Striker, Walls};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
 use crate::common::units::SPEED;
+use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
 
 /// A bead takes some 600 bytes in LAMMPS, and its identifiers have 31 bits.
@@ -22,6 +23,8 @@ const STEP: f64 = 0.4;
 /// How the speed of a driven section comes in, in the time that the wave of elongation takes from bead to bead: at once, it would
 /// be overshot by a quarter.
 const RAMP: f64 = 64.0;
+/// How beads that walls press are braked, where the file does not say otherwise.
+const DAMPING: f64 = 0.05;
 /// Speeds of the wave along a fibre, in m/s.
 const WAVES: Range<f64> = 1e2..1e5;
 /// Between the name of a case and the number of a picture.
@@ -106,15 +109,10 @@ impl Reader<'_> {
     fn case(&self, name: String) -> Result<Case, Error> {
         let file = self.file;
         let end = self.positive("end", &file.end)?;
-        let half_length = self.positive("half-length", &file.half_length)?;
         let fibre = self.fibre()?;
-        let spacing = self.positive("spacing", &file.spacing)?;
-        if spacing > 0.5 * half_length {
-            let message =
-                format!("spacing is {spacing}; allowed: a number > 0, up to half of half-length = {half_length}");
-            return Err(self.source.error(file.spacing.as_ref().map_or(self.span.clone(), Spanned::span), &message));
-        }
+        let [half_length, spacing] = self.lengths(&fibre)?;
         let fibres = self.fibres(half_length / spacing)?;
+        let is_pressed = file.striker() == StrikerName::Walls;
         let case = Case {
             fibre,
             half_length,
@@ -125,15 +123,31 @@ impl Reader<'_> {
             contact: self.contact(&fibre, fibres)?,
             friction: self.source.zero_or_more("friction", &file.friction, 0.0)?,
             striker: self.striker(&fibre, spacing)?,
-            speed: self.positive("speed", &file.speed)?,
+            speed: if is_pressed { 0.0 } else { self.positive("speed", &file.speed)? },
             end,
             sample: self.up_to("sample", &file.sample, ("end", end), end / SAMPLES)?,
             pictures: self.source.pictures(&file.pictures, &name, end)?,
             step: self.up_to("step", &file.step, ("the largest stable one", 1.0), STEP)?,
-            law: file.law.as_ref().map(|law| self.source.folder().join(law)),
+            law: file.law.as_ref().map(|law| self.source.folder().join(law.get_ref())),
             name,
         };
         Ok(case)
+    }
+
+    /// The half length and the spacing. Between walls no bead moves along the fibres: one of a diameter's length stands for each.
+    fn lengths(&self, fibre: &Fibre) -> Result<[f64; 2], Error> {
+        let file = self.file;
+        if file.striker() == StrikerName::Walls {
+            return Ok([fibre.diameter; 2]);
+        }
+        let half_length = self.positive("half-length", &file.half_length)?;
+        let spacing = self.positive("spacing", &file.spacing)?;
+        if spacing > 0.5 * half_length {
+            let message =
+                format!("spacing is {spacing}; allowed: a number > 0, up to half of half-length = {half_length}");
+            return Err(self.source.error(file.spacing.as_ref().map_or(self.span.clone(), Spanned::span), &message));
+        }
+        Ok([half_length, spacing])
     }
 
     fn fibre(&self) -> Result<Fibre, Error> {
@@ -184,6 +198,10 @@ impl Reader<'_> {
         match file.section() {
             SectionName::Circle if file.width.is_some() => Ok(Outline::Size([self.positive("width", &file.width)?; 2])),
             SectionName::Circle => Ok(Outline::Aspect(1.0)),
+            SectionName::Box => match &file.aspect {
+                None => Ok(Outline::Box(1.0)),
+                Some(_) => Ok(Outline::Box(self.positive("aspect", &file.aspect)?)),
+            },
             SectionName::Ellipse => match (&file.aspect, &file.width, &file.height) {
                 (None, Some(_), Some(_)) => {
                     Ok(Outline::Size([self.positive("width", &file.width)?, self.positive("height", &file.height)?]))
@@ -239,11 +257,39 @@ impl Reader<'_> {
         Ok(Contact { coefficients, length })
     }
 
+    /// The law's section of a preset.
+    fn law(&self, name: &Spanned<String>) -> Result<SectionLaw, Error> {
+        let error = |message: &str| self.source.error(name.span(), message);
+        let preset = Preset::find(name.get_ref(), self.source.folder(), error)?;
+        let values = preset.complete(self.units)?;
+        let value = |property: &str| {
+            let index = preset.law.table().iter().position(|known| known.name == property);
+            index.map(|index| values[index]).ok_or_else(|| {
+                error(&format!("preset \"{}\" has no {property}; allowed: one of the hyperelastic law", name.get_ref()))
+            })
+        };
+        Ok(SectionLaw { k_tc: value("k_tc")?, p: value("p")?, k_td: value("k_td")? })
+    }
+
     fn striker(&self, fibre: &Fibre, spacing: f64) -> Result<Striker, Error> {
         let file = self.file;
         if file.striker() == StrikerName::Driven {
             let default = RAMP * spacing / (fibre.modulus / fibre.density).sqrt();
             return Ok(Striker::Driven { ramp: self.source.zero_or_more("ramp", &file.ramp, default)? });
+        }
+        if file.striker() == StrikerName::Walls {
+            let closing = file.closing.as_ref();
+            let share = self.positive("closing", &file.closing)?;
+            if share >= 1.0 {
+                let message = format!("closing is {share}; allowed: a number > 0 and < 1");
+                return Err(self.source.error(closing.map_or(self.span.clone(), Spanned::span), &message));
+            }
+            return Ok(Striker::Walls {
+                walls: file.walls.as_ref().map_or(Walls::AllSides, |walls| *walls.get_ref()),
+                closing: share,
+                damping: self.source.zero_or_more("damping", &file.damping, DAMPING)?,
+                law: file.preset.as_ref().map(|name| self.law(name)).transpose()?,
+            });
         }
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         Ok(Striker::Cylinder {

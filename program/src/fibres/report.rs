@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::model::Striking;
+use super::model::{Model, Striking};
 use super::outcome::{Fronts, Outcome};
+use super::pressed;
 use super::scene::{Case, Scene};
 use super::summary::{cost, outcome};
 use crate::common::text_table::{Column, files, or_dash, shortened, table};
@@ -17,12 +18,15 @@ const LONGEST_NAME: usize = 24;
 type Results<'a> = [(&'a Case, Outcome)];
 
 /// Title, tables and the files in `output`.
-pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
+pub fn report(scene: &Scene, results: &Results, pressed: &pressed::output::Results, output: &Path) -> String {
+    let models = results.iter().map(|(case, result)| (*case, &result.model));
+    let models: Vec<_> = models.chain(pressed.iter().map(|(case, result)| (*case, &result.model))).collect();
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
-        sections(scene, results),
-        list_files(results, output),
+        table(pressed::output::columns(scene, pressed), WIDTH),
+        sections(scene, &models),
+        list_files(scene, results, pressed, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     format!("{}\n\n{}", scene.title, parts.join("\n"))
@@ -33,7 +37,7 @@ fn is_driven(result: &Outcome) -> bool {
 }
 
 /// Builds a column of the cases that belong to a table.
-fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn(&Case, &Outcome) -> String) -> Column {
+pub fn column<T>(cases: &[&(&Case, T)], [above, below]: [&str; 2], entry: impl Fn(&Case, &T) -> String) -> Column {
     let entries = cases.iter().map(|(case, result)| entry(case, result)).collect();
     Column { heading: [above.to_string(), below.to_string()], entries }
 }
@@ -91,16 +95,16 @@ fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 3] {
 }
 
 /// The sections, each once.
-fn sections(scene: &Scene, results: &Results) -> String {
+fn sections(scene: &Scene, models: &[(&Case, &Model)]) -> String {
     let length = scene.units.names()[0];
     let mut lines: Vec<String> = Vec::new();
-    for (case, result) in results {
-        let [width, height] = result.model.section.size.map(|size| number(size * case.fibre.diameter));
-        let beads = result.model.all_beads();
+    for (case, model) in models {
+        let [width, height] = model.section.size.map(|size| number(size * case.fibre.diameter));
+        let beads = model.all_beads();
         let line = format!(
             "{} fibres, {beads} beads; the section is {width} × {height} {length}, filled to {:.3}\n",
             case.fibres,
-            result.model.section.fraction()
+            model.section.fraction()
         );
         if !lines.contains(&line) {
             lines.push(line);
@@ -110,15 +114,18 @@ fn sections(scene: &Scene, results: &Results) -> String {
 }
 
 /// The names of what was written, with `NAME` for the cases.
-fn list_files(results: &Results, output: &Path) -> String {
-    let pictures = results.iter().any(|(_, result)| !result.frames.is_empty());
+fn list_files(scene: &Scene, results: &Results, pressed: &pressed::output::Results, output: &Path) -> String {
+    let strains = results.iter().any(|(_, result)| !result.frames.is_empty());
+    let pictures = strains || pressed.iter().any(|(_, result)| !result.frames.is_empty());
     let written = [
-        (true, "summary.csv", "a line for every case, with all that is known of it"),
+        (!results.is_empty(), "summary.csv", "a line for every case that was struck, with all that is known of it"),
         (true, "NAME.csv", "the history of case NAME"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-fibres-1.svg, .png, …", "the fibres at the times of pictures"),
-        (pictures, "NAME-strain-1.csv, …", "the strain along the yarn then"),
+        (strains, "NAME-strain.svg, .png", "the strain along the yarn then"),
+        (strains, "NAME-strain-1.csv, …", "the same as tables"),
         (true, "NAME/", "what LAMMPS has read and written"),
+        (pressed::output::fit_file(scene, pressed).is_some(), "fit.toml", "what toron fit reads"),
     ];
     files(output, &written)
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Instant, SystemTime};
 
 use super::frame::{self, Frame};
-use super::history::{self, Line};
+use super::history;
 use super::input::{self, BEADS, DONE, FRAMES, HISTORY, INPUT, RESTARTS};
 use super::lammps::{LOG, Lammps};
 use super::model::{Model, Striking};
@@ -15,7 +15,8 @@ use crate::common::run_directory::{file_error, is_file};
 /// What a run has left.
 #[derive(Clone, Debug)]
 pub struct Raw {
-    pub lines: Vec<Line>,
+    /// The numbers of each line of the history.
+    pub rows: Vec<Vec<f64>>,
     pub frames: Vec<Frame>,
     /// How long LAMMPS took, where it was not there already.
     pub seconds: Option<f64>,
@@ -76,7 +77,7 @@ impl<'a> Folder<'a> {
     pub fn run(&self, lammps: &Lammps, ranks: usize, progress: &mut dyn FnMut(f64)) -> Result<f64, Error> {
         let start = Instant::now();
         let history = self.file(HISTORY);
-        let mut look = || progress(history::last_step(&history, self.model) as f64 / self.model.steps as f64);
+        let mut look = || progress(history::last_step(&history, self.model) / self.model.steps as f64);
         for restart in self.restarts() {
             // One that was being written when the run was killed cannot be read: then the one before it.
             let before = modified(&self.file(&restart));
@@ -105,13 +106,13 @@ impl<'a> Folder<'a> {
     /// A file cannot be read, or has no line.
     pub fn read(&self, seconds: Option<f64>) -> Result<Raw, Error> {
         let history = self.file(HISTORY);
-        let lines = history::read(&history, self.model)?;
-        if lines.is_empty() {
+        let rows = history::read(&history, self.model)?;
+        if rows.is_empty() {
             return Err(file_error(&history, &"no line of the run; allowed: the lines that LAMMPS writes"));
         }
         let frames = match self.model.striker {
             Striking::Driven { .. } => frame::read(&self.file(FRAMES), self.model)?,
-            Striking::Cylinder { .. } => {
+            Striking::Cylinder { .. } | Striking::Walls(_) => {
                 let files = self.model.frames.iter().map(|&step| self.file(&input::frame(step)));
                 let mut frames = Vec::new();
                 for file in files {
@@ -120,7 +121,7 @@ impl<'a> Folder<'a> {
                 frames
             }
         };
-        Ok(Raw { lines, frames, seconds })
+        Ok(Raw { rows, frames, seconds })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use serde::Deserialize;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::Dimension;
 
@@ -29,7 +30,7 @@ pub struct Case {
     /// Coulomb's coefficient between fibres.
     pub friction: f64,
     pub striker: Striker,
-    /// Of the projectile, or of the section that is driven.
+    /// Of the projectile, or of the section that is driven; walls have none.
     pub speed: f64,
     pub end: f64,
     /// Time between two lines of the history.
@@ -65,6 +66,8 @@ pub enum Outline {
     Aspect(f64),
     /// An ellipse of this width and height, into which they must go.
     Size([f64; 2]),
+    /// A box of about this width over its height, whose walls they touch.
+    Box(f64),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,6 +107,50 @@ pub enum Striker {
     },
     /// The middle of every fibre is moved; the speed comes in as half a cosine of this duration.
     Driven { ramp: f64 },
+    /// Walls without friction press the section, from rest to rest as half a cosine, until this part of the way between two that
+    /// close is gone. Beads are braked at this rate, over the frequency √(a₁/m) of a bead on a contact.
+    Walls { walls: Walls, closing: f64, damping: f64, law: Option<SectionLaw> },
+}
+
+/// What a yarn's law says of its section: W_tc = k_tc ⟨−I_tc⟩^p and W_td = ½ k_td I_td².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SectionLaw {
+    pub k_tc: f64,
+    pub p: f64,
+    pub k_td: f64,
+}
+
+impl SectionLaw {
+    /// W_tc + W_td.
+    pub fn energy(&self, [i_tc, i_td]: [f64; 2]) -> f64 {
+        self.k_tc * (-i_tc).max(0.0).powf(self.p) + 0.5 * self.k_td * i_td * i_td
+    }
+}
+
+/// The walls of a box around the section, and which of them close.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Walls {
+    /// All four.
+    AllSides,
+    /// Top and bottom, between sides that are held.
+    TopAndBottom,
+    /// The sides, between top and bottom that are held.
+    Sides,
+    /// Top and bottom, and there are no sides.
+    Plates,
+}
+
+impl Walls {
+    /// Whether the two walls across the yarn's width close, stay or are not there; and those across its height.
+    pub fn pairs(self) -> [Option<bool>; 2] {
+        match self {
+            Walls::AllSides => [Some(true); 2],
+            Walls::TopAndBottom => [Some(false), Some(true)],
+            Walls::Sides => [Some(true), Some(false)],
+            Walls::Plates => [None, Some(true)],
+        }
+    }
 }
 
 /// The unit of the contact's coefficient of this power.

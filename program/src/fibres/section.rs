@@ -1,11 +1,13 @@
 //! Where the fibres of a section lie. Lengths are in diameters of a fibre; the first axis is across the yarn, the second along the
 //! blow.
 
+use std::f64::consts::FRAC_PI_4;
+
 use super::scene::{Outline, Packing};
 use crate::cell::random_packing;
 
 /// Height of a row of hexagonal packing: √3/2.
-const ROW: f64 = 0.866_025_403_784_438_6;
+pub const ROW: f64 = 0.866_025_403_784_438_6;
 /// A random packing is cut out of a box of so many times the fibres and 30 more, beside whose walls fibres lie in rows.
 const MARGIN: f64 = 1.4;
 const HALVINGS: usize = 60;
@@ -13,9 +15,12 @@ const HALVINGS: usize = 60;
 /// The section of a yarn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
+    /// In a box, those furthest from its walls come first.
     pub centres: Vec<[f64; 2]>,
-    /// Width and height of the ellipse that they lie in.
+    /// Width and height of the ellipse or the box that they lie in.
     pub size: [f64; 2],
+    /// Of that.
+    pub area: f64,
 }
 
 impl Section {
@@ -25,6 +30,7 @@ impl Section {
     /// They do not go into the ellipse.
     pub fn pack(fibres: usize, outline: Outline, packing: Packing, diameter: f64) -> Result<Section, String> {
         let aspect = match outline {
+            Outline::Box(aspect) => return Ok(boxed(fibres, aspect, packing)),
             Outline::Aspect(aspect) => aspect,
             Outline::Size([width, height]) => width / height,
         };
@@ -35,7 +41,7 @@ impl Section {
         // Equal widths keep their order: the same section wherever it is packed.
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         let count = match outline {
-            Outline::Aspect(_) => fibres,
+            Outline::Aspect(_) | Outline::Box(_) => fibres,
             Outline::Size([width, _]) => places.iter().take_while(|(need, _)| need * diameter <= width).count(),
         };
         if count < fibres {
@@ -47,16 +53,54 @@ impl Section {
         }
         places.truncate(fibres);
         let width = match outline {
-            Outline::Aspect(_) => places.last().map_or(0.0, |place| place.0),
+            Outline::Aspect(_) | Outline::Box(_) => places.last().map_or(0.0, |place| place.0),
             Outline::Size([width, _]) => width / diameter,
         };
-        Ok(Section { centres: places.into_iter().map(|place| place.1).collect(), size: [width, width / aspect] })
+        let size = [width, width / aspect];
+        let area = FRAC_PI_4 * size[0] * size[1];
+        Ok(Section { centres: places.into_iter().map(|place| place.1).collect(), size, area })
     }
 
-    /// The fibres' part of the ellipse's area.
-    pub fn fraction(&self) -> f64 {
-        self.centres.len() as f64 / (self.size[0] * self.size[1])
+    /// How far a place in a box is from the nearest wall.
+    pub fn depth(&self, place: [f64; 2]) -> f64 {
+        let [x, y] = [0, 1].map(|axis| 0.5 * self.size[axis] - place[axis].abs());
+        x.min(y)
     }
+
+    /// The fibres' part of the area.
+    pub fn fraction(&self) -> f64 {
+        FRAC_PI_4 * self.centres.len() as f64 / self.area
+    }
+}
+
+/// A box whose walls the fibres touch. In hexagonal packing it has whole rows, each half a diameter beside the next, and of their
+/// possible numbers that which comes nearest to the aspect.
+fn boxed(fibres: usize, aspect: f64, packing: Packing) -> Section {
+    let (centres, size) = match packing {
+        Packing::Hexagonal => {
+            let size = |rows: usize| {
+                [(fibres / rows) as f64 + if rows > 1 { 0.5 } else { 0.0 }, 1.0 + ROW * (rows - 1) as f64]
+            };
+            let off = |rows: usize| (size(rows)[0] / size(rows)[1] / aspect).ln().abs();
+            let whole = (1..=fibres).filter(|rows| fibres % rows == 0);
+            let rows = whole.min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1);
+            let place = |fibre: usize| {
+                let (row, column) = (fibre / (fibres / rows), fibre % (fibres / rows));
+                [0.5 + column as f64 + if row % 2 == 1 { 0.5 } else { 0.0 }, 0.5 + ROW * row as f64]
+            };
+            ((0..fibres).map(place).collect(), size(rows))
+        }
+        Packing::Random { seed } => {
+            let random_packing::Packing { centres, size } = random_packing::pack(fibres, aspect, seed);
+            (centres, size)
+        }
+    };
+    let mut centres: Vec<[f64; 2]> = centres;
+    centres.iter_mut().for_each(|centre| *centre = [0, 1].map(|axis| centre[axis] - 0.5 * size[axis]));
+    let mut section = Section { centres: Vec::new(), size, area: size[0] * size[1] };
+    centres.sort_by(|&a, &b| section.depth(b).total_cmp(&section.depth(a)));
+    section.centres = centres;
+    section
 }
 
 /// The width of the least ellipse that holds a fibre there: one whose half axes are longer by a radius than those of the ellipse
@@ -99,7 +143,7 @@ fn candidates(fibres: usize, aspect: f64, packing: Packing) -> Vec<[f64; 2]> {
         Packing::Random { seed } => {
             // In widths of the area that a fibre takes; an ellipse has the same margin on all sides as a circle.
             let fibres = fibres as f64;
-            let across = (fibres / std::f64::consts::FRAC_PI_4).sqrt();
+            let across = (fibres / FRAC_PI_4).sqrt();
             let margin = ((MARGIN * fibres).floor() + 30.0).sqrt() - across;
             let [width, height] = [aspect.sqrt(), 1.0 / aspect.sqrt()].map(|part| part * across + margin);
             let discs = (width * height).round() as usize;

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::frame::Frame;
-use super::model::{Model, Striking, micro};
+use super::model::{Striking, micro};
 use super::outcome::Outcome;
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
@@ -119,26 +118,6 @@ pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
             let spreads = ["spread_1", "spread_2", "spread_3", "spread_4"].into_iter().zip(s.spreads);
             cells.extend(widths.chain(spreads).map(|(title, width)| value(title, width)));
             cells
-        })
-        .collect();
-    write_csv(file, &lines)
-}
-
-/// Writes the mean and the largest strain of the trusses along the yarn, by their place at rest, as far as they are whole.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_strains(file: &Path, units: &UnitSystem, model: &Model, frame: &Frame) -> Result<(), Error> {
-    let length = micro(units, LENGTH);
-    let lines: Vec<_> = (0..frame.layers() - 1)
-        .filter_map(|layer| {
-            let [mean, most] = frame.strain(layer, model.limit())?;
-            let place = length * (layer as f64 + 0.5) * model.spacing;
-            Some(vec![
-                ("place", place.to_string()),
-                ("strain_mean", mean.to_string()),
-                ("strain_max", most.to_string()),
-            ])
         })
         .collect();
     write_csv(file, &lines)

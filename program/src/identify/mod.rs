@@ -23,3 +23,4 @@ pub mod response;
 pub mod toe;
 pub mod uncertainty;
 pub mod worth;
+pub mod written;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::outcome::Outcome;
 use super::run::{self, Observer};
 use super::scene::{Case, Scene};
+use super::summary::STRAINS;
 use super::{plot, report, summary, yarn_picture};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
@@ -39,6 +40,7 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     }
     for case in &scene.cases {
         removed += directory.remove_files_of(&case.name, PICTURES, 0)?;
+        removed += directory.remove_series(&case.name, STRAINS)?;
     }
     print_error(&directory.removal(removed));
     let length = TICKS * scene.cases.len() as u64;
@@ -116,6 +118,8 @@ fn write_case(scene: &Scene, case: &Case, result: &Outcome, output: &Path) -> Re
     for (number, snapshot) in result.snapshots.iter().enumerate() {
         let [svg, png] = ["svg", "png"].map(|ending| file(&format!("{PICTURES}{}.{ending}", number + 1)));
         yarn_picture::write(&svg, &png, scene, case, result, snapshot)?;
+        let strains = file(&format!("{}{}.csv", summary::STRAINS, number + 1));
+        summary::write_strains(&strains, result.strains(snapshot))?;
     }
     Ok(())
 }

@@ -82,6 +82,32 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The place of each layer at rest, and mean and largest strain of the lines between its sections that an intact element has
+    /// on an edge.
+    pub fn strains(&self, snapshot: &Snapshot) -> impl Iterator<Item = (f64, [f64; 2])> {
+        let mesh = &self.mesh;
+        let section = mesh.nodes_per_section;
+        let per_layer = mesh.elements_per_layer;
+        (0..mesh.elements.len() / per_layer).filter_map(move |layer| {
+            let elements = layer * per_layer..(layer + 1) * per_layer;
+            let nodes =
+                elements.filter(|&i| snapshot.intact[i]).flat_map(|i| mesh.elements[i]).map(|node| node as usize);
+            let mut lines: Vec<usize> = nodes.filter(|node| node / section == layer).collect();
+            lines.sort_unstable();
+            lines.dedup();
+            let length = |nodes: &[[f64; 3]], node: usize| {
+                let [a, b] = [nodes[node], nodes[node + section]];
+                (0..3).map(|axis| (b[axis] - a[axis]).powi(2)).sum::<f64>().sqrt()
+            };
+            let strain = |node: usize| length(&snapshot.positions, node) / length(&mesh.nodes, node) - 1.0;
+            let strains: Vec<f64> = lines.iter().map(|&node| strain(node)).collect();
+            let place = 0.5 * (mesh.nodes[layer * section][0] + mesh.nodes[(layer + 1) * section][0]);
+            let mean = strains.iter().sum::<f64>() / strains.len() as f64;
+            let most = strains.into_iter().reduce(f64::max)?;
+            Some((place, [mean, most]))
+        })
+    }
+
     /// The last measurement.
     pub fn last(&self) -> Sample {
         self.measured.last().copied().unwrap_or_default()

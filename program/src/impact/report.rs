@@ -143,6 +143,7 @@ fn list_files(scene: &Scene, results: &Results, output: &Path) -> String {
         (true, "NAME.csv", "the history of case NAME"),
         (true, "NAME.svg, .png", "plots of it"),
         (pictures, "NAME-yarn-1.svg, .png, …", "the yarn at those times of pictures that the run came to"),
+        (pictures, "NAME-strain-1.csv, …", "the strain along the yarn then"),
         (frames, "NAME.pvd, NAME-0000.vtu, …", "a series for ParaView"),
     ];
     files(output, &written)

@@ -13,6 +13,21 @@ use crate::material::model;
 use crate::material::smith::Smith;
 use toron::host::units::UnitSystem;
 
+/// Between a case's name and the number of a table of strains.
+pub const STRAINS: &str = "-strain-";
+
+/// Writes mean and largest strain along the yarn: their place in the middle of a layer at rest, and they.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_strains(file: &Path, layers: impl Iterator<Item = (f64, [f64; 2])>) -> Result<(), Error> {
+    let titles = ["place", "strain_mean", "strain_max"];
+    let line = |(place, [mean, most]): (f64, [f64; 2])| {
+        titles.into_iter().zip([place, mean, most].map(|value| value.to_string())).collect()
+    };
+    write_csv(file, &layers.map(line).collect::<Vec<_>>())
+}
+
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {
     match (result.end, result.broken) {

@@ -8,6 +8,7 @@
 //! | strain and waves of a driven fibre, ± 1 % | Smith's theory (`material::smith`) | the demand; the thesis's Table 3.1 is as near |
 //! | it bears 985 m/s and breaks at 1060 | 1027 m/s, Smith's theory; 1020 in the thesis | 4 %, and the ramp that is stated there |
 //! | balance without friction, 0.5 % | 0 | the demand |
+//! | energy of rows pressed on all sides, 2 % | √3 K (1 − e^I_tc)², K the contact's stiffness over its length: three contacts a fibre | I_td, 1 % of the energy, and the middle's edge |
 //! | transverse wave at the clamp, 9 µs ± 10 % | 18 µs on twice the length, thesis section 4.6 | the width of the kink |
 
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ use crate::library::{ROOT, folder};
 use toron_program::fibres::lammps::Lammps;
 use toron_program::fibres::model::Model;
 use toron_program::fibres::outcome::{Outcome, Sample};
+use toron_program::fibres::pressed::outcome::Pressed;
 use toron_program::fibres::run::Folder;
 use toron_program::fibres::scene::{Case, Scene};
 
@@ -117,6 +119,60 @@ fn nineteen_fibres_break_under_a_projectile() {
     );
 }
 
+/// Rows between walls: by the stretch of their contacts they store what an elastic lattice does, and the walls' work is all there.
+#[test]
+fn rows_of_fibres_are_pressed() {
+    let Some(program) = lammps() else { return };
+    let mut scene = scene("press.toml");
+    for case in &mut scene.cases {
+        case.fibres = 100;
+        case.contact.coefficients = [case.contact.coefficients[0], 0.0, 0.0];
+        case.friction = 0.0;
+        case.end = 20e-6;
+        case.pictures = Vec::new();
+    }
+    let press = |name: &str| {
+        let case = case(&scene, name);
+        let model = Model::new(&scene.units, &case).expect("a model");
+        let folder = Folder::write(fresh(&format!("fibres-press-{name}")), &model).expect("files");
+        folder.run(&Lammps::find(Some(program)).expect("LAMMPS"), 1, &mut |_| ()).expect("it runs");
+        let result = Pressed::new(&scene.units, model.clone(), &folder.read(None).expect("lines"));
+        (case.contact, result.expect("it is pressed"))
+    };
+    let (contact, all_sides) = press("all-sides");
+    let part = all_sides.samples.iter().find(|sample| sample.stretch < 0.97).expect("a sample").middle;
+    let [i_tc, i_td] = part.invariants;
+    assert!((-0.032..-0.025).contains(&i_tc) && i_td < 0.003, "{i_tc} {i_td}");
+    let lattice = 3f64.sqrt() * contact.coefficients[0] / contact.length * (1.0 - i_tc.exp()).powi(2);
+    assert_near(part.energy, lattice, 0.02);
+    for (name, (_, result)) in [("all-sides", (contact, all_sides)), ("plates", press("plates"))] {
+        let last = result.last();
+        let most = result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.friction.abs()));
+        assert!(most < 5e-3 * last.work, "{name}: without friction the balance is off by {most} of {}", last.work);
+        assert_near(last.stretch, if name == "plates" { 0.7 } else { 0.887 }, 1e-6);
+        // Rows between plates go apart, and bear nothing.
+        assert_eq!(last.whole.energy > 1e-3, name == "all-sides");
+    }
+}
+
+/// The fit takes what was written.
+#[test]
+fn pressed_fibres_tell_the_parameters() {
+    let Some(program) = lammps() else { return };
+    let place = fresh("fibres-fit");
+    let text = std::fs::read_to_string(example("press.toml")).expect("a scene");
+    let text = text.replace("fibres = 400", "fibres = 100").replace("60e-6", "20e-6");
+    let text = text.split("[[case]]\nname = \"plates\"").next().expect("cases").to_string();
+    let file = place.join("scene.toml");
+    std::fs::write(&file, text).expect("a file");
+    let out = place.join("out");
+    let output = toron(&[file.to_str().expect("UTF-8")], &out).env("TORON_LMP", program).output().expect("it starts");
+    assert!(output.status.success(), "{}", said(&output));
+    let preset = std::fs::read_to_string(out.join("fibres.toml")).expect("a preset");
+    assert!(["k_tc", "p", "k_td"].iter().all(|name| preset.contains(&format!("\n{name} = "))), "{preset}");
+    assert!(out.join("across-rows-fibres-1.png").is_file());
+}
+
 fn toron(arguments: &[&str], place: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_toron"));
     command.arg("fibres").args(arguments).arg("-o").arg(place);
@@ -208,6 +264,7 @@ fn what_is_wrong_is_said() {
         ("units", "units = \"mm-g-ms\"", "units = \"mm-g-us\"", "make a wave of 7.666e6 m/s"),
         ("spacing", "spacing = 0.0508", "spacing = 5.0", "spacing is 5; allowed"),
         ("seed", "friction = 0.2", "seed = 2", "seed belongs to a random packing"),
+        ("closing", "friction = 0.2", "closing = 0.1", "closing belongs to striker"),
     ] {
         let text = answer(name, old, new, "/nowhere");
         assert!(text.contains(wanted), "{name}: {text}");
