@@ -698,11 +698,11 @@ static void wrong_calls(void)
     block = good, block.state_layout.leading_dimension = 1;
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 1 given, 2 needed");
     block = good, block.stress_layout = (toron_layout){1, 5}; /* rows of five numbers for six */
-    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of stress: 1 given, 6 needed");
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "stride of stress: 5 given, 6 needed");
     block = good, block.state_layout = (toron_layout){2, 3};
     refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 2 given, 4 needed");
     block.energies = block.invariants = NULL, block.energies_old = block.invariants_old = NULL, block.state_layout = (toron_layout){0, 2};
-    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "leading dimension of the state: 1 given, 3 needed");
+    refused_block(properties, block, a, TORON_BAD_LEADING_DIMENSION, "stride of the state: 2 given, 3 needed");
     block = good, block.n = (size_t)-1;
     refused_block(properties, block, a, TORON_BAD_COUNT,
                   "argument n is -1; allowed: 0 to " MOST_TEXT);

@@ -380,13 +380,14 @@ impl<R: Real> LinearElastic<R> {
         let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
         let mut answer = Answer { stress, state, wave_modulus, axes: *axes, q0, q1, status: zero, taken: able };
-        // If squares of lengths overflow, there are no axes.
-        let in_range = (square_norm(f0) + square_norm(f1)).lt(R::splat(f64::INFINITY));
+        // If squares of lengths overflow, there are no axes; if a determinant does, its reciprocal is not the same in all lanes.
+        let in_range = (square_norm(f0) + square_norm(f1) + (j0.abs() + j1.abs())).lt(R::splat(f64::INFINITY));
         answer.taken = upright & usable & converged & in_range & answer.sound(old);
         answer.taken = answer.taken & wave_modulus.lt(R::splat(f64::INFINITY));
         if R::any(!answer.taken) {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(converged, zero, code(status::INCREMENT_TOO_LARGE));
+            let why = R::select(in_range, why, code(status::OVERFLOW));
             let why = R::select(upright, why, code(status::INVERTED));
             let why = R::select(usable, why, code(unusable));
             let finite = is_finite(f0) & is_finite(f1);

@@ -74,8 +74,14 @@ fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: boo
     if tangent {
         let mut rows = [[T::default(); 6]; 6];
         let point = Point { measure: c::TORON_TANGENT_JAUMANN, tangent: rows.as_mut_ptr().cast(), ..point };
-        // SAFETY: as above. The status is that of the call before, or the tangent's own.
-        answer.status = unsafe { call_point(law, &point) };
+        // SAFETY: as above.
+        let status = unsafe { call_point(law, &point) };
+        // This call asks for no stress, which alone may not fit the number format.
+        if answer.status == status::OK {
+            answer.status = status;
+        } else {
+            rows = [[T::default(); 6]; 6];
+        }
         answer.ddsdde = Some(rows.map(|row| row.map(Into::into)));
     }
     answer

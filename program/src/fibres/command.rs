@@ -59,16 +59,21 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     scene.cases.iter().filter_map(|case| case.law.as_deref()).try_for_each(|file| Beside::read(file).map(drop))?;
     let output = &arguments.output;
     let directory = RunDirectory::open(output)?;
-    let mut folders = Vec::new();
-    for (case, model) in scene.cases.iter().zip(&models) {
-        folders.push(Folder::write(output.join(&case.name), model)?);
+    let folders: Vec<Folder> =
+        scene.cases.iter().zip(&models).map(|(case, model)| Folder::new(output.join(&case.name), model)).collect();
+    // Those that are there already need no LAMMPS. Where it is missing, nothing is removed.
+    let there = folders.iter().all(|folder| folder.is_written() && folder.is_done());
+    let lammps = if there || arguments.write_only { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
+    for (case, folder) in scene.cases.iter().zip(&folders) {
+        let gone = folder.write()?;
+        if gone > 0 {
+            print_error(&format!("case {}: the scene has changed, and what a run had left is removed\n", case.name));
+        }
     }
     if arguments.write_only {
         print(&written(&scene, output));
         return Ok(None);
     }
-    // Those that are there already need no LAMMPS.
-    let lammps = if folders.iter().all(Folder::is_done) { None } else { Some(Lammps::find(arguments.lmp.as_deref())?) };
     directory.remove(SUMMARY)?;
     directory.remove(FIT)?;
     for case in &scene.cases {

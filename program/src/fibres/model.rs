@@ -194,7 +194,11 @@ impl Model {
             frames: case
                 .pictures
                 .iter()
-                .map(|&time| ((to(time, TIME) / step).round() as u64).clamp(1, steps))
+                .map(|&time| {
+                    // The beads of a driven section are written with the lines of the history.
+                    let whole = if matches!(striker, Striking::Driven { .. }) { sample } else { 1 };
+                    ((to(time, TIME) / (step * whole as f64)).round() as u64 * whole).clamp(whole, steps)
+                })
                 .collect(),
             near: near.min(beads - 1),
             stations: STATIONS.map(|station| (station * trusses).round() as usize),
@@ -220,7 +224,9 @@ impl Model {
 /// The steepest that the force becomes down to the depth of a radius.
 fn stiffest([a, b, c]: [f64; 3], diameter: f64) -> f64 {
     let slope = |depth: f64| a + 2.0 * b * depth + 3.0 * c * depth * depth;
-    slope(0.0).max(slope(0.5 * diameter))
+    // Where the slope has its own extreme, if that is on the way.
+    let middle = if c == 0.0 { 0.0 } else { (-b / (3.0 * c)).clamp(0.0, 0.5 * diameter) };
+    slope(0.0).max(slope(middle)).max(slope(0.5 * diameter))
 }
 
 /// Force over depth of a linear contact that is as far below the force of these coefficients as above it, at most, over depths up
@@ -242,6 +248,18 @@ mod tests {
         assert!((micro(&units, SPEED) - 1.0).abs() < 1e-12);
         // 1 nN/µm is 1e-3 N/m, 1e-6 N/mm.
         assert!((micro(&units, contact_dimension(1)) / 1e-6 - 1.0).abs() < 1e-12);
+    }
+
+    /// The slope of this one is greatest in between.
+    #[test]
+    fn the_steepest_contact_is_found() {
+        let (contact, diameter) = ([1000.0, 1e7, -1.1e9], 0.012);
+        let slopes = (0..=1000).map(|i| {
+            let depth = 0.5 * diameter * f64::from(i) / 1000.0;
+            contact[0] + 2.0 * contact[1] * depth + 3.0 * contact[2] * depth * depth
+        });
+        let most = slopes.fold(0.0, f64::max);
+        assert!((stiffest(contact, diameter) / most - 1.0).abs() < 1e-5, "{} {most}", stiffest(contact, diameter));
     }
 
     #[test]

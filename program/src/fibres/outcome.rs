@@ -7,6 +7,7 @@ use super::model::{Model, Striking, micro};
 use super::run::Raw;
 use super::scene::{Case, Striker};
 use crate::common::units::{ENERGY, FORCE, LENGTH, SPEED, TIME};
+use crate::explicit::lanes::largest;
 use crate::impact::run::{FRONT, PLATEAU, front};
 use crate::material::smith::{Smith, Tension};
 use toron::host::units::UnitSystem;
@@ -147,8 +148,8 @@ impl Outcome {
         let scale = self.samples.iter().fold(0.0, |most: f64, s| most.max(s.projectile).max(s.external.abs()));
         let (mut highest, mut worst): (f64, f64) = (0.0, 0.0);
         for friction in self.samples.iter().map(Sample::friction) {
-            worst = worst.max(if frictionless { friction.abs() } else { highest - friction });
-            highest = highest.max(friction);
+            worst = largest(worst, if frictionless { friction.abs() } else { highest - friction });
+            highest = largest(highest, friction);
         }
         if scale == 0.0 { 0.0 } else { worst / scale }
     }

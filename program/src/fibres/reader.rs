@@ -231,9 +231,13 @@ impl Reader<'_> {
     /// The force rises with the depth, up to half a fibre.
     fn contact(&self, fibre: &Fibre, fibres: usize) -> Result<Contact, Error> {
         let allowed = "one to three coefficients of a force that rises with the depth, up to a fibre's radius";
+        let length = match self.file.contact_length {
+            None => fibre.diameter,
+            Some(_) => self.positive("contact-length", &self.file.contact_length)?,
+        };
         let Some(given) = &self.file.contact else {
             // A single fibre meets no other.
-            let none = Contact { coefficients: [0.0; 3], length: fibre.diameter };
+            let none = Contact { coefficients: [0.0; 3], length };
             return if fibres == 1 { Ok(none) } else { Err(self.missing("contact", allowed)) };
         };
         let list = given.get_ref();
@@ -250,10 +254,6 @@ impl Reader<'_> {
             let message = format!("contact is {list:?}; allowed: {allowed}");
             return Err(self.source.error(given.span(), &message));
         }
-        let length = match self.file.contact_length {
-            None => fibre.diameter,
-            Some(_) => self.positive("contact-length", &self.file.contact_length)?,
-        };
         Ok(Contact { coefficients, length })
     }
 

@@ -26,43 +26,58 @@ pub struct Raw {
 pub struct Folder<'a> {
     path: PathBuf,
     model: &'a Model,
+    /// What LAMMPS reads, by the files' names.
+    texts: [(&'static str, String); 2],
 }
 
 impl<'a> Folder<'a> {
-    /// Writes what LAMMPS reads, unless it is there as it would be written: then what a run has left stays.
+    /// The folder of a case at this path, which need not be there.
+    pub fn new(path: PathBuf, model: &'a Model) -> Folder<'a> {
+        let texts = [(INPUT, input::input(model)), (BEADS, input::beads(model))];
+        Folder { path, model, texts }
+    }
+
+    /// Whether what LAMMPS reads is there as it would be written.
+    pub fn is_written(&self) -> bool {
+        let same =
+            |(name, text): &(&str, String)| std::fs::read(self.file(name)).is_ok_and(|old| old == text.as_bytes());
+        self.texts.iter().all(same)
+    }
+
+    /// Writes what LAMMPS reads, unless it is there: then what a run has left stays, which goes otherwise. Returns how many files
+    /// have gone.
     ///
     /// # Errors
-    /// A file cannot be written.
-    pub fn write(path: PathBuf, model: &'a Model) -> Result<Folder<'a>, Error> {
-        folder::create(&path)?;
-        let folder = Folder { path, model };
-        let texts = [(INPUT, input::input(model)), (BEADS, input::beads(model))];
-        let same =
-            |(name, text): &(&str, String)| std::fs::read(folder.file(name)).is_ok_and(|old| old == text.as_bytes());
-        if !texts.iter().all(same) {
-            folder.forget()?;
-            for (name, text) in &texts {
-                let file = folder.file(name);
-                std::fs::write(&file, text).map_err(|error| file_error(&file, &error))?;
-            }
+    /// A file cannot be written or removed.
+    pub fn write(&self) -> Result<usize, Error> {
+        if self.is_written() {
+            return Ok(0);
         }
-        Ok(folder)
+        folder::create(&self.path)?;
+        let gone = self.forget()?;
+        for (name, text) in &self.texts {
+            let file = self.file(name);
+            std::fs::write(&file, text).map_err(|error| file_error(&file, &error))?;
+        }
+        Ok(gone)
     }
 
     fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Removes what runs have left.
-    fn forget(&self) -> Result<(), Error> {
+    /// Removes what runs have left; returns how many files that were.
+    fn forget(&self) -> Result<usize, Error> {
+        let mut gone = 0;
         let names = [HISTORY, FRAMES, DONE, LOG, RESTARTS[0], RESTARTS[1]].map(String::from);
         for name in names.into_iter().chain(self.model.frames.iter().map(|&step| input::frame(step))) {
             let file = self.file(&name);
             if is_file(&file)? {
                 std::fs::remove_file(&file).map_err(|error| file_error(&file, &error))?;
+                gone += 1;
             }
         }
-        Ok(())
+        Ok(gone)
     }
 
     /// Whether a run has come to its end here.
@@ -109,6 +124,13 @@ impl<'a> Folder<'a> {
         let rows = history::read(&history, self.model)?;
         if rows.is_empty() {
             return Err(file_error(&history, &"no line of the run; allowed: the lines that LAMMPS writes"));
+        }
+        if let Some(row) = rows.iter().find(|row| row.iter().any(|x| x.is_nan())) {
+            let time = row.get(1).copied().unwrap_or_default();
+            return Err(file_error(
+                &history,
+                &format!("NaN at {time} µs; allowed: numbers. A smaller `step` may help"),
+            ));
         }
         let frames = match self.model.striker {
             Striking::Driven { .. } => frame::read(&self.file(FRAMES), self.model)?,

@@ -224,6 +224,9 @@ impl<T: Precision> Hyperelastic<T> {
     /// # Safety
     /// As for [`raw_block`](Self::raw_block), for the same block, after it.
     pub(crate) unsafe fn at_fault(&self, block: &Pointers<T>, code: i32) -> Option<usize> {
+        if [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
+            return None;
+        }
         for first in (0..block.n).step_by(SEARCHED) {
             let mut codes = [status::OK; SEARCHED];
             let points = block.from(first);
@@ -278,7 +281,7 @@ impl<T: Precision> LinearElastic<T> {
     /// # Safety
     /// As for [`raw_block`](Self::raw_block), for the same block, after it.
     pub(crate) unsafe fn at_fault(&self, block: &LinearPointers<T>, code: i32) -> Option<usize> {
-        if block.rotation == Rotation::Spin {
+        if block.rotation == Rotation::Spin || [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
             return None;
         }
         let strides = block.strides;

@@ -171,7 +171,13 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
     let mut check = zero;
-    let at = |k: usize| place::<T, R>(block, i, k);
+    let mut places = Stage::new();
+    for k in 0..count {
+        // SAFETY: k < count ≤ STAGED.
+        unsafe { places.put(k, place::<T, R>(block, i, k)) };
+    }
+    // SAFETY: it is called with k < count.
+    let at = |k: usize| unsafe { *places.get(k) };
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
     // than a test at every store.
     let mut no_status = [MaybeUninit::<i32>::uninit(); STAGED * WIDEST];

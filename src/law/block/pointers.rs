@@ -176,9 +176,14 @@ fn check_other_layout(
     if n == 0 || (stride > 0 || n == 1) && (leading_dimension >= needed || in_rows) {
         return Ok(());
     }
-    let found = i64::try_from(leading_dimension).unwrap_or(i64::MAX);
-    let wanted = i64::try_from(needed).unwrap_or(i64::MAX);
-    Err(Error::Count { code, what: name, found, wanted })
+    let whole = |x: usize| i64::try_from(x).unwrap_or(i64::MAX);
+    // Points in rows: it is the row that is too short.
+    let (what, found, wanted) = if leading_dimension == 1 && stride > 1 {
+        (of_stride, stride, components)
+    } else {
+        (name, leading_dimension, needed)
+    };
+    Err(Error::Count { code, what, found: whole(found), wanted: whole(wanted) })
 }
 
 impl<T: Scalar> Pointers<T> {
