@@ -8,7 +8,7 @@
 //! | strain and waves of a driven fibre, ± 1 % | Smith's theory (`material::smith`) | the demand; the thesis's Table 3.1 is as near |
 //! | it bears 985 m/s and breaks at 1060 | 1027 m/s, Smith's theory; 1020 in the thesis | 4 %, and the ramp that is stated there |
 //! | balance without friction, 0.5 % | 0 | the demand |
-//! | energy of rows pressed on all sides, 2 % | √3 K (1 − e^I_tc)², K the contact's stiffness over its length: three contacts a fibre | I_td, 1 % of the energy, and the middle's edge |
+//! | energy of rows pressed on all sides, 2 % | √3 K ((1 − e^I_tc)² + ½ I_td²), K the contact's stiffness over its length: three contacts a fibre | 1 % for terms of third order |
 //! | transverse wave at the clamp, 9 µs ± 10 % | 18 µs on twice the length, thesis section 4.6 | the width of the kink |
 
 use std::path::{Path, PathBuf};
@@ -142,9 +142,9 @@ fn rows_of_fibres_are_pressed() {
     let (contact, all_sides) = press("all-sides");
     let part = all_sides.samples.iter().find(|sample| sample.stretch < 0.97).expect("a sample").middle;
     let [i_tc, i_td] = part.invariants;
-    assert!((-0.032..-0.025).contains(&i_tc) && i_td < 0.003, "{i_tc} {i_td}");
-    let lattice = 3f64.sqrt() * contact.coefficients[0] / contact.length * (1.0 - i_tc.exp()).powi(2);
-    assert_near(part.energy, lattice, 0.02);
+    assert!((-0.035..-0.025).contains(&i_tc), "{i_tc}");
+    let lattice = contact.coefficients[0] / contact.length * ((1.0 - i_tc.exp()).powi(2) + 0.5 * i_td * i_td);
+    assert_near(part.energy, 3f64.sqrt() * lattice, 0.02);
     for (name, (_, result)) in [("all-sides", (contact, all_sides)), ("plates", press("plates"))] {
         let last = result.last();
         let most = result.samples.iter().fold(0.0, |most: f64, sample| most.max(sample.friction.abs()));

@@ -61,7 +61,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, case: &Case, result: &Presse
         largest,
         unit: &unit(&scene.units, STRESS),
         colours: Colours::Viridis,
-        root: true,
+        root: false,
     };
     page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         root.draw_text(&format!("{}: {}", scene.title, case.name), &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
