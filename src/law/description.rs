@@ -2,6 +2,7 @@
 
 use core::ops::Range;
 
+use super::number::real::Real;
 use super::parameters::{self, FIBRE, LINEAR_FIBRE, LINEAR_SECOND_AXIS, Property};
 use super::state::{
     self, ALIVE, ENERGIES, FAILED, INVARIANTS, LINEAR_ALIVE, LINEAR_FAILED, LINEAR_WORK, StateVariable,
@@ -56,6 +57,12 @@ impl Description {
     /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
     pub const fn kept(&self) -> usize {
         if self.reads_old_gradient { 9 } else { 0 }
+    }
+
+    /// The energy per reference volume of a state.
+    pub fn energy<T: Real>(&self, state: &[T]) -> T {
+        let energies = state.get(self.energies.clone()).unwrap_or_default().iter().copied();
+        energies.reduce(|sum, energy| sum + energy).unwrap_or(T::splat(0.0))
     }
 
     /// How many numbers a host keeps for a point: the state, and these entries of F.

@@ -11,11 +11,21 @@ use super::hyperelastic::Hyperelastic;
 use super::kinematics::FibreFrame;
 use super::linear_elastic::{Criterion, LinearElastic, Rotation};
 use super::number::level::Level;
-use super::state::{ENERGIES, FAILURE_INDEX, INVARIANTS};
+use super::state::{ENERGIES, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, LINEAR_ELASTIC_STATE};
+use super::tangent::Measure;
 
 /// A law, prepared from its properties.
-pub trait Law<T: Precision>: Copy {
+///
+/// # Safety
+/// `State` is an array of as many numbers as the description has state variables, and [`step`](Self::step) accesses no memory of the
+/// points but what [`Points`] says.
+pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
+    /// The state variables of a point.
+    type State: Copy + AsRef<[T]> + AsMut<[T]>;
+
+    /// The state of a point that nothing has happened to.
+    fn fresh() -> Self::State;
 
     /// Checks the properties, in the order of the description, and prepares the law.
     ///
@@ -41,12 +51,12 @@ pub trait Law<T: Precision>: Copy {
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error>;
 }
 
-/// Points of a host in component-major arrays, `n` values next to each other in each component. Of these arrays `fibre` and the last
-/// three outputs may be null: they are absent, and what is absent is not computed.
+/// Points of a host in component-major arrays, `n` values next to each other in each component. Of these arrays `fibre` and the
+/// outputs behind the stress may be null: they are absent, and what is absent is not computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<T> {
     pub n: usize,
-    /// The distance from one state variable to the next.
+    /// The distance from one state variable to the next, and from one component of the tangent to the next.
     pub leading_dimension: usize,
     /// F at the start of the step, by columns; read only by a law whose description says so.
     pub f_old: [*const T; 9],
@@ -67,6 +77,9 @@ pub struct Points<T> {
     pub status: *mut i32,
     /// For each point 1, or 0 if it has failed or cannot be evaluated.
     pub active: *mut T,
+    /// The tangent of `measure`: entry (row, column) is component 6 row + column, or 9 row + column where the measure is 9×9.
+    pub tangent: *mut T,
+    pub measure: Measure,
     /// Choices of a law that has them.
     pub rotation: Rotation,
     pub criterion: Criterion,
@@ -91,6 +104,8 @@ impl<T: Precision> Points<T> {
             wave_speed: null_mut(),
             status: null_mut(),
             active: null_mut(),
+            tangent: null_mut(),
+            measure: Measure::Jaumann,
             rotation: Rotation::Fibre,
             criterion: Criterion::LargestPrincipal,
             level: None,
@@ -98,8 +113,14 @@ impl<T: Precision> Points<T> {
     }
 }
 
-impl<T: Precision> Law<T> for Hyperelastic<T> {
+// SAFETY: the state is that of the description, and the block's kernels access what `Pointers` says.
+unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
+    type State = [T; HYPERELASTIC_STATE];
+
+    fn fresh() -> Self::State {
+        [T::splat(0.0); HYPERELASTIC_STATE]
+    }
 
     #[inline(always)]
     fn new(properties: &[T]) -> Result<Self, Error> {
@@ -135,6 +156,8 @@ impl<T: Precision> Law<T> for Hyperelastic<T> {
             wave_speed: points.wave_speed,
             status: points.status,
             active: points.active,
+            tangent: points.tangent,
+            measure: points.measure,
             level: points.level,
             ..Pointers::without_arrays(points.n, points.leading_dimension)
         };
@@ -143,8 +166,14 @@ impl<T: Precision> Law<T> for Hyperelastic<T> {
     }
 }
 
-impl<T: Precision> Law<T> for LinearElastic<T> {
+// SAFETY: the state is that of the description, and the block's kernels access what `LinearPointers` says.
+unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
+    type State = [T; LINEAR_ELASTIC_STATE];
+
+    fn fresh() -> Self::State {
+        [T::splat(0.0); LINEAR_ELASTIC_STATE]
+    }
 
     #[inline(always)]
     fn new(properties: &[T]) -> Result<Self, Error> {
@@ -173,6 +202,8 @@ impl<T: Precision> Law<T> for LinearElastic<T> {
             wave_speed: points.wave_speed,
             status: points.status,
             active: points.active,
+            tangent: points.tangent,
+            measure: points.measure,
             rotation: points.rotation,
             criterion: points.criterion,
             level: points.level,

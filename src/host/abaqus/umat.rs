@@ -7,17 +7,17 @@ use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::border::{Message, check_plane, check_pointers, entry, properties};
-use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::vector::{cross, dot};
 use crate::law::parameters;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
-use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_WORK};
+use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
 use crate::law::voigt::Moduli;
@@ -280,6 +280,81 @@ fn current_density(energy: f64, jacobian: f64) -> f64 {
     if jacobian > 0.0 && current.is_finite() { current } else { energy }
 }
 
+/// The UMAT of a law by its step at one point, with DDSDDE unless that is null. Returns the status code.
+///
+/// # Errors
+/// The first argument that is wrong.
+///
+/// # Safety
+/// As documented for `toron_abaqus_linear_umat_f64` in package `toron-c`.
+#[allow(clippy::too_many_arguments)]
+unsafe fn step<L: Law<f64>>(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd0: *const f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+) -> Result<i32, Error> {
+    check_pointers(&[
+        (stress.cast_const(), "stress"),
+        (statev, "statev"),
+        (sse, "sse"),
+        (pnewdt, "pnewdt"),
+        (dfgrd0, "dfgrd0"),
+        (dfgrd1, "dfgrd1"),
+        (props, "props"),
+    ])?;
+    let table = L::DESCRIPTION.properties;
+    check_umat(nstatv, ndi, nshr, nlgeom, L::DESCRIPTION.state.len())?;
+    // SAFETY: the caller's promise, here and below.
+    let values = unsafe { properties(props, property_count(nprops, table)?, table) }?;
+    let law = L::new(values)?;
+    if nshr == 1 {
+        check_plane(&law, values)?;
+    }
+    let (mut sigma, mut state, mut tangent) = ([0.0; 6], L::fresh(), [[0.0; 6]; 6]);
+    let wanted = !ddsdde.is_null();
+    let point = Points {
+        f_old: components(dfgrd0, 1),
+        f_new: components(dfgrd1, 1),
+        state_old: statev.cast_const(),
+        state_new: state.as_mut().as_mut_ptr(),
+        stress: components_mut(sigma.as_mut_ptr(), 1),
+        tangent: if wanted { tangent.as_mut_ptr().cast() } else { core::ptr::null_mut() },
+        measure: Measure::Jaumann,
+        ..Points::without_arrays(1, 1)
+    };
+    let code = unsafe { law.step(&point) }?;
+    let components = if nshr == 3 { 6 } else { 4 };
+    unsafe {
+        for (to, from) in (0..components).zip(IN_ABAQUS) {
+            *stress.add(to) = component(&sigma, from);
+        }
+        if wanted {
+            for (column, from) in (0..components).zip(IN_ABAQUS) {
+                for (row, entries) in (0..components).zip(IN_ABAQUS.map(|row| tangent.get(row))) {
+                    *ddsdde.add(components * column + row) = entries.map_or(0.0, |row| component(row, from));
+                }
+            }
+        }
+        if code == status::OK {
+            *statev.cast() = state;
+            *sse = current_density(L::DESCRIPTION.energy(state.as_ref()), determinant(&*dfgrd1.cast()));
+        } else {
+            *pnewdt = (*pnewdt).min(CUTBACK);
+        }
+    }
+    Ok(code)
+}
+
 /// `toron_abaqus_linear_umat_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
@@ -303,62 +378,14 @@ pub unsafe extern "C" fn linear_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    let body = move || {
-        check_pointers(&[
-            (stress.cast_const(), "stress"),
-            (statev, "statev"),
-            (sse, "sse"),
-            (pnewdt, "pnewdt"),
-            (dfgrd0, "dfgrd0"),
-            (dfgrd1, "dfgrd1"),
-            (props, "props"),
-        ])?;
-        check_umat(nstatv, ndi, nshr, nlgeom, LINEAR_ELASTIC_STATE)?;
-        let table = &parameters::LINEAR_ELASTIC;
-        // SAFETY: the caller's promise, here and below.
-        let values = unsafe { properties(props, property_count(nprops, table)?, table) }?;
-        let law = LinearElastic::new(values)?;
-        if nshr == 1 {
-            check_plane(&law, values)?;
-        }
-        let (mut sigma, mut state, mut tangent) = ([0.0; 6], [0.0; LINEAR_ELASTIC_STATE], [[0.0; 6]; 6]);
-        let wanted = !ddsdde.is_null();
-        let pointers = LinearPointers {
-            f_old: components(dfgrd0, 1),
-            f_new: components(dfgrd1, 1),
-            state_old: statev.cast_const(),
-            state_new: state.as_mut_ptr(),
-            stress: components_mut(sigma.as_mut_ptr(), 1),
-            tangent: if wanted { tangent.as_mut_ptr().cast() } else { core::ptr::null_mut() },
-            measure: Measure::Jaumann,
-            ..LinearPointers::without_arrays(1, 1)
-        };
-        let code = unsafe { law.raw_block(&pointers) }?;
-        let components = if nshr == 3 { 6 } else { 4 };
-        unsafe {
-            for (to, from) in (0..components).zip(IN_ABAQUS) {
-                *stress.add(to) = component(&sigma, from);
-            }
-            if wanted {
-                for (column, from) in (0..components).zip(IN_ABAQUS) {
-                    for (row, entries) in (0..components).zip(IN_ABAQUS.map(|row| tangent.get(row))) {
-                        *ddsdde.add(components * column + row) = entries.map_or(0.0, |row| component(row, from));
-                    }
-                }
-            }
-            if code == status::OK {
-                for (c, &variable) in state.iter().enumerate() {
-                    *statev.add(c) = variable;
-                }
-                *sse = current_density(state[LINEAR_WORK], determinant(&*dfgrd1.cast()));
-            } else {
-                *pnewdt = (*pnewdt).min(CUTBACK);
-            }
-        }
-        Ok(code)
-    };
     // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, body) }
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            step::<LinearElastic>(
+                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+            )
+        })
+    }
 }
 
 /// The law's components 11 22 33 12 23 31 in Abaqus's order.

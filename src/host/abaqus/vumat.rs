@@ -248,42 +248,22 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
     }
 }
 
-/// `toron_abaqus_vumat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vumat::<Hyperelastic<f64>, f64>(block)) }
+/// The entry of the C interface for a law in one precision.
+macro_rules! entries {
+    ($law:ident, $t:ty: $vumat:ident) => {
+        /// The entry of the C interface with `toron_abaqus_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || vumat::<$law<$t>, $t>(block)) }
+        }
+    };
 }
 
-/// `toron_abaqus_vumat_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn vumat_f32(block: *const Vumat<f32>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vumat::<Hyperelastic<f32>, f32>(block)) }
-}
-
-/// `toron_abaqus_linear_vumat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vumat::<LinearElastic<f64>, f64>(block)) }
-}
-
-/// `toron_abaqus_linear_vumat_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn linear_vumat_f32(block: *const Vumat<f32>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || vumat::<LinearElastic<f32>, f32>(block)) }
-}
+entries!(Hyperelastic, f64: vumat_f64);
+entries!(Hyperelastic, f32: vumat_f32);
+entries!(LinearElastic, f64: linear_vumat_f64);
+entries!(LinearElastic, f32: linear_vumat_f32);

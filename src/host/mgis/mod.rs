@@ -19,14 +19,14 @@
 //! read. The linear elastic law has axes that follow the fibre, and fails by its largest principal stress.
 
 mod hyperelastic;
-mod linear_elastic;
 mod operator;
 mod results;
+mod step;
 pub mod symbols;
 mod view;
 
 pub use hyperelastic::{hyperelastic, hyperelastic_in_plane};
-pub use linear_elastic::{linear_elastic, linear_elastic_in_plane};
+pub use step::{linear_elastic, linear_elastic_in_plane};
 pub use view::{BehaviourDataView, StateView};
 
 /// What an entry returns: the point is integrated, or it is not and there is a message.

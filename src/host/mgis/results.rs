@@ -58,7 +58,7 @@ impl Results<'_> {
     /// # Safety
     /// MGIS's promise: the arrays have the sizes that the symbols of the behaviour tell.
     #[inline(always)]
-    pub unsafe fn store_step<const N: usize>(&self, stress: &Stress, state: &[f64; N], energy: f64) {
+    pub unsafe fn store_step<S: Copy>(&self, stress: &Stress, state: &S, energy: f64) {
         let s1 = &self.view.s1;
         // SAFETY: the caller's promise.
         unsafe {

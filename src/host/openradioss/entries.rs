@@ -76,242 +76,130 @@ unsafe fn line_of_listing<T: Precision>(
     if found? { Ok(status::OK) } else { Err(Error::Plain(status::UNKNOWN_NAME)) }
 }
 
-/// `toron_openradioss_lecm_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn lecm_f64(
-    number: i32,
-    values: *const f64,
-    count: size_t,
-    uparam: *mut f64,
-    maxuparam: i32,
-    nuparam: *mut i32,
-    nuvar: *mut i32,
-    parmat: *mut f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            starter(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat)
-        })
-    }
-}
+/// The entries of the C interface in one precision.
+macro_rules! entries {
+    ($t:ty: $lecm:ident, $listing:ident, $luser:ident, $group:ident) => {
+        /// The entry of the C interface with `toron_openradioss_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $lecm(
+            number: i32,
+            values: *const $t,
+            count: size_t,
+            uparam: *mut $t,
+            maxuparam: i32,
+            nuparam: *mut i32,
+            nuvar: *mut i32,
+            parmat: *mut $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: message, capacity }, move || {
+                    starter(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat)
+                })
+            }
+        }
 
-/// `toron_openradioss_listing_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn listing_f64(
-    uparam: *const f64,
-    nuparam: i32,
-    line: i32,
-    text: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let message = Message { text, capacity };
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: core::ptr::null_mut(), capacity: 0 }, move || {
-            line_of_listing(uparam, nuparam, line, message)
-        })
-    }
-}
+        /// The entry of the C interface with `toron_openradioss_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[inline(never)]
+        pub unsafe extern "C" fn $listing(
+            uparam: *const $t,
+            nuparam: i32,
+            line: i32,
+            text: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            let message = Message { text, capacity };
+            // SAFETY: the caller's promise.
+            unsafe {
+                entry(Message { text: core::ptr::null_mut(), capacity: 0 }, move || {
+                    line_of_listing(uparam, nuparam, line, message)
+                })
+            }
+        }
 
-/// `toron_openradioss_luser_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn luser_f64(
-    nel: i32,
-    nuparam: i32,
-    nuvar: i32,
-    time: f64,
-    uparam: *const f64,
-    ngl: *const i32,
-    rho0: *const f64,
-    fpsxx: *const f64,
-    fpsyy: *const f64,
-    fpszz: *const f64,
-    fpsxy: *const f64,
-    fpsyz: *const f64,
-    fpszx: *const f64,
-    fpsyx: *const f64,
-    fpszy: *const f64,
-    fpsxz: *const f64,
-    signxx: *mut f64,
-    signyy: *mut f64,
-    signzz: *mut f64,
-    signxy: *mut f64,
-    signyz: *mut f64,
-    signzx: *mut f64,
-    sigvxx: *mut f64,
-    sigvyy: *mut f64,
-    sigvzz: *mut f64,
-    sigvxy: *mut f64,
-    sigvyz: *mut f64,
-    sigvzx: *mut f64,
-    soundsp: *mut f64,
-    viscmax: *mut f64,
-    uvar: *mut f64,
-    off: *mut f64,
-    nodes: *const f64,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let group = Group {
-        elements: nel,
-        parameters: nuparam,
-        variables: nuvar,
-        time,
-        uparam,
-        numbers: ngl,
-        density: rho0,
-        deformation_gradient: [fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz],
-        stress: [signxx, signyy, signzz, signxy, signyz, signzx],
-        viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
-        sound_speed: soundsp,
-        viscosity: viscmax,
-        uvar,
-        off,
-        nodes,
+        /// The entry of the C interface with `toron_openradioss_` before its name; package `toron-c` documents its arguments.
+        ///
+        /// # Safety
+        /// As documented there.
+        #[allow(clippy::too_many_arguments)]
+        #[inline(never)]
+        pub unsafe extern "C" fn $luser(
+            nel: i32,
+            nuparam: i32,
+            nuvar: i32,
+            time: $t,
+            uparam: *const $t,
+            ngl: *const i32,
+            rho0: *const $t,
+            fpsxx: *const $t,
+            fpsyy: *const $t,
+            fpszz: *const $t,
+            fpsxy: *const $t,
+            fpsyz: *const $t,
+            fpszx: *const $t,
+            fpsyx: *const $t,
+            fpszy: *const $t,
+            fpsxz: *const $t,
+            signxx: *mut $t,
+            signyy: *mut $t,
+            signzz: *mut $t,
+            signxy: *mut $t,
+            signyz: *mut $t,
+            signzx: *mut $t,
+            sigvxx: *mut $t,
+            sigvyy: *mut $t,
+            sigvzz: *mut $t,
+            sigvxy: *mut $t,
+            sigvyz: *mut $t,
+            sigvzx: *mut $t,
+            soundsp: *mut $t,
+            viscmax: *mut $t,
+            uvar: *mut $t,
+            off: *mut $t,
+            nodes: *const $t,
+            message: *mut c_char,
+            capacity: size_t,
+        ) -> i32 {
+            let group = Group {
+                elements: nel,
+                parameters: nuparam,
+                variables: nuvar,
+                time,
+                uparam,
+                numbers: ngl,
+                density: rho0,
+                deformation_gradient: [fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz],
+                stress: [signxx, signyy, signzz, signxy, signyz, signzx],
+                viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
+                sound_speed: soundsp,
+                viscosity: viscmax,
+                uvar,
+                off,
+                nodes,
+            };
+            // SAFETY: the caller's promise.
+            unsafe { $group(&group, message, capacity) }
+        }
+
+        /// The same with the arguments in a structure, for Rust.
+        ///
+        /// # Safety
+        /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
+        pub unsafe fn $group(group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || evaluate(group).map(|()| status::OK)) }
+        }
     };
-    // SAFETY: the caller's promise.
-    unsafe { group_f64(&group, message, capacity) }
 }
 
-/// The same with the arguments in a structure, for Rust.
-///
-/// # Safety
-/// As for [`evaluate`]; `message` is null or has `capacity` bytes.
-pub unsafe fn group_f64(group: &Group<f64>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || evaluate(group).map(|()| status::OK)) }
-}
-
-/// `toron_openradioss_lecm_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn lecm_f32(
-    number: i32,
-    values: *const f32,
-    count: size_t,
-    uparam: *mut f32,
-    maxuparam: i32,
-    nuparam: *mut i32,
-    nuvar: *mut i32,
-    parmat: *mut f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            starter(number, values, count, uparam, maxuparam, nuparam, nuvar, parmat)
-        })
-    }
-}
-
-/// `toron_openradioss_listing_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[inline(never)]
-pub unsafe extern "C" fn listing_f32(
-    uparam: *const f32,
-    nuparam: i32,
-    line: i32,
-    text: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let message = Message { text, capacity };
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: core::ptr::null_mut(), capacity: 0 }, move || {
-            line_of_listing(uparam, nuparam, line, message)
-        })
-    }
-}
-
-/// `toron_openradioss_luser_f32` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn luser_f32(
-    nel: i32,
-    nuparam: i32,
-    nuvar: i32,
-    time: f32,
-    uparam: *const f32,
-    ngl: *const i32,
-    rho0: *const f32,
-    fpsxx: *const f32,
-    fpsyy: *const f32,
-    fpszz: *const f32,
-    fpsxy: *const f32,
-    fpsyz: *const f32,
-    fpszx: *const f32,
-    fpsyx: *const f32,
-    fpszy: *const f32,
-    fpsxz: *const f32,
-    signxx: *mut f32,
-    signyy: *mut f32,
-    signzz: *mut f32,
-    signxy: *mut f32,
-    signyz: *mut f32,
-    signzx: *mut f32,
-    sigvxx: *mut f32,
-    sigvyy: *mut f32,
-    sigvzz: *mut f32,
-    sigvxy: *mut f32,
-    sigvyz: *mut f32,
-    sigvzx: *mut f32,
-    soundsp: *mut f32,
-    viscmax: *mut f32,
-    uvar: *mut f32,
-    off: *mut f32,
-    nodes: *const f32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let group = Group {
-        elements: nel,
-        parameters: nuparam,
-        variables: nuvar,
-        time,
-        uparam,
-        numbers: ngl,
-        density: rho0,
-        deformation_gradient: [fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz],
-        stress: [signxx, signyy, signzz, signxy, signyz, signzx],
-        viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
-        sound_speed: soundsp,
-        viscosity: viscmax,
-        uvar,
-        off,
-        nodes,
-    };
-    // SAFETY: the caller's promise.
-    unsafe { group_f32(&group, message, capacity) }
-}
-
-/// The same with the arguments in a structure, for Rust.
-///
-/// # Safety
-/// As for [`evaluate`]; `message` is null or has `capacity` bytes.
-pub unsafe fn group_f32(group: &Group<f32>, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { entry(Message { text: message, capacity }, move || evaluate(group).map(|()| status::OK)) }
-}
+entries!(f64: lecm_f64, listing_f64, luser_f64, group_f64);
+entries!(f32: lecm_f32, listing_f32, luser_f32, group_f32);

@@ -1,16 +1,14 @@
-//! The linear elastic law as the behaviour `ToronLinearElastic`.
+//! A law as a behaviour by its step at one point, and the linear elastic law as `ToronLinearElastic`.
 
 use core::slice;
 
 use crate::host::border::check_plane;
-use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::parameters::LINEAR_ELASTIC_PROPERTIES;
 use crate::law::response::nan_unless_finite;
-use crate::law::state::{LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_WORK};
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
@@ -26,7 +24,7 @@ use super::view::{BehaviourDataView, Operator, Options, columns, integrate};
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { integrate(view, |view, options| evaluate(view, options, false)) }
+    unsafe { integrate(view, |view, options| evaluate::<LinearElastic>(view, options, false)) }
 }
 
 /// `ToronLinearElastic_PlaneStrain` and `ToronLinearElastic_Axisymmetrical`.
@@ -36,7 +34,7 @@ pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { integrate(view, |view, options| evaluate(view, options, true)) }
+    unsafe { integrate(view, |view, options| evaluate::<LinearElastic>(view, options, true)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.
@@ -47,18 +45,18 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 /// # Safety
 /// As for [`linear_elastic`]; no pointer that is needed is null.
 #[inline(never)]
-unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
+unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
     // SAFETY: the caller's promise; the state may be replaced in place.
     let (properties, old, f0) = unsafe {
         (
-            slice::from_raw_parts(view.s1.material_properties, LINEAR_ELASTIC_PROPERTIES),
-            *view.s0.internal_state_variables.cast::<[f64; LINEAR_ELASTIC_STATE]>(),
+            slice::from_raw_parts(view.s1.material_properties, L::DESCRIPTION.properties.len()),
+            *view.s0.internal_state_variables.cast::<L::State>(),
             columns(view.s0.gradients, plane),
         )
     };
     // SAFETY: as above. A step that is not integrated ends where it starts.
     let f1 = if options.integrates { unsafe { columns(view.s1.gradients, plane) } } else { f0 };
-    let law = LinearElastic::new(properties)?;
+    let law = L::new(properties)?;
     if plane {
         check_plane(&law, properties)?;
     }
@@ -85,25 +83,25 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
             *view.speed_of_sound = speed;
         }
         if options.integrates {
-            results.store_step(&stress, &state, state[LINEAR_WORK]);
+            results.store_step(&stress, &state, L::DESCRIPTION.energy(state.as_ref()));
         }
     }
     Ok(status::OK)
 }
 
 /// A step of the law.
-struct Step<'a> {
-    law: &'a LinearElastic,
+struct Step<'a, L: Law<f64>> {
+    law: &'a L,
     f0: &'a [[f64; 3]; 3],
     f1: &'a [[f64; 3]; 3],
-    old: &'a [f64; LINEAR_ELASTIC_STATE],
+    old: &'a L::State,
     options: Options,
 }
 
 /// Its results: stress 11 22 33 12 23 31, and a tangent of the measure that [`Step::measure`] says, row by row.
-struct Outcome {
+struct Outcome<S> {
     stress: [f64; 6],
-    state: [f64; LINEAR_ELASTIC_STATE],
+    state: S,
     speed: f64,
     tangent: [f64; 81],
     code: i32,
@@ -130,7 +128,7 @@ impl Rows {
     }
 }
 
-impl Step<'_> {
+impl<L: Law<f64>> Step<'_, L> {
     /// The measure from which the operator is computed.
     fn measure(&self) -> Measure {
         match self.options.operator {
@@ -144,26 +142,26 @@ impl Step<'_> {
     ///
     /// # Errors
     /// None: the density has been checked.
-    fn evaluate(&self) -> Result<Outcome, Error> {
+    fn evaluate(&self) -> Result<Outcome<L::State>, Error> {
         let Step { law, f0, f1, old, options } = self;
         let (mut stress, mut state, mut speed, mut tangent) = ([0.0; 6], **old, 0.0, [0.0; 81]);
-        let mut pointers = LinearPointers {
+        let mut point = Points {
             f_old: components(f0.as_flattened().as_ptr(), 1),
             f_new: components(f1.as_flattened().as_ptr(), 1),
-            state_old: old.as_ptr(),
-            state_new: state.as_mut_ptr(),
+            state_old: old.as_ref().as_ptr(),
+            state_new: state.as_mut().as_mut_ptr(),
             stress: components_mut(stress.as_mut_ptr(), 1),
             measure: self.measure(),
-            ..LinearPointers::without_arrays(1, 1)
+            ..Points::without_arrays(1, 1)
         };
         if let Some(density) = options.density {
-            (pointers.density, pointers.wave_speed) = (density, &mut speed);
+            (point.density, point.wave_speed) = (density, &mut speed);
         }
         if options.operator.is_some() {
-            pointers.tangent = tangent.as_mut_ptr();
+            point.tangent = tangent.as_mut_ptr();
         }
         // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
-        let code = unsafe { law.raw_block(&pointers) }?;
+        let code = unsafe { law.step(&point) }?;
         Ok(Outcome { stress, state, speed, tangent, code })
     }
 
@@ -173,7 +171,8 @@ impl Step<'_> {
         let entry = |place: usize| tangent.get(place).copied().unwrap_or_default();
         let rows: [[f64; 6]; 6] = core::array::from_fn(|row| core::array::from_fn(|column| entry(6 * row + column)));
         let columns: [[f64; 6]; 6] = core::array::from_fn(|column| core::array::from_fn(|row| entry(6 * row + column)));
-        let latched = !Failure::intact(self.old[LINEAR_FAILED]);
+        let latch = self.old.as_ref().get(L::DESCRIPTION.failed).copied().unwrap_or_default();
+        let latched = !Failure::intact(latch);
         match operator {
             Operator::Material => Rows::Six(material(rows)),
             Operator::Nominal => Rows::Nine(nominal(|row, column| entry(9 * row + column))),
