@@ -61,7 +61,8 @@ fn fresh(name: &str) -> PathBuf {
 
 fn run(program: &Path, scene: &Scene, case: &Case, place: &str) -> Outcome {
     let model = Model::new(&scene.units, case).expect("a model");
-    let folder = Folder::write(fresh(&format!("{place}-{}", case.name)), &model).expect("files");
+    let folder = Folder::new(fresh(&format!("{place}-{}", case.name)), &model);
+    folder.write().expect("files");
     let lammps = Lammps::find(Some(program)).expect("LAMMPS");
     let seconds = folder.run(&lammps, 1, &mut |_| ()).expect("it runs");
     Outcome::new(&scene.units, case, model.clone(), folder.read(Some(seconds)).expect("lines"))
@@ -134,7 +135,8 @@ fn rows_of_fibres_are_pressed() {
     let press = |name: &str| {
         let case = case(&scene, name);
         let model = Model::new(&scene.units, &case).expect("a model");
-        let folder = Folder::write(fresh(&format!("fibres-press-{name}")), &model).expect("files");
+        let folder = Folder::new(fresh(&format!("fibres-press-{name}")), &model);
+        folder.write().expect("files");
         folder.run(&Lammps::find(Some(program)).expect("LAMMPS"), 1, &mut |_| ()).expect("it runs");
         let result = Pressed::new(&scene.units, model.clone(), &folder.read(None).expect("lines"));
         (case.contact, result.expect("it is pressed"))
@@ -279,7 +281,8 @@ fn a_step_that_is_too_large_is_said() {
     let mut model = Model::new(&scene.units, &case(&scene, "frictionless")).expect("a model");
     // Some hundred times what is stable: at the first step the beads are gone.
     model.step *= 400.0;
-    let folder = Folder::write(fresh("fibres-wild"), &model).expect("files");
+    let folder = Folder::new(fresh("fibres-wild"), &model);
+    folder.write().expect("files");
     let lammps = Lammps::find(Some(program)).expect("LAMMPS");
     let error = folder.run(&lammps, 1, &mut |_| ()).expect_err("it explodes").to_string();
     assert!(error.contains("beads were lost") && error.contains("allowed: a smaller key step"), "{error}");
