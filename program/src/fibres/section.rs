@@ -82,7 +82,7 @@ fn boxed(fibres: usize, aspect: f64, packing: Packing) -> Section {
                 [(fibres / rows) as f64 + if rows > 1 { 0.5 } else { 0.0 }, 1.0 + ROW * (rows - 1) as f64]
             };
             let off = |rows: usize| (size(rows)[0] / size(rows)[1] / aspect).ln().abs();
-            let whole = (1..=fibres).filter(|rows| fibres % rows == 0);
+            let whole = (1..=fibres).filter(|rows| fibres.is_multiple_of(*rows));
             let rows = whole.min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1);
             let place = |fibre: usize| {
                 let (row, column) = (fibre / (fibres / rows), fibre % (fibres / rows));
