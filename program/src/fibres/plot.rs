@@ -99,7 +99,9 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome, law: Option<&Beside>) ->
         energies.push(Series { colour: INK, ..line(0, "external work", &|s| s.external) });
     }
     if law.is_some() {
-        energies.retain(|series| !["broken", "external work", "projectile"].contains(&series.name.as_str()));
+        // Friction is in the section's energies.
+        energies
+            .retain(|series| !["broken", "external work", "projectile", "friction"].contains(&series.name.as_str()));
     }
     energies.extend(beside(3, "kinetic", &["kinetic_energy"]));
     energies.extend(beside(0, "elongation", &["elongation_energy"]));
