@@ -9,6 +9,9 @@ use super::style::{GREY, HEADING, INK, RULE, TEXT, fine, stroke, superscript, te
 
 /// The width of an ordinate's labels.
 const MARGIN: i32 = 70;
+/// A legend's line with the blank behind it, and the gap behind a name.
+const LINE: i32 = 33;
+const GAP: i32 = 24;
 /// A line with more points than this is thinned.
 const MOST_POINTS: usize = 4000;
 /// Lines of which the least value is above this part of the largest would all lie at the top of an axis from 0.
@@ -137,12 +140,20 @@ impl Panel {
         let title = with_power(&format!("{} ({})", self.title, self.unit), power);
         head.draw_text(&title, &text(HEADING, &INK), (fine(MARGIN), fine(8)))?;
         let style = text(TEXT, &INK);
+        let width = |name: &str| Ok::<_, Box<dyn std::error::Error>>(head.estimate_text_size(name, &style)?.0 as i32);
+        let mut names = 0;
+        for series in &self.series {
+            names += width(&series.name)?;
+        }
+        // Shorter lines and gaps, by half at most, where the names would not have room.
+        let room = head.dim_in_pixel().0 as i32 - fine(MARGIN) - names;
+        let part = f64::from(room) / f64::from(self.series.len().max(1) as i32 * fine(LINE + GAP)).max(1.0);
+        let short = |length: i32| (f64::from(fine(length)) * part.clamp(0.4, 1.0)) as i32;
         let mut x = fine(MARGIN);
         for series in &self.series {
-            head.draw(&PathElement::new([(x, fine(45)), (x + fine(26), fine(45))], stroke(series.colour, 4)))?;
-            head.draw_text(&series.name, &style, (x + fine(33), fine(38)))?;
-            let (width, _) = head.estimate_text_size(&series.name, &style)?;
-            x += width as i32 + fine(33 + 24);
+            head.draw(&PathElement::new([(x, fine(45)), (x + short(26), fine(45))], stroke(series.colour, 4)))?;
+            head.draw_text(&series.name, &style, (x + short(LINE), fine(38)))?;
+            x += width(&series.name)? + short(LINE + GAP);
         }
         Ok(())
     }
