@@ -117,7 +117,7 @@ fn at_rest(centres: &[[f64; 2]]) -> [f64; 3] {
 }
 
 /// I_tc and I_td of the homogeneous deformation F that takes second moments M₀ to M = F M₀ Fᵀ: the eigenvalues of M₀⁻¹M are the
-/// squares of two stretches, if F does not turn the section. I_tc is half the logarithm of their product, I_td half that of their ratio.
+/// squares of two stretches, if its axes are those of M₀, as a box's are. I_tc is half the logarithm of their product, I_td half that of their ratio.
 fn invariants(before: [f64; 3], after: [f64; 3]) -> [f64; 2] {
     let determinant = |[a, b, c]: [f64; 3]| a * c - b * b;
     let ratio = determinant(after) / determinant(before);
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn invariants_are_those_of_the_stretches() {
-        let places = [[0.0, 1.0], [2.0, -1.5], [-3.0, 0.25], [1.0, 4.0], [0.5, -2.0]];
+        let places = [[2.0, 1.0], [-2.0, 1.0], [2.0, -1.0], [-2.0, -1.0], [0.0, 3.0], [0.0, -3.0]];
         let [along, across] = [1.1, 0.7f64];
         let found = invariants(at_rest(&places), at_rest(&places.map(|[z, y]| [along * z + 5.0, across * y - 3.0])));
         let expected = [0.5 * (along * across).ln(), 0.5 * (along / across).ln()];
