@@ -228,7 +228,7 @@ static void lsdyna_wrong_calls(void)
 static void lsdyna_collapsed(void)
 {
     static const double gradients[][9] = {{0, 0, 0, 0, 1, 0, 0, 0, 1}, {1, 0, 0, 0, 0, 0, 0, 0, 1}, {0, 0.7, 0, 0, 1, 0, 0, 0.2, 1},
-                                          {0, 0, 1, 0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 1, 0, 0, 0, 0}};
+                                          {0, 0, 1, 0, 0, 0, 0, 0, 0}};
     for (size_t k = 0; k < 2 * sizeof gradients / sizeof *gradients; k++) {
         vector_block v = allocate(cases, 2);
         real *sig = reals(6), *hsv = filled(0, HISTORY);

@@ -272,12 +272,10 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
         let third = |c: [f64; 3]| near([dot(c, c) - 1.0, dot(a, c), dot(b, c)]);
         near([dot(a, a) - 1.0, dot(b, b) - 1.0, dot(a, b)]) && (start > f || third(column(2)))
     };
-    let is_elsewhere = |unturned: bool| {
+    let is_elsewhere = || {
         let leading_zeros = (0..f + 2).take_while(|&j| h(j) == 0.0).count();
         let mut starts = if leading_zeros < f { 0..=leading_zeros } else { f + 1..=leading_zeros };
-        // The diagonal of a first F that is not turned.
-        let is_unturned = |start: usize| [h(start), h(start + 4)].iter().all(|x| (x - 1.0).abs() < 0.25);
-        starts.any(|start| is_at(start) && (!unturned || is_unturned(start)))
+        starts.any(is_at)
     };
     if (f..f + 9).all(|j| h(j) == 0.0) {
         return false;
@@ -285,11 +283,11 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
     let [failed, alive] = [L::DESCRIPTION.failed, L::DESCRIPTION.alive].map(h);
     if [failed, alive].iter().all(|flag| [0.0, 1.0].contains(flag)) && failed + alive > 0.0 {
         // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
-        // a collapsed element has a row or column of zeros as well; with `alive` it may look like a turned F, which no first F is.
+        // a collapsed element has a row or column of zeros as well.
         let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-        return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere(true);
+        return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
     }
-    !is_elsewhere(false)
+    !is_elsewhere()
 }
 
 /// The entries of the C interface for a law in one precision.
