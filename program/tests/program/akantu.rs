@@ -33,7 +33,8 @@ fn without_failure_speeds_and_wave_are_those_of_the_host() {
     assert_eq!(speeds.len(), 3);
     for row in speeds {
         let [time, speed] = row[..] else { panic!("{row:?}") };
-        let sample = expected.at(time);
+        // The scene's history is finer than what is measured on the way.
+        let sample = expected.history.iter().find(|sample| sample.time >= time * (1.0 - 1e-9)).expect("a sample");
         println!("at {time} ms: Akantu {speed:.2} m/s, toron impact {:.2} m/s", sample.speed);
         assert!((sample.time - time).abs() < 2e-5 && (speed - sample.speed).abs() < 1.0);
     }
