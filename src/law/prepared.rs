@@ -111,7 +111,8 @@ impl<T: Real + Into<f64>> PreparedHyperelastic<T> {
 }
 
 impl<T: Real> PreparedHyperelastic<T> {
-    /// The same law, not known to have its fibre along the first axis: the same values, but for the signs of zeros.
+    /// The same law, not known to have its fibre along the first axis: evaluated in the axes of any fibre, whose results differ from those
+    /// of the first axis in the last digits.
     #[inline(always)]
     pub(crate) fn with_axes_of_any_fibre(self) -> Self {
         let PreparedHyperelastic(mut numbers) = self;
