@@ -23,5 +23,6 @@ pub mod stress;
 pub mod tangent;
 #[cfg(test)]
 mod tests;
+pub mod user;
 pub mod voigt;
 pub mod wave_speed;
