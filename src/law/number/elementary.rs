@@ -298,7 +298,7 @@ pub fn exp<R: Real>(x: R) -> R {
     // ln 2 = high + low, where the product of `high` and the exponent of any number is exact (32 bits of 53; 15 of 24).
     let double = R::EPSILON < 1e-10;
     let high = if double { f64::from_bits(0x3fe6_2e42_fee0_0000) } else { 0.693_145_751_953_125 };
-    let low = LN_2 - high;
+    let low = if double { 1.908_214_929_270_587_7e-10 } else { LN_2 - high };
     let bound = R::splat(if double { 750.0 } else { 110.0 });
     let inside = (-bound).lt(x) & x.lt(bound);
     let within = R::select(inside, x, R::splat(0.0));

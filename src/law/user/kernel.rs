@@ -61,8 +61,7 @@ impl<R: Real, S: Array<R>> Given<R, S> {
     /// The results, from what the law has answered: those of points that have failed before, or that cannot be evaluated, are
     /// replaced.
     ///
-    /// An entry of F that is not finite makes det F not finite. What the law reads of an old state that is not finite makes its
-    /// response not finite.
+    /// An entry of F that is not finite makes det F not finite.
     #[inline(always)]
     pub fn finish<T>(
         &self,
@@ -80,6 +79,8 @@ impl<R: Real, S: Array<R>> Given<R, S> {
         // A number times zero is zero unless it is NaN or infinite.
         let mut check = step.jacobian.mul_add(zero, wave_modulus * zero);
         check = check + (nan_unless_finite(&response.stress) + nan_unless_finite(response.state.as_ref()));
+        // A law may choose between an old value that is no number and another one.
+        check = check + nan_unless_finite(self.own.as_ref());
         let mut upright = zero.lt(step.jacobian);
         if reads_old_gradient {
             let jacobian = determinant(&self.f_old);

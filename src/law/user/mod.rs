@@ -17,6 +17,7 @@ mod kernel;
 mod tangent;
 
 pub use super::description::Description;
+pub use super::number::dual::Dual;
 pub use super::number::real::Real;
 pub use super::number::vector;
 
