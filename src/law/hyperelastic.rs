@@ -59,7 +59,7 @@ impl<T> From<[T; HYPERELASTIC_PROPERTIES]> for Properties<T> {
 
 /// The hyperelastic law: its properties, checked, and what is derived from them once.
 #[derive(Clone, Copy, Debug)]
-pub struct Hyperelastic<R> {
+pub struct Hyperelastic<R = f64> {
     pub(super) k_el: R,
     pub(super) k_tc: R,
     pub(super) p: R,
