@@ -18,6 +18,7 @@ mod mgis;
 #[doc(hidden)]
 pub mod openradioss;
 
+pub use c::c_header;
 #[doc(hidden)]
 pub use toron;
 
