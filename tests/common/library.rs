@@ -45,6 +45,16 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
 /// Its folder of libraries.
 pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 
+/// The libraries of a law of one's own, `examples/own_law`, as its author builds them.
+pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
+    let build = Path::new(BUILD).join("../own_law");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true");
+    cargo.args(["build", "--release", "--locked", "--manifest-path"]);
+    run(cargo.arg(Path::new(ROOT).join("examples/own_law/Cargo.toml")), "cargo");
+    build.join("release")
+});
+
 /// Runs a command to its end, which must be a good one; `package` is where a user gets it.
 pub fn run(command: &mut Command, package: &str) -> Output {
     let output = command.output().unwrap_or_else(|error| {
