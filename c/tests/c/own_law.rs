@@ -5,11 +5,11 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use toron::Measure;
 use toron::host::Material;
 use toron::law::block::Precision;
 use toron::law::interface::{Law, Points};
 use toron::user::User;
-use toron::Measure;
 
 use crate::c_programs::PRECISIONS;
 use crate::library::{OWN_LAW, ROOT, SYSTEM, folder, run};
