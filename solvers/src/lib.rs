@@ -11,11 +11,16 @@
 //! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
 //! macros, one for each solver.
 
-mod abaqus;
+#[cfg(unix)]
+#[doc(hidden)]
+pub mod abaqus;
 mod c;
 mod calculix;
 mod mgis;
 mod openradioss;
+
+#[doc(hidden)]
+pub use toron;
 
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
