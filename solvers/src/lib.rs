@@ -16,6 +16,7 @@
 pub mod abaqus;
 mod c;
 mod calculix;
+mod lsdyna;
 mod mgis;
 mod openradioss;
 
@@ -35,6 +36,7 @@ macro_rules! export {
         $crate::abaqus! { $t; $($law as $name, user $number;)+ }
         $crate::c! { $t; $($law as $name, user $number;)+ }
         $crate::calculix! { $t; $($law as $name, user $number;)+ }
+        $crate::lsdyna! { $t; $($law as $name, user $number;)+ }
         $crate::mgis! { $t; $($law as $name, user $number;)+ }
         $crate::openradioss! { $t; $($law as $name, user $number;)+ }
     };
