@@ -19,7 +19,7 @@ program own_law_test
   tolerance = 1e4 * epsilon(tolerance)
   close (6)
   open (unit=6, status='scratch')
-  cm = nan
+  cm = nan(1)
   cm(1:7) = [mu, lambda, k, 0.0, 1.0, 0.0, 0.0]
   hsv = 0
   hsvs = 0
