@@ -39,6 +39,12 @@ pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is that of the fibre: K + 4G/3 = k_el. For
+    /// hosts that compute their time step and contact stiffness from two elastic constants.
+    pub fn bulk_and_shear(&self) -> [R; 2] {
+        [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
+    }
+
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
     pub(crate) fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
