@@ -5,7 +5,7 @@
 //! the six strains.
 
 use super::kernel::{Given, Outcome, wave_modulus};
-use super::{Array, Response, User, UserMaterial};
+use super::{Array, Response, Step, User, UserMaterial};
 use crate::law::block::Precision;
 use crate::law::interface::Points;
 use crate::law::kinematics::FibreFrame;
@@ -117,7 +117,7 @@ impl<M: UserMaterial> User<M, f64> {
         let speed = |modulus: f64| wave_speed(modulus, points.density.into());
         let waves = points.wave_speed.is_null() || fits(speed(outcome.wave_modulus));
         if taken && !(results.into_iter().all(|&x| fits(x)) && waves) {
-            outcome = given.finish(&given.step(), &overflowed::<M>(), 0.0, at_rest, law.reads_old_gradient);
+            outcome = finish::<M>(&given, &given.step(), &overflowed::<M>(), 0.0, at_rest);
         }
         let has_tangent = outcome.status == 0.0 && given.failed < 0.5;
         // SAFETY: as above.
@@ -187,7 +187,7 @@ impl<M: UserMaterial> User<M, f64> {
         } else {
             (step.jacobian * acoustic_bound(&tangent, &response.stress)).max(at_rest)
         };
-        let outcome = given.finish(&step, &response, bound, at_rest, M::DESCRIPTION.reads_old_gradient);
+        let outcome = finish::<M>(given, &step, &response, bound, at_rest);
         Answer { outcome, tangent }
     }
 }
@@ -265,6 +265,23 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
         }
     }
     answer
+}
+
+/// The results of a point, from what the law has answered.
+fn finish<M: UserMaterial>(
+    given: &Given<f64, M::State<f64>>,
+    step: &Step<f64, M::State<f64>>,
+    response: &Response<f64, M::State<f64>>,
+    wave_modulus: f64,
+    at_rest: f64,
+) -> Outcome<f64, M::State<f64>> {
+    let old = M::DESCRIPTION.reads_old_gradient;
+    let (taken, upright) = given.taken(step, response, wave_modulus, old);
+    let mut outcome = Outcome::of(response, wave_modulus);
+    if !taken {
+        given.restore(&mut outcome, taken, upright, at_rest, old);
+    }
+    outcome
 }
 
 /// A response that is not finite: the point cannot be evaluated.
