@@ -60,4 +60,5 @@ pub use law::response::Request;
 pub use law::state;
 pub use law::status;
 pub use law::tangent::Measure;
+pub use law::user;
 pub use law::voigt::Moduli;

@@ -72,7 +72,7 @@ pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) ->
         components.map_or([0.0; 3], |components: &[T; 3]| components.map(Into::into)) // their number has been checked
     };
     let Description { fibre, second_axis, .. } = L::DESCRIPTION;
-    if out_of_plane(direction(fibre)) {
+    if let Some(fibre) = fibre.filter(|&fibre| out_of_plane(direction(fibre))) {
         return Err(oblique(fibre, "fibre direction", direction(fibre)));
     }
     match second_axis {

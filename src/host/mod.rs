@@ -10,3 +10,27 @@ pub mod mgis;
 pub mod openradioss;
 mod structures;
 pub mod units;
+
+use crate::law::block::Precision;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::Law;
+use crate::law::linear_elastic::LinearElastic;
+use crate::law::user::{User, UserMaterial};
+
+/// A law by its name, without a precision: a [`UserMaterial`], [`Hyperelastic`] or [`LinearElastic`].
+pub trait Material<T: Precision> {
+    /// The law in this precision.
+    type Law: Law<T>;
+}
+
+impl<M: UserMaterial, T: Precision> Material<T> for M {
+    type Law = User<M, T>;
+}
+
+impl<T: Precision> Material<T> for Hyperelastic<f64> {
+    type Law = Hyperelastic<T>;
+}
+
+impl<T: Precision> Material<T> for LinearElastic<f64> {
+    type Law = LinearElastic<T>;
+}

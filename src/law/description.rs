@@ -15,8 +15,9 @@ pub struct Description {
     pub title: &'static str,
     pub properties: &'static [Property],
     pub state: &'static [StateVariable],
-    /// Index of the first component of the fibre direction among the properties, and that of a second axis.
-    pub fibre: usize,
+    /// Index of the first component of the fibre direction among the properties, and that of a second axis; `None` for a law that has
+    /// none.
+    pub fibre: Option<usize>,
     pub second_axis: Option<usize>,
     /// Indices into the state: the latch, the flag for element deletion, and the energies, whose sum is the energy per reference
     /// volume.
@@ -32,7 +33,7 @@ pub const HYPERELASTIC: Description = Description {
     title: "hyperelastic yarn law",
     properties: &parameters::HYPERELASTIC,
     state: &state::HYPERELASTIC,
-    fibre: FIBRE,
+    fibre: Some(FIBRE),
     second_axis: None,
     failed: FAILED,
     alive: ALIVE,
@@ -45,7 +46,7 @@ pub const LINEAR_ELASTIC: Description = Description {
     title: "linear elastic law",
     properties: &parameters::LINEAR_ELASTIC,
     state: &state::LINEAR_ELASTIC,
-    fibre: LINEAR_FIBRE,
+    fibre: Some(LINEAR_FIBRE),
     second_axis: Some(LINEAR_SECOND_AXIS),
     failed: LINEAR_FAILED,
     alive: LINEAR_ALIVE,
@@ -57,6 +58,14 @@ impl Description {
     /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
     pub const fn kept(&self) -> usize {
         if self.reads_old_gradient { 9 } else { 0 }
+    }
+
+    /// The places of the fibre direction among the properties; none of a law without fibre.
+    pub const fn fibre_components(&self) -> Range<usize> {
+        match self.fibre {
+            Some(first) => first..first + 3,
+            None => 0..0,
+        }
     }
 
     /// The energy per reference volume of a state.

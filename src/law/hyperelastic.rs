@@ -45,7 +45,7 @@ pub struct Properties<T> {
 
 /// The hyperelastic law: its properties, checked, and what is derived from them once.
 #[derive(Clone, Copy, Debug)]
-pub struct Hyperelastic<R> {
+pub struct Hyperelastic<R = f64> {
     pub(super) k_el: R,
     pub(super) k_tc: R,
     pub(super) p: R,

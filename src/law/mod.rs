@@ -24,5 +24,6 @@ pub mod stress;
 pub mod tangent;
 #[cfg(test)]
 mod tests;
+pub mod user;
 pub mod voigt;
 pub mod wave_speed;

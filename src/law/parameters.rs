@@ -36,7 +36,8 @@ pub struct Property {
     pub meaning: &'static str,
 }
 
-const fn positive_or_zero(
+/// A row of the table for a property from 0 to 1e25.
+pub const fn positive_or_zero(
     name: &'static str,
     symbol: &'static str,
     dimension: Dimension,
@@ -56,7 +57,20 @@ const fn positive_or_zero(
     }
 }
 
-const fn component(name: &'static str, symbol: &'static str, default: f64, meaning: &'static str) -> Property {
+/// A row of the table for a property above 0, at most 1e25.
+pub const fn positive(
+    name: &'static str,
+    symbol: &'static str,
+    dimension: Dimension,
+    default: Option<f64>,
+    meaning: &'static str,
+) -> Property {
+    let zero_too = positive_or_zero(name, symbol, dimension, default, meaning);
+    Property { minimum_excluded: true, allowed: "a number > 0, at most 1e25", ..zero_too }
+}
+
+/// A row of the table for a component of a direction.
+pub const fn component(name: &'static str, symbol: &'static str, default: f64, meaning: &'static str) -> Property {
     Property {
         name,
         symbol,

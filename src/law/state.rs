@@ -11,7 +11,13 @@ pub struct StateVariable {
     pub meaning: &'static str,
 }
 
-const fn row(name: &'static str, symbol: &'static str, dimension: Dimension, meaning: &'static str) -> StateVariable {
+/// A row of the table.
+pub const fn row(
+    name: &'static str,
+    symbol: &'static str,
+    dimension: Dimension,
+    meaning: &'static str,
+) -> StateVariable {
     StateVariable { name, symbol, dimension, meaning }
 }
 
@@ -25,9 +31,10 @@ pub const FAILURE_INDEX: usize = 8;
 pub const FAILED: usize = 9;
 pub const ALIVE: usize = 10;
 
-const FAILED_ROW: StateVariable =
+/// The rows of the latch and of the flag for element deletion, which every law has.
+pub const FAILED_ROW: StateVariable =
     row("failed", "failed", NUMBER, "the latch: 1 once the point has failed; 0 at the start");
-const ALIVE_ROW: StateVariable =
+pub const ALIVE_ROW: StateVariable =
     row("alive", "alive", NUMBER, "1 - failed, written on every call and never read: for element deletion");
 
 /// The state of the hyperelastic law. Energies are per reference volume.

@@ -3,7 +3,6 @@
 
 pub mod block;
 pub mod deformations;
-pub mod dual;
 pub mod truth;
 
 use std::str::FromStr;

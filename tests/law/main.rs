@@ -12,4 +12,5 @@ mod parameters;
 mod properties;
 mod tangent;
 mod truth;
+mod user;
 mod wave_speed;

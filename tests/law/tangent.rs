@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 
 use crate::common::block::Number;
 use crate::common::deformations::{Ranges, Sample, deformation, samples};
-use crate::common::dual::Dual;
 use crate::common::truth::cases;
 use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, Vector6};
 use proptest::prelude::*;
@@ -15,6 +14,7 @@ use toron::law::state::{FAILED, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::law::stress::{components, first_piola_kirchhoff, matrix, pulled_back, truesdell_of_jaumann};
 use toron::law::voigt::PAIRS;
+use toron::user::Dual;
 use toron::{Arrays, Level};
 use toron::{Hyperelastic, Point, Request};
 
@@ -124,7 +124,7 @@ fn truth() {
 // Dual numbers
 
 /// Cauchy and second Piola–Kirchhoff stress of F + ε dF.
-fn dual_stresses(law: &Hyperelastic<Dual>, f: &Matrix3<f64>, df: &Matrix3<f64>) -> [[Dual; 6]; 2] {
+fn dual_stresses(law: &Hyperelastic<Dual<f64>>, f: &Matrix3<f64>, df: &Matrix3<f64>) -> [[Dual<f64>; 6]; 2] {
     let columns = std::array::from_fn(|j| std::array::from_fn(|i| Dual::new(f[(i, j)], df[(i, j)])));
     let point = law.point_along(&columns, None, &FRESH.map(Dual::splat), Request::ALL);
     assert_eq!(point.status, status::OK);
@@ -132,7 +132,7 @@ fn dual_stresses(law: &Hyperelastic<Dual>, f: &Matrix3<f64>, df: &Matrix3<f64>) 
     [point.stress, std::array::from_fn(|c| modes[0][c] + modes[1][c] + modes[2][c] + modes[3][c])]
 }
 
-fn slopes(s: &[Dual; 6]) -> Vector6<f64> {
+fn slopes(s: &[Dual<f64>; 6]) -> Vector6<f64> {
     Vector6::from_fn(|c, _| s[c].slope)
 }
 

@@ -34,9 +34,8 @@ impl Material {
     /// A property that is missing, or values that the law refuses.
     pub fn new(preset: &Preset, units: &UnitSystem, fibre: Option<[f64; 3]>) -> Result<Material, Error> {
         let mut values = preset.complete(units)?;
-        let first = preset.law.description().fibre;
-        if let Some(fibre) = fibre {
-            values[first..first + 3].copy_from_slice(&fibre);
+        for (i, component) in preset.law.description().fibre_components().zip(fibre.into_iter().flatten()) {
+            values[i] = component;
         }
         let law = Law::new(preset.law, &values, Rotation::Fibre, Criterion::LargestPrincipal);
         law.map_err(|error| match error {
@@ -90,8 +89,7 @@ impl Material {
 
     /// Where the fibre's three components are among the values.
     pub fn fibre(&self) -> std::ops::Range<usize> {
-        let first = self.law.description().fibre;
-        first..first + 3
+        self.law.description().fibre_components()
     }
 
     /// What the card is, where its values come from, and their units.

@@ -163,10 +163,9 @@ impl Source<'_> {
         let mut values: Vec<Option<f64>> = given.collect();
         let mut places = vec![None; table.len()];
         if let Some(fibre) = &file.fibre {
-            let first = law.description().fibre;
-            for (i, &component) in fibre.get_ref().0.iter().enumerate() {
-                values[first + i] = Some(component);
-                places[first + i] = Some(fibre.span());
+            for (i, &component) in law.description().fibre_components().zip(&fibre.get_ref().0) {
+                values[i] = Some(component);
+                places[i] = Some(fibre.span());
             }
         }
         for (name, value) in &file.properties {

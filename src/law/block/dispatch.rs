@@ -17,13 +17,13 @@ use super::pointers::Pointers;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
-use crate::law::number::real::{Lanes, Scalar};
+use crate::law::number::real::Lanes;
 use crate::law::number::registers::Registers;
 use crate::law::response::Request;
 use crate::law::status;
 
 /// A precision that the block kernels are built for: f32 or f64.
-pub trait Precision: Scalar {
+pub trait Precision: Registers {
     /// Runs the kernels of the hyperelastic law at a level.
     ///
     /// # Safety

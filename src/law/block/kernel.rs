@@ -65,7 +65,7 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
 
 /// The least (worst) of the status codes in the lanes, or 0.
 #[inline(always)]
-pub(super) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
+pub(crate) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
     let mut stored = [0; WIDEST];
     // SAFETY: no register has more than WIDEST lanes.
     unsafe { codes.store_integers(stored.as_mut_ptr()) };

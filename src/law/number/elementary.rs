@@ -10,6 +10,9 @@
 //! | `ln_1p(x)` = ln(1 + x) | 3.0 | 3.0 | x > −1 |
 //! | `asinh(s)` | 4.5 | 4.5 | 0 ≤ s ≤ 1e150 (f64), 1e18 (f32) |
 //! | (asinh s)/s | 6.5 | 6.5 | as above |
+//! | `ln(x)` | 3.0 | 3.0 | normal x |
+//! | `exp(x)` | 1.5 | 1.5 | results that are normal numbers |
+//! | `powf(x, q)` = x^q | 1.5 + 2 \|q\| | 1.5 + 2 \|q\| | normal x, \|q\| ≤ 1000; as for `power`, but above the range infinite |
 //! | `power(i, q)` = i^q | 1.2 + 1.5 q | 1.2 + 1.8 q | normal i ≥ 0, 0 < q ≤ 39; results below about 2^−1001 (f64), 2^−105 (f32) are 0; above 2^1004 (f64) unspecified, above 2^127 (f32) infinite |
 
 use core::f64::consts::{LN_2, LOG2_E};
@@ -89,6 +92,16 @@ impl<R: Real> Logarithm<R> {
 #[inline(always)]
 pub fn ln_sum<R: Real>(y: R, c: R) -> R {
     Logarithm::new(y).finish(c, y.reciprocal())
+}
+
+/// ln x: −∞ at 0 and for subnormal numbers, NaN below.
+#[inline(always)]
+pub fn ln<R: Real>(x: R) -> R {
+    let (zero, least, infinity) = (R::splat(0.0), R::splat(R::MIN_POSITIVE), R::splat(f64::INFINITY));
+    let logarithm = Logarithm::new(x);
+    let normal = logarithm.k.mul_add(R::splat(LN_2), logarithm.of_mantissa());
+    let special = R::select(x.lt(zero), R::splat(f64::NAN), R::select(x.lt(least), -infinity, x));
+    R::select(least.le(x) & x.lt(infinity), normal, special)
 }
 
 /// ln(1 + x), x > −1.
@@ -259,4 +272,53 @@ impl<R: Real> Reduced<R> {
 #[inline(always)]
 pub fn power<R: Real>(i: R, q: &Exponent<R>) -> R {
     Power::new(i).reduce(q).finish()
+}
+
+/// The greatest exponent of two of a finite number, and that of the least normal one.
+#[inline(always)]
+fn exponents<R: Real>() -> (R, R) {
+    (R::splat(R::EXPONENTS.1 + 19.0), R::splat(R::EXPONENTS.0 - 21.0))
+}
+
+/// 2^n e^r for |r| ≤ ½ ln 2 and any integer n: ∞ and 0 where it is beyond the normal numbers.
+#[inline(always)]
+fn scaled_exponential<R: Real>(n: R, r: R) -> R {
+    let (most, least) = exponents::<R>();
+    let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
+    // Twice, since 2^n may be too large where the product is not.
+    let first = R::select(most.lt(n), R::splat(1.0), R::splat(0.0));
+    let value = exponential.times_power_of_two((n - first).max(least).min(most)).times_power_of_two(first);
+    let value = R::select((most + R::splat(1.0)).lt(n), R::splat(f64::INFINITY), value);
+    R::select(n.lt(least), R::splat(0.0), value)
+}
+
+/// eˣ: ∞ and 0 where it is beyond the normal numbers.
+#[inline(always)]
+pub fn exp<R: Real>(x: R) -> R {
+    // ln 2 = high + low, where the product of `high` and the exponent of any number is exact (32 bits of 53; 15 of 24).
+    let double = R::EPSILON < 1e-10;
+    let high = if double { f64::from_bits(0x3fe6_2e42_fee0_0000) } else { 0.693_145_751_953_125 };
+    let low = if double { 1.908_214_929_270_587_7e-10 } else { LN_2 - high };
+    let bound = R::splat(if double { 750.0 } else { 110.0 });
+    let inside = (-bound).lt(x) & x.lt(bound);
+    let within = R::select(inside, x, R::splat(0.0));
+    let n = (within * R::splat(LOG2_E)).round();
+    let r = n.mul_add(R::splat(-low), n.mul_add(R::splat(-high), within));
+    let beyond = R::select(x.lt(R::splat(0.0)), R::splat(0.0), R::select(bound.le(x), R::splat(f64::INFINITY), x));
+    R::select(inside, scaled_exponential(n, r), beyond)
+}
+
+/// x^q for |q| up to 1000: ∞ and 0 where it is beyond the numbers that [`power`] has; 0^q is 0, 1 or ∞; NaN for x < 0.
+#[inline(always)]
+pub fn powf<R: Real>(x: R, q: R) -> R {
+    let (zero, one, infinity) = (R::splat(0.0), R::splat(1.0), R::splat(f64::INFINITY));
+    let Reduced { n, r, .. } = Power::new(x).reduce(&Exponent::new(q));
+    let (most, least) = (exponents::<R>().0, R::splat(R::EXPONENTS.0));
+    let value = scaled_exponential(n.max(least).min(most + R::splat(2.0)), r);
+    let value = R::select(n.lt(least), zero, value);
+    let of_zero = R::select(zero.lt(q), zero, R::select(q.lt(zero), infinity, one));
+    let value = R::select(R::splat(R::MIN_POSITIVE).le(x), value, of_zero);
+    // A negative or infinite x, and what is no number.
+    let finite = zero.le(x) & x.lt(infinity) & (q * zero).le(zero);
+    R::select(finite, value, R::splat(f64::NAN) * x)
 }

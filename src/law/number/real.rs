@@ -6,6 +6,8 @@
 use core::mem::MaybeUninit;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
+use super::elementary;
+
 /// A real number, or several of them side by side.
 ///
 /// `mul_add` may be fused where the processor does so; every other operation is the correctly rounded one of IEEE 754.
@@ -33,6 +35,12 @@ pub trait Real:
     const LN: &'static [f64];
     const EXP: &'static [f64];
 
+    /// A mask that holds nowhere.
+    #[inline(always)]
+    fn never() -> Self::Mask {
+        let zero = Self::splat(0.0);
+        zero.lt(zero)
+    }
     /// The same value in every lane, rounded to this precision.
     fn splat(x: f64) -> Self;
     /// `self · a + b`.
@@ -74,6 +82,22 @@ pub trait Real:
     #[inline(always)]
     fn quotient(self, divisor: Self, _reciprocal: Self) -> Self {
         self / divisor
+    }
+    /// ln x to within 3 ulp; −∞ at 0, NaN below. A subnormal number counts as 0.
+    #[inline(always)]
+    fn ln(self) -> Self {
+        elementary::ln(self)
+    }
+    /// eˣ to within 1.5 ulp; 0 where it is below the normal numbers, ∞ above them.
+    #[inline(always)]
+    fn exp(self) -> Self {
+        elementary::exp(self)
+    }
+    /// x^q to within 1.5 + 2 |q| ulp, for |q| up to 1000; 0 where it is nearly as small as the least normal number (below 2^−1001, in
+    /// single precision 2^−105), ∞ above them. NaN for x < 0; a subnormal x counts as 0.
+    #[inline(always)]
+    fn powf(self, exponent: Self) -> Self {
+        elementary::powf(self, exponent)
     }
 }
 

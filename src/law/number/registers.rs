@@ -7,7 +7,7 @@ use super::real::{Lanes, Scalar};
 use super::x86;
 
 /// The number types of a precision: several points in lanes at each level of instructions, and a single point.
-pub trait Registers: Scalar {
+pub trait Registers: Scalar + Lanes<Self> {
     /// Instructions that every processor of the architecture has.
     type Baseline: Lanes<Self>;
     /// AVX2 with fused multiply-add.

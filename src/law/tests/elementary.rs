@@ -10,10 +10,11 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use fastrand::Rng;
 
-use crate::law::number::elementary::{Asinh, Exponent, ln_1p, ln_sum, power};
+use crate::law::number::elementary::{Asinh, Exponent, exp, ln, ln_1p, ln_sum, power, powf};
 use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
 use crate::law::number::registers::Registers;
+use crate::law::number::twice::Twice;
 #[cfg(target_arch = "x86_64")]
 use crate::law::number::x86;
 
@@ -107,6 +108,7 @@ fn everywhere<T: Number, const I: usize, const O: usize>(
     #[cfg(target_arch = "x86_64")]
     if Level::best() >= Level::Avx2 {
         results.push(("one point", in_lanes::<T, T::Point, I, O>(function, arguments)));
+        results.push(("two registers", in_lanes::<T, Twice<T::Avx2>, I, O>(function, arguments)));
     }
     results
 }
@@ -341,9 +343,126 @@ fn powers_at_the_ends_of_the_range() {
     }
 }
 
+/// The functions that laws of one's own are written with.
+struct Public;
+impl Function<1, 2> for Public {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 2] {
+        [ln(x), exp(x)]
+    }
+}
+
+struct Logarithm;
+impl Function<1, 1> for Logarithm {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 1] {
+        [ln(x)]
+    }
+}
+
+struct Exponential;
+impl Function<1, 1> for Exponential {
+    fn of<R: Real>(&self, [x]: [R; 1]) -> [R; 1] {
+        [exp(x)]
+    }
+}
+
+struct AnyPower;
+impl Function<2, 1> for AnyPower {
+    fn of<R: Real>(&self, [x, q]: [R; 2]) -> [R; 1] {
+        [powf(x, q)]
+    }
+}
+
+#[test]
+fn logarithms_and_exponentials() {
+    let arguments: Vec<_> = positive().into_iter().filter(|&x| x != 1.0).map(|x| [x]).collect();
+    within([("ln", LN.0)], &Logarithm, &arguments, |[x]: [f64; 1]| [reference(x).ln()], none);
+    let arguments: Vec<_> = positive_single().filter(|&x| x != 1.0).map(|x| [x]).collect();
+    within([("ln", LN.1)], &Logarithm, &arguments, |[x]: [f32; 1]| [f64::from(x).ln()], none);
+
+    let small = samples(-40.0..0.0, 2_000).map(f64::exp).flat_map(|x| [x, -x]);
+    let normal =
+        samples(-708.3..709.7, 20_000).chain(samples(-1.0..1.0, 10_000)).chain(small).chain([709.782, -708.39]);
+    let arguments: Vec<_> = normal.map(|x| [x]).collect();
+    within([("exp", EXP.0)], &Exponential, &arguments, |[x]: [f64; 1]| [reference(x).exp()], none);
+    let normal = samples(-87.3..88.7, 200_000).chain(samples(-1.0..1.0, 100_000)).chain([88.722, -87.33]);
+    let arguments: Vec<_> = normal.map(|x| [x as f32]).collect();
+    within([("exp", EXP.1)], &Exponential, &arguments, |[x]: [f32; 1]| [f64::from(x).exp()], none);
+}
+
+#[test]
+fn any_powers() {
+    let bases: Vec<f64> = samples(-30.0..30.0, 400).map(f64::exp).chain(samples(0.5..2.0, 400)).collect();
+    let about_one = || samples(-3e-3..3e-3, 300).map(|x| 1.0 + x);
+    for q in exponents().into_iter().flat_map(|q| [q, -q]).chain([-1000.0, 77.7, 1000.0]) {
+        let arguments: Vec<_> = bases.iter().copied().chain(about_one()).map(|x| [x, q]).collect();
+        let inside = |least: f64, most: f64| move |&[x, q]: &[f64; 2]| least < q * x.log2() && q * x.log2() < most;
+        let double: Vec<_> = arguments.iter().copied().filter(inside(-1000.9, 1023.9)).collect();
+        let exact = |[x, q]: [f64; 2]| [reference(x).powf(&reference(q))];
+        let name = format!("x^{q}");
+        within([(&name, 1.5 + 2.0 * q.abs())], &AnyPower, &double, exact, none);
+        let single: Vec<_> =
+            arguments.iter().copied().filter(inside(-104.9, 127.9)).map(|x| x.map(|x| x as f32)).collect();
+        let exact = |[x, q]: [f32; 2]| [f64::from(x).powf(f64::from(q))];
+        within([(&name, 1.5 + 2.0 * q.abs())], &AnyPower, &single, exact, none);
+    }
+}
+
+/// Beyond the normal numbers, and where there is no real number.
+#[test]
+fn public_functions_at_the_ends_of_the_range() {
+    macro_rules! check {
+        ($t:ident) => {
+            let (inf, nan, tiny) = ($t::INFINITY, $t::NAN, $t::MIN_POSITIVE / 2.0);
+            let same = |a: $t, b: $t| a == b || (a.is_nan() && b.is_nan());
+            let cases = [
+                (0.0, -inf, 1.0),
+                (-0.0, -inf, 1.0),
+                (tiny, -inf, 1.0),
+                (-1.0, nan, (-1.0 as $t).exp()),
+                (1.0, 0.0, (1.0 as $t).exp()),
+                (inf, inf, inf),
+                (-inf, nan, 0.0),
+                (nan, nan, nan),
+                (1e4, (1e4 as $t).ln(), inf),
+                (-1e4, nan, 0.0),
+            ];
+            for (level, results) in everywhere(&Public, &cases.map(|(x, ..)| [x])) {
+                for ([logarithm, exponential], (x, a, b)) in results.into_iter().zip(cases) {
+                    let near = |x: $t, y: $t| same(x, y) || (x - y).abs() <= 3.0 * $t::EPSILON * y.abs();
+                    assert!(near(logarithm, a) && near(exponential, b), "{level} {x}: {logarithm} {exponential}");
+                }
+            }
+            let cases = [
+                (0.0, 2.0, 0.0),
+                (0.0, -2.0, inf),
+                (0.0, 0.0, 1.0),
+                (tiny, 0.5, 0.0),
+                (-1.0, 2.0, nan),
+                (1.0, 1000.0, 1.0),
+                (7.5, 0.0, 1.0),
+                (2.0, 2000.0, inf),
+                (2.0, -2000.0, 0.0),
+                (4.0, -1.0, 0.25),
+                (nan, 1.0, nan),
+                (1.0, nan, nan),
+                (1.0, inf, nan),
+            ];
+            for (level, results) in everywhere(&AnyPower, &cases.map(|(x, q, _)| [x, q])) {
+                for ([found], (x, q, wanted)) in results.into_iter().zip(cases) {
+                    assert!(same(found, wanted), "{level} {x}^{q}: {found}, not {wanted}");
+                }
+            }
+        };
+    }
+    check!(f64);
+    check!(f32);
+}
+
 // The bounds in double and single precision, as in the table of `law/number/elementary.rs`. For the power, (a, b) stands for
 // a + b q.
 const LN_SUM: (f64, f64) = (3.0, 3.0);
+const LN: (f64, f64) = (3.0, 3.0);
+const EXP: (f64, f64) = (1.5, 1.5);
 const LN_1P: (f64, f64) = (3.0, 3.0);
 const ASINH: (f64, f64) = (4.5, 4.5);
 const RATIO: (f64, f64) = (6.5, 6.5);

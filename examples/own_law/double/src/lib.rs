@@ -1,0 +1,3 @@
+//! The reinforced solid for every solver whose real numbers are of double precision.
+
+toron_solvers::export! { f64; reinforced_solid::ReinforcedSolid as "REINFORCED", user 3; }

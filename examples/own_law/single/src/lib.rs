@@ -1,0 +1,3 @@
+//! The reinforced solid for every solver whose real numbers are of single precision.
+
+toron_solvers::export! { f32; reinforced_solid::ReinforcedSolid as "REINFORCED", user 3; }

@@ -1,0 +1,76 @@
+//! What makes a library of a material law for every solver: the symbols that each of them looks for, and the routines of the solver
+//! by which a job with a wrong deck ends.
+//!
+//! A library for all of them, of a law of your own and of whatever laws are to be beside it, is a package of crate type `cdylib`
+//! (`staticlib` too, for LS-DYNA's shims) with this as its only content:
+//!
+//! ```ignore
+//! toron_solvers::export! { f64; ReinforcedSolid as "REINFORCED", user 3; }
+//! ```
+//!
+//! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
+//! macros, one for each solver.
+
+mod abaqus;
+mod c;
+mod calculix;
+mod mgis;
+mod openradioss;
+
+/// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
+/// precision alone.
+///
+/// For each law its type ([`UserMaterial`](toron::user::UserMaterial), or toron's own [`Hyperelastic`](toron::Hyperelastic) and
+/// [`LinearElastic`](toron::LinearElastic)), its name, a C identifier in capitals, and its number in OpenRadioss, `/MAT/USERnn`. Two laws
+/// of one name or number do not compile.
+#[macro_export]
+macro_rules! export {
+    ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {
+        const _: () = $crate::assert_distinct(&[$($name),+], &[$($number),+]);
+        $crate::abaqus! { $t; $($law as $name, user $number;)+ }
+        $crate::c! { $t; $($law as $name, user $number;)+ }
+        $crate::calculix! { $t; $($law as $name, user $number;)+ }
+        $crate::mgis! { $t; $($law as $name, user $number;)+ }
+        $crate::openradioss! { $t; $($law as $name, user $number;)+ }
+    };
+}
+
+/// Checks names and numbers of a list of laws at compile time.
+#[doc(hidden)]
+pub const fn assert_distinct(names: &[&str], numbers: &[i32]) {
+    let mut i = 0;
+    while i < names.len() {
+        assert!(
+            is_name(names[i].as_bytes()),
+            "a law's name is made of capitals, digits and underscores, and begins with a capital"
+        );
+        assert!(0 < numbers[i] && numbers[i] < 100, "a law's number in OpenRadioss is from 1 to 99");
+        let mut k = 0;
+        while k < i {
+            assert!(!same(names[i].as_bytes(), names[k].as_bytes()), "two laws have the same name");
+            assert!(numbers[i] != numbers[k], "two laws have the same number");
+            k += 1;
+        }
+        i += 1;
+    }
+}
+
+const fn is_name(name: &[u8]) -> bool {
+    let mut i = 0;
+    while i < name.len() {
+        let capital = name[i].is_ascii_uppercase();
+        if !capital && (i == 0 || !(name[i].is_ascii_digit() || name[i] == b'_')) {
+            return false;
+        }
+        i += 1;
+    }
+    !name.is_empty()
+}
+
+const fn same(a: &[u8], b: &[u8]) -> bool {
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}

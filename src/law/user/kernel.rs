@@ -1,0 +1,373 @@
+//! Blocks of points of a law in formulas, at every level of instructions.
+
+use core::ops::Range;
+
+use super::{Array, Response, Step, User, UserMaterial};
+use crate::law::block::{Precision, check_layout, distances, least_code};
+use crate::law::error::Error;
+use crate::law::failure::Failure;
+use crate::law::interface::Points;
+use crate::law::kinematics::FibreFrame;
+use crate::law::number::level::Level;
+use crate::law::number::real::{Lanes, Real};
+use crate::law::number::twice::Twice;
+use crate::law::number::vector::{Matrix, accurate_cross, dot, is_finite};
+use crate::law::response::nan_unless_finite;
+use crate::law::status;
+use crate::law::wave_speed::{self, wave_speed};
+
+/// The results at the points in the lanes, as they are stored.
+pub(super) struct Outcome<R, S> {
+    pub stress: [R; 6],
+    pub own: S,
+    pub failed: R,
+    pub alive: R,
+    pub wave_modulus: R,
+    /// The status code, as a number.
+    pub status: R,
+    /// 1 where the point is neither failed nor impossible to evaluate, else 0.
+    pub active: R,
+}
+
+/// F, fibre and old state of the points in the lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Given<R: Real, S> {
+    pub f_old: Matrix<R>,
+    pub f: Matrix<R>,
+    pub fibre: [R; 3],
+    /// Where the fibre direction is finite and not zero.
+    pub usable: R::Mask,
+    pub own: S,
+    pub failed: R,
+}
+
+impl<R: Real, S: Array<R>> Given<R, S> {
+    /// A point at rest, with the fibre direction of the properties.
+    #[inline(always)]
+    pub fn at_rest<M: UserMaterial, T: Precision>(law: &User<M, T>) -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let identity = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        let [x, y, z] = law.fibre;
+        let fibre = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
+        Given { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+    }
+
+    /// What the law is evaluated from.
+    #[inline(always)]
+    pub fn step(&self) -> Step<R, S> {
+        Step { f_old: self.f_old, f: self.f, jacobian: determinant(&self.f), fibre: self.fibre, state: self.own }
+    }
+
+    /// The results, from what the law has answered: those of points that have failed before, or that cannot be evaluated, are
+    /// replaced.
+    ///
+    /// An entry of F that is not finite makes det F not finite.
+    #[inline(always)]
+    pub fn finish<T>(
+        &self,
+        step: &Step<R, S>,
+        response: &Response<R, S>,
+        wave_modulus: R,
+        at_rest: R,
+        reads_old_gradient: bool,
+    ) -> Outcome<R, S>
+    where
+        R: Lanes<T>,
+    {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let intact = Failure::intact(self.failed);
+        // A number times zero is zero unless it is NaN or infinite.
+        let mut check = step.jacobian.mul_add(zero, wave_modulus * zero);
+        check = check + (nan_unless_finite(&response.stress) + nan_unless_finite(response.state.as_ref()));
+        // A law may choose between an old value that is no number and another one.
+        check = check + nan_unless_finite(self.own.as_ref());
+        let mut upright = zero.lt(step.jacobian);
+        if reads_old_gradient {
+            let jacobian = determinant(&self.f_old);
+            check = jacobian.mul_add(zero, check);
+            upright = upright & zero.lt(jacobian);
+        }
+        let taken = check.le(zero) & upright & self.usable & intact;
+        let failed = R::select(response.failed, one, zero);
+        let alive = one - failed;
+        let (stress, own, status) = (response.stress, response.state, zero);
+        let mut outcome = Outcome { stress, own, failed, alive, wave_modulus, status, active: alive };
+        if R::any(!taken) {
+            self.restore(&mut outcome, taken, upright, reads_old_gradient);
+            outcome.wave_modulus = R::select(taken, wave_modulus, at_rest);
+        }
+        outcome
+    }
+
+    /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress to 0, and the
+    /// status to the reason: 0 for a point that has failed before.
+    #[inline(always)]
+    fn restore(&self, outcome: &mut Outcome<R, S>, taken: R::Mask, upright: R::Mask, reads_old_gradient: bool) {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let code = |status: i32| R::splat(f64::from(status));
+        let intact = Failure::intact(self.failed);
+        for x in &mut outcome.stress {
+            *x = R::select(taken, *x, zero);
+        }
+        let mut known = (self.failed * zero).le(zero);
+        for (x, &old) in outcome.own.as_mut().iter_mut().zip(self.own.as_ref()) {
+            let finite = (old * zero).le(zero);
+            known = known & finite;
+            *x = R::select(taken, *x, R::select(finite, old, zero));
+        }
+        let latched = R::select(intact, zero, one);
+        outcome.failed = R::select(taken, outcome.failed, latched);
+        outcome.alive = one - outcome.failed;
+        outcome.active = R::select(taken, outcome.alive, zero);
+        let mut finite = is_finite(&self.f);
+        if reads_old_gradient {
+            finite = finite & is_finite(&self.f_old);
+        }
+        // Later lines take precedence.
+        let why = R::select(upright, code(status::OVERFLOW), code(status::INVERTED));
+        let why = R::select(known, why, code(status::STATE_NOT_FINITE));
+        let why = R::select(self.usable, why, code(status::FIBRE_DIRECTION));
+        let why = R::select(finite, why, code(status::NOT_FINITE));
+        let why = R::select(intact, why, R::select(known, zero, code(status::STATE_NOT_FINITE)));
+        outcome.status = R::select(taken, zero, why);
+    }
+}
+
+/// det F, from vector products that are accurate to a rounding.
+#[inline(always)]
+fn determinant<R: Real>(f: &Matrix<R>) -> R {
+    dot(f[0], accurate_cross(f[1], f[2]))
+}
+
+impl<M: UserMaterial, T: Precision> User<M, T> {
+    /// Checks the points and evaluates them. Returns the worst of the status codes.
+    ///
+    /// # Errors
+    /// As for [`Law::step`](super::super::interface::Law::step).
+    ///
+    /// # Safety
+    /// As for [`Law::step`](super::super::interface::Law::step).
+    pub(super) unsafe fn block(&self, points: &Points<T>) -> Result<i32, Error> {
+        let n = points.n;
+        if n == 0 {
+            return Ok(status::OK);
+        }
+        if points.f_new.iter().any(|component| component.is_null()) {
+            return Err(Error::Null { name: "f_new" });
+        }
+        if M::DESCRIPTION.reads_old_gradient && points.f_old.iter().any(|component| component.is_null()) {
+            return Err(Error::Null { name: "f_old" });
+        }
+        let rows = M::DESCRIPTION.state.len();
+        if !points.state_old.is_null() || !points.state_new.is_null() {
+            check_layout(n, rows, points.leading_dimension, 1, distances!("the state"))?;
+        }
+        if !points.tangent.is_null() {
+            check_layout(n, points.measure.components(), points.leading_dimension, 1, distances!("tangent"))?;
+        }
+        if !points.wave_speed.is_null() {
+            wave_speed::check_density(points.density)?;
+        }
+        let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
+        // SAFETY: the caller's promise: the arrays are valid for n points, and `Level::best` is what the processor has.
+        Ok(unsafe {
+            if asks_for_derivatives {
+                self.with_derivatives(points)
+            } else {
+                self.run(points.level.unwrap_or(Level::Avx512).min(Level::best()), points)
+            }
+        })
+    }
+
+    /// Whether the law has a bound of its wave speed.
+    pub(super) fn bounds_waves(&self) -> bool {
+        let law = self.doubled();
+        let constants = law.constants::<f64>();
+        let rest = Given::at_rest(&law);
+        let step = rest.step();
+        M::wave_modulus(&constants, &step, &M::respond(&constants, &step)).is_some()
+    }
+
+    /// # Safety
+    /// As for [`block`](Self::block), on a processor that has the level's instructions.
+    unsafe fn run(&self, level: Level, points: &Points<T>) -> i32 {
+        let n = points.n;
+        let whole = |count: usize, first: usize| n - (n - first) % count;
+        // SAFETY: the caller's promise; the ranges are whole registers of the block's points.
+        unsafe {
+            match level {
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx2 | Level::Avx512 => {
+                    let wide = if level == Level::Avx512 { whole(<T::Avx512 as Lanes<T>>::COUNT, 0) } else { 0 };
+                    let worst = if wide > 0 { avx512(self, points, 0..wide) } else { status::OK };
+                    if wide < n { worst.min(avx2(self, points, wide..n)) } else { worst }
+                }
+                _ => {
+                    let part = whole(<T::Baseline as Lanes<T>>::COUNT, 0);
+                    let worst = sweep::<M, T, T::Baseline>(self, points, 0..part);
+                    if part < n { worst.min(sweep::<M, T, T>(self, points, part..n)) } else { worst }
+                }
+            }
+        }
+    }
+}
+
+/// # Safety
+/// As for [`sweep`], on a processor that has these instructions.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+unsafe fn avx512<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<T>, range: Range<usize>) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { sweep::<M, T, T::Avx512>(law, points, range) }
+}
+
+/// Two registers at a time, since the operations of one wait for one another; then one, and the last points one by one, by the same
+/// operations.
+///
+/// # Safety
+/// As for [`sweep`], with any number of points, on a processor that has these instructions.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+unsafe fn avx2<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<T>, range: Range<usize>) -> i32 {
+    let Range { start, end } = range;
+    let count = <T::Avx2 as Lanes<T>>::COUNT;
+    let (pairs, whole) = (end - (end - start) % (2 * count), end - (end - start) % count);
+    // SAFETY: the caller's promise; each range is whole registers of its type.
+    unsafe {
+        let of_pairs =
+            if start < pairs { sweep::<M, T, Twice<T::Avx2>>(law, points, start..pairs) } else { status::OK };
+        let of_one = if pairs < whole { sweep::<M, T, T::Avx2>(law, points, pairs..whole) } else { status::OK };
+        let rest = if whole < end { sweep::<M, T, T::Point>(law, points, whole..end) } else { status::OK };
+        of_pairs.min(of_one).min(rest)
+    }
+}
+
+/// Evaluates the points of a range of the block. Returns the worst status code.
+///
+/// # Safety
+/// As for [`User::block`], with a range of its points whose number is a multiple of COUNT, on a processor that has the lanes'
+/// instructions.
+#[inline(always)]
+unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
+    law: &User<M, T>,
+    points: &Points<T>,
+    range: Range<usize>,
+) -> i32 {
+    let constants = law.constants::<R>();
+    let rest = Given::<R, M::State<R>>::at_rest(law);
+    let zero = R::splat(0.0);
+    let at_rest = if points.wave_speed.is_null() { zero } else { wave_modulus::<M, R>(&constants, &rest) };
+    let (mut worst, mut i) = (zero, range.start);
+    let states = !points.state_old.is_null() && !points.state_new.is_null();
+    let usual = states && !points.stress[0].is_null() && points.fibre[0].is_null() && points.wave_speed.is_null();
+    // SAFETY: the points from i on fill a register.
+    unsafe {
+        if usual {
+            while i < range.end {
+                worst = worst.min(register::<M, T, R, true>(&constants, points, &rest, i, at_rest));
+                i += R::COUNT;
+            }
+        } else {
+            while i < range.end {
+                worst = worst.min(register::<M, T, R, false>(&constants, points, &rest, i, at_rest));
+                i += R::COUNT;
+            }
+        }
+    }
+    least_code(worst)
+}
+
+/// The bound of the law's wave modulus at a point; 0 for a law that has none.
+#[inline(always)]
+pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>, given: &Given<R, M::State<R>>) -> R {
+    let step = given.step();
+    M::wave_modulus(constants, &step, &M::respond(constants, &step)).unwrap_or(R::splat(0.0))
+}
+
+/// Evaluates the points of a register from `i` on. Returns their status codes. `USUAL`: the block has stress and both states, and
+/// neither fibres nor wave speeds.
+///
+/// # Safety
+/// As for [`sweep`], for these points.
+#[inline(always)]
+unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool>(
+    constants: &M::Constants<R>,
+    points: &Points<T>,
+    rest: &Given<R, M::State<R>>,
+    i: usize,
+    at_rest: R,
+) -> R {
+    let (law, zero) = (M::DESCRIPTION, R::splat(0.0));
+    let next_row = |row: *mut T| row.wrapping_add(points.leading_dimension);
+    // SAFETY: the arrays that the block has are valid for these points: the state for a row of each variable.
+    unsafe {
+        let mut given = *rest;
+        given.f = gradient(&points.f_new, i);
+        given.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { given.f };
+        if !USUAL && !points.fibre[0].is_null() {
+            let [x, y, z] = points.fibre;
+            let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
+            given.fibre = frame.m;
+            given.usable = usable;
+        }
+        if USUAL || !points.state_old.is_null() {
+            let mut row = points.state_old.wrapping_add(i);
+            for x in given.own.as_mut() {
+                *x = R::load(row);
+                row = next_row(row.cast_mut());
+            }
+            given.failed = R::load(row);
+        }
+        let step = given.step();
+        let response = M::respond(constants, &step);
+        let modulus = if USUAL || points.wave_speed.is_null() {
+            zero
+        } else {
+            M::wave_modulus(constants, &step, &response).unwrap_or(zero)
+        };
+        let outcome = given.finish(&step, &response, modulus, at_rest, law.reads_old_gradient);
+        if USUAL || !points.stress[0].is_null() {
+            let mut c = 0;
+            while c < 6 {
+                outcome.stress[c].store(points.stress[c].add(i));
+                c += 1;
+            }
+        }
+        if USUAL || !points.state_new.is_null() {
+            let mut row = points.state_new.wrapping_add(i);
+            for &x in outcome.own.as_ref() {
+                x.store(row);
+                row = next_row(row);
+            }
+            outcome.failed.store(row);
+            outcome.alive.store(next_row(row));
+        }
+        if !USUAL && !points.wave_speed.is_null() {
+            let density = R::splat(points.density.into());
+            wave_speed(outcome.wave_modulus, density).store(points.wave_speed.add(i));
+        }
+        if !points.active.is_null() {
+            outcome.active.store(points.active.add(i));
+        }
+        if !points.status.is_null() {
+            outcome.status.store_integers(points.status.add(i));
+        }
+        outcome.status
+    }
+}
+
+/// F by columns.
+///
+/// # Safety
+/// The components are valid for the points of a register from `i` on.
+#[inline(always)]
+unsafe fn gradient<T, R: Lanes<T>>(f: &[*const T; 9], i: usize) -> Matrix<R> {
+    // SAFETY: the caller's promise.
+    unsafe {
+        [
+            [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
+            [R::load(f[3].add(i)), R::load(f[4].add(i)), R::load(f[5].add(i))],
+            [R::load(f[6].add(i)), R::load(f[7].add(i)), R::load(f[8].add(i))],
+        ]
+    }
+}

@@ -1,0 +1,260 @@
+//! A law of your own, in safe Rust: its tables, and its stress as a function of F and of the old state. The hosts take it as they take
+//! the library's laws.
+//!
+//! The formulas are written once, over [`Real`]: a call evaluates them in both precisions, several points at a time in the
+//! processor's registers, and with derivatives for the tangent. What every law needs is done here: the properties are checked by their
+//! table, an F that is inverted or not finite and a result that does not fit the number format are reported by a status, and a point
+//! that has failed stays failed and has no stress.
+//!
+//! # Speed
+//!
+//! The formulas must be inlined into the kernels: `#[inline(always)]` on [`constants`](UserMaterial::constants),
+//! [`respond`](UserMaterial::respond) and every function that they call, operators, and the functions of [`vector`] on vectors and
+//! matrices. A closure, and `map` or `from_fn` on an array, is a function of its own, which may be called for each lane: such a
+//! law is right, but several times slower. `docs/guides/own-law.md` has a test for it.
+
+mod kernel;
+mod tangent;
+
+pub use super::description::Description;
+pub use super::number::dual::Dual;
+pub use super::number::real::Real;
+pub use super::number::vector;
+
+/// What the table of properties is made of.
+pub mod parameters {
+    pub use crate::law::parameters::{
+        DENSITY, Dimension, ENERGY_DENSITY, NUMBER, Property, STRESS, component, positive, positive_or_zero,
+    };
+}
+
+/// What the table of state variables is made of.
+pub mod state {
+    pub use crate::law::parameters::{ENERGY_DENSITY, NUMBER, STRESS};
+    pub use crate::law::state::{ALIVE_ROW as ALIVE, FAILED_ROW as FAILED, StateVariable, row as variable};
+}
+
+use super::block::Precision;
+use super::bounds::check;
+use super::error::Error;
+use super::interface::{Law, Points};
+use super::kinematics::FibreFrame;
+use super::number::vector::Matrix;
+use super::status;
+
+/// A law in formulas: implemented by a type without content, which stands for the law.
+///
+/// The stress must be that of an objective law: F → QF with a rotation Q turns it to QσQᵀ. Conversions between tangents rely on it.
+pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
+    const DESCRIPTION: Description;
+    /// `[R; N]`, N the number of properties.
+    type Properties<R: Real>: Array<R>;
+    /// `[R; N]`, N the number of state variables without the last two, `failed` and `alive`, which are kept for the law.
+    type State<R: Real>: Array<R>;
+    /// What is computed from the properties once for all points of a call.
+    type Constants<R: Real>: Copy;
+
+    /// Checks what the table of properties does not: relations between properties. They are within their bounds, and the fibre
+    /// direction is not zero.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] names the property, its value and what is allowed.
+    fn check(_properties: &Self::Properties<f64>) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// The constants of the formulas, from properties that have been checked.
+    fn constants<R: Real>(properties: &Self::Properties<R>) -> Self::Constants<R>;
+
+    /// The law: stress and new state at the end of a step. Written without branches on a point's value: a choice is
+    /// [`Real::select`].
+    fn respond<R: Real>(constants: &Self::Constants<R>, step: &Step<R, Self::State<R>>) -> Response<R, Self::State<R>>;
+
+    /// ρ0 c² for an upper bound c of the speed of every wave at the end of a step, from which explicit solvers compute their time
+    /// step. `None`: the bound is computed from the tangent, which takes about as long as ten evaluations, and may be √3 times as large
+    /// as the fastest wave.
+    fn wave_modulus<R: Real>(
+        _constants: &Self::Constants<R>,
+        _step: &Step<R, Self::State<R>>,
+        _response: &Response<R, Self::State<R>>,
+    ) -> Option<R> {
+        None
+    }
+}
+
+/// An array of numbers `[R; N]`, as a type without its length.
+pub trait Array<R>: Copy + AsRef<[R]> + AsMut<[R]> {
+    const LENGTH: usize;
+    fn filled(value: R) -> Self;
+}
+
+impl<R: Copy, const N: usize> Array<R> for [R; N] {
+    const LENGTH: usize = N;
+    #[inline(always)]
+    fn filled(value: R) -> Self {
+        [value; N]
+    }
+}
+
+/// What a law is evaluated from.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<R, S> {
+    /// F at the start of the step, by columns; that at its end where the description says that the law does not read it.
+    pub f_old: Matrix<R>,
+    /// F at its end, by columns, and det F, accurate to a few roundings. At points where it is not positive, or F not finite, the
+    /// results do not count.
+    pub f: Matrix<R>,
+    pub jacobian: R,
+    /// The unit vector of the fibre direction in the reference placement; of a law without fibre the first axis.
+    pub fibre: [R; 3],
+    /// The old state variables, without `failed` and `alive`; all 0 at the start.
+    pub state: S,
+}
+
+/// What a law answers.
+#[derive(Clone, Copy, Debug)]
+pub struct Response<R: Real, S> {
+    /// Cauchy stress 11 22 33 12 23 31, in global axes. It is that of the intact material where `failed` holds for the first time; it is
+    /// set to 0 in later calls.
+    pub stress: [R; 6],
+    /// The new state variables, without `failed` and `alive`.
+    pub state: S,
+    /// Where the point has failed in this step; [`Real::never`] for a law without failure.
+    pub failed: R::Mask,
+}
+
+/// A law in formulas, prepared from its properties.
+#[derive(Clone, Copy, Debug)]
+pub struct User<M: UserMaterial, T: Real> {
+    properties: M::Properties<T>,
+    fibre: [T; 3],
+    second: [[T; 3]; 2],
+}
+
+/// The state of a point: the law's own variables, then `failed` and `alive`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct UserState<S, T> {
+    pub own: S,
+    pub failed: T,
+    pub alive: T,
+}
+
+impl<S: Array<T>, T> UserState<S, T> {
+    const LENGTH: usize = S::LENGTH + 2;
+}
+
+impl<S: Array<T>, T> AsRef<[T]> for UserState<S, T> {
+    #[inline(always)]
+    fn as_ref(&self) -> &[T] {
+        const { assert!(size_of::<Self>() == Self::LENGTH * size_of::<T>(), "`State` must be an array of numbers") };
+        // SAFETY: `repr(C)`, an array of numbers and two numbers of the same type, of this size together: no padding.
+        unsafe { core::slice::from_raw_parts(core::ptr::from_ref(self).cast(), Self::LENGTH) }
+    }
+}
+
+impl<S: Array<T>, T> AsMut<[T]> for UserState<S, T> {
+    #[inline(always)]
+    fn as_mut(&mut self) -> &mut [T] {
+        const { assert!(size_of::<Self>() == Self::LENGTH * size_of::<T>(), "`State` must be an array of numbers") };
+        // SAFETY: as above.
+        unsafe { core::slice::from_raw_parts_mut(core::ptr::from_mut(self).cast(), Self::LENGTH) }
+    }
+}
+
+/// Checks at compile time that a law's tables fit its types.
+const fn check_tables<M: UserMaterial>() {
+    use super::parameters::same;
+    let Description { properties, state, failed, alive, energies, .. } = M::DESCRIPTION;
+    let own = <M::State<f64> as Array<f64>>::LENGTH;
+    assert!(properties.len() == <M::Properties<f64> as Array<f64>>::LENGTH, "a row of the table for each property");
+    assert!(state.len() == own + 2, "a row of the table for each state variable, and for `failed` and `alive`");
+    assert!(failed == own && same(state[own].name, "failed"), "`failed` is the last row but one of the state");
+    assert!(alive == own + 1 && same(state[own + 1].name, "alive"), "`alive` is the last row of the state");
+    assert!(energies.end <= own, "the energies are among the law's own state variables");
+}
+
+impl<M: UserMaterial, T: Precision> User<M, T> {
+    /// Checks the properties, in the order of the description, and prepares the law.
+    ///
+    /// # Errors
+    /// The first property that is wrong, with its value and what is allowed.
+    pub fn new(properties: &[T]) -> Result<Self, Error> {
+        const { check_tables::<M>() };
+        check(M::DESCRIPTION.properties, properties)?;
+        let (zero, one) = (T::splat(0.0), T::splat(1.0));
+        let mut own = M::Properties::<T>::filled(zero);
+        let mut doubled = M::Properties::<f64>::filled(0.0);
+        for ((to, double), &from) in own.as_mut().iter_mut().zip(doubled.as_mut()).zip(properties) {
+            (*to, *double) = (from, from.into());
+        }
+        let frame = match M::DESCRIPTION.fibre {
+            None => FibreFrame::first_axis(),
+            Some(index) => {
+                let direction: [T; 3] =
+                    properties.get(index..).and_then(<[T]>::first_chunk).copied().unwrap_or([one, zero, zero]);
+                let (frame, usable) = FibreFrame::new(direction);
+                if !usable {
+                    let (code, value) = (status::PROPERTY_DIRECTION, direction.map(Into::into));
+                    let wanted = "any vector but zero";
+                    return Err(Error::Direction { code, index, name: "fibre direction", value, wanted });
+                }
+                frame
+            }
+        };
+        M::check(&doubled)?;
+        Ok(User { properties: own, fibre: frame.m, second: [frame.t1, frame.t2] })
+    }
+
+    /// The same law in double precision.
+    fn doubled(&self) -> User<M, f64> {
+        let mut properties = M::Properties::<f64>::filled(0.0);
+        for (to, &from) in properties.as_mut().iter_mut().zip(self.properties.as_ref()) {
+            *to = from.into();
+        }
+        let [a, b] = self.second;
+        let vector = |v: [T; 3]| v.map(Into::into);
+        User { properties, fibre: vector(self.fibre), second: [vector(a), vector(b)] }
+    }
+
+    /// The constants of the formulas in the lanes of `R`, or with derivatives.
+    #[inline(always)]
+    fn constants<R: Real>(&self) -> M::Constants<R> {
+        let mut properties = M::Properties::<R>::filled(R::splat(0.0));
+        for (to, &from) in properties.as_mut().iter_mut().zip(self.properties.as_ref()) {
+            *to = R::splat(from.into());
+        }
+        M::constants(&properties)
+    }
+}
+
+// SAFETY: the state has a number for each row of the table, which `new` checks at compile time, and the kernels access what
+// `Points` says.
+unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
+    const DESCRIPTION: Description = M::DESCRIPTION;
+    type State = UserState<M::State<T>, T>;
+
+    fn fresh() -> Self::State {
+        let zero = T::splat(0.0);
+        UserState { own: M::State::<T>::filled(zero), failed: zero, alive: zero }
+    }
+
+    fn new(properties: &[T]) -> Result<Self, Error> {
+        User::new(properties)
+    }
+
+    fn axes(&self) -> [[f64; 3]; 3] {
+        let [a, b] = self.second;
+        [self.fibre, a, b].map(|axis| axis.map(Into::into))
+    }
+
+    fn bulk_and_shear(&self) -> [T; 2] {
+        let modulus = self.doubled().wave_modulus_at_rest();
+        [T::splat(0.5 * modulus), T::splat(0.375 * modulus)]
+    }
+
+    unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
+        // SAFETY: the caller's promise is that of the block.
+        unsafe { self.block(points) }
+    }
+}
