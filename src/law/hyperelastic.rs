@@ -9,12 +9,16 @@
 //! with e = c1/λ, P = 1 − e⊗e, D̂ = a⊗a + b⊗b − t̂ P the deviator of the section, u = h2 a + h3 b, and the other quantities as
 //! in `kinematics`. It is Eq. 4.14 of the thesis pushed forward, without its quotient 0/0: 2 I_td/ŝ is
 //! smooth through ŝ = 0.
+//!
+//! `Kirchhoff` holds the four factors of τ. They are multiplied out twice: `cauchy` sums the modes in the axes of space, which is
+//! what a solver needs of every point, and `modes` keeps them apart and pulls them back to the reference placement, with the
+//! decomposition of F that `cauchy` does without. The tangents take D̂ and u from the same two functions of `kinematics` as `cauchy`.
 
 use super::failure::Failure;
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
 use super::number::elementary::{Exponent, Power};
 use super::number::real::Real;
-use super::number::vector::{along, scale};
+use super::number::vector::scale;
 use super::voigt::{square, sum, symmetric_product as product};
 
 /// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
@@ -110,12 +114,15 @@ impl<R: Real> Hyperelastic<R> {
         }
     }
 
-    /// Cauchy stress 11 22 33 12 23 31 of the intact points; 0 at points that have failed, undefined at points that cannot be
-    /// evaluated.
+    /// Cauchy stress σ = τ/J, 11 22 33 12 23 31, of the intact points; 0 at points that have failed, undefined at points that
+    /// cannot be evaluated.
     ///
-    /// With A = a·a, x = a·b and v = ½(A − b·b) a + x b the section's deviator is D̂ = (a⊗v + v⊗a)/A − d̂ P, d̂ = ½(A − b·b) +
-    /// x²/A, which keeps its digits if the section is hardly distorted. With the tension t, the pressure p, the factor f of D̂,
-    /// d = f d̂ and v' = (f/A) v, the stress is σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a, all divided by J.
+    /// The modes are summed before they are multiplied out: with the tension t, the pressure p, the factor f of the deviator,
+    /// d = f d̂ and v' = (f/(a·a)) v, see [`Section`](super::kinematics::Section),
+    ///
+    /// ```text
+    /// J σ = −(p + d) 1 + (t + p + d) e⊗e + a⊗v' + v'⊗a + (k_ld/λ⁴)(u⊗c1 + c1⊗u)
+    /// ```
     #[inline(always)]
     pub(crate) fn cauchy(
         &self,
@@ -126,17 +133,15 @@ impl<R: Real> Hyperelastic<R> {
     ) -> [R; 6] {
         let Kinematics { stretch: d, section, images: [c, a, b], strain } = kinematics;
         let zero = R::splat(0.0);
-        let distortion = k.distortion * d.inverse_jacobian;
-        let deviator = section.x23_square.mul_add(strain.inverse_a_square, section.delta);
-        // −(p + d)/J.
-        let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
-        let along_fibre = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
-        // If all three factors are zero, so is the stress: adding +0 makes a −0 positive.
+        // If all factors are zero, so is the stress.
         let factor = |x: R| R::select(intact, x, zero);
-        let (across, along_fibre) = (factor(across), factor(along_fibre));
-        let w = scale(along_fibre, c);
-        let share = factor(distortion * strain.inverse_a_square);
-        let v = along(scale(share * section.delta, a), share * section.x23, b);
+        let distortion = k.distortion * d.inverse_jacobian;
+        let deviator = section.deviator(strain.inverse_a_square);
+        let across = (-k.pressure).mul_add(d.inverse_jacobian, -(distortion * deviator));
+        let along = k.tension.mul_add(d.inverse_jacobian, -across) * d.inverse_square;
+        let (across, w) = (factor(across), scale(factor(along), c));
+        let v = section.beside_a(factor(distortion * strain.inverse_a_square), [a, b]);
+        // Adding +0 makes a −0 positive.
         let mut stress = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], w[0].mul_add(c[0], across))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], w[1].mul_add(c[1], across))),
@@ -146,8 +151,7 @@ impl<R: Real> Hyperelastic<R> {
             a[2].mul_add(v[0], a[0].mul_add(v[2], w[2].mul_add(c[0], zero))),
         ];
         if shear {
-            let factor = factor(k.shear * d.inverse_square * d.inverse_jacobian);
-            let u = along(scale(factor * d.h[0], a), factor * d.h[1], b);
+            let u = kinematics.slip(factor(k.shear * d.inverse_square * d.inverse_jacobian));
             for (i, j, x) in [(0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 1, 3), (1, 2, 4), (2, 0, 5)] {
                 stress[x] = u[i].mul_add(c[j], u[j].mul_add(c[i], stress[x]));
             }

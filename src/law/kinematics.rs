@@ -266,6 +266,9 @@ impl<R: Real> Stretch<R> {
 }
 
 /// The second stage: the section across the fibre.
+///
+/// Its deviator D̂ = a⊗a + b⊗b − t̂ P is computed as (a⊗v + v⊗a)/(a·a) − d̂ P, with [`deviator`](Self::deviator) for d̂ and
+/// [`beside_a`](Self::beside_a) for v, whose terms are all as small as ŝ: it keeps its digits if the section is hardly distorted.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
     /// ½(a·a − b·b), a·b and its square, a·a.
@@ -317,6 +320,18 @@ impl<R: Real> Section<R> {
             rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
+    }
+
+    /// d̂ = ½(a·a − b·b) + (a·b)²/(a·a), given 1/(a·a).
+    #[inline(always)]
+    pub fn deviator(&self, inverse_a_square: R) -> R {
+        self.x23_square.mul_add(inverse_a_square, self.delta)
+    }
+
+    /// `factor` v with v = ½(a·a − b·b) a + (a·b) b.
+    #[inline(always)]
+    pub fn beside_a(&self, factor: R, [a, b]: [[R; 3]; 2]) -> [R; 3] {
+        along(scale(factor * self.delta, a), factor * self.x23, b)
     }
 
     /// J_t and its reciprocal.
@@ -408,6 +423,15 @@ pub struct Kinematics<'a, R: Real> {
     /// F m, a and b.
     pub images: [[R; 3]; 3],
     pub strain: &'a Strain<R>,
+}
+
+impl<R: Real> Kinematics<'_, R> {
+    /// `factor` u with u = h2 a + h3 b = λ P F Fᵀ e, the direction of the longitudinal shear.
+    #[inline(always)]
+    pub fn slip(&self, factor: R) -> [R; 3] {
+        let [_, a, b] = self.images;
+        along(scale(factor * self.stretch.h[0], a), factor * self.stretch.h[1], b)
+    }
 }
 
 /// F N = Q R (thesis, Eq. 4.7): Q = (e, q1, q2) holds the current fibre direction and two axes across it, and

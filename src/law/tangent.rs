@@ -115,12 +115,11 @@ impl<R: Real> Bases<R> {
         let inverse_lambda = R::splat(1.0) / d.square.sqrt();
         let fibre = scale(inverse_lambda, *c);
         let e = square(R::splat(1.0), fibre);
-        // As in the stress, D = a⊗v + v⊗a − d1 P with v = (½(a·a − b·b) a + (a·b) b)/(a·a J_t).
+        // D = a⊗v + v⊗a − d1 P.
         let inverse_a_square = R::splat(1.0) / section.a_square;
-        let deviator = section.x23_square.mul_add(inverse_a_square, section.delta);
         let share = inverse_a_square * shape.inverse_area_ratio;
-        let v = along(scale(share * section.delta, *a), share * section.x23, *b);
-        let d1 = deviator * shape.inverse_area_ratio;
+        let d1 = section.deviator(inverse_a_square) * shape.inverse_area_ratio;
+        let v = section.beside_a(share, [*a, *b]);
         let d = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], d1.mul_add(e[0], -d1))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], d1.mul_add(e[1], -d1))),
@@ -236,7 +235,9 @@ impl<R: Real> Hyperelastic<R> {
             with_one = added(&with_one, -h_d, d);
         }
         if shear {
-            let slip = slip(kinematics, k.shear * over * bases.inverse_lambda, bases.fibre);
+            // τ_ld/J.
+            let slip = kinematics.slip(k.shear * over * bases.inverse_lambda);
+            let slip = symmetric_product(R::splat(2.0), bases.fibre, slip);
             with_fibre = added(&with_fibre, R::splat(-1.0), &slip);
             if measure == Measure::Jaumann {
                 with_one = added(&with_one, half, &slip);
@@ -569,14 +570,6 @@ fn along_fibre<R: Real>(m: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
 #[inline(always)]
 fn along_row<R: Real>([x, y, z]: [R; 3], [a, b, c]: [R; 3]) -> [R; 6] {
     [(x + x) * a, (y + y) * b, (z + z) * c, x.mul_add(b, y * a), y.mul_add(c, z * b), z.mul_add(a, x * c)]
-}
-
-/// `factor` λ (w⊗e + e⊗w) with w = P b e, b = F Fᵀ.
-#[inline(always)]
-fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] {
-    let Kinematics { stretch, images: [_, a, b], .. } = kinematics;
-    let across = along(scale(factor * stretch.h[0], a), factor * stretch.h[1], b);
-    symmetric_product(R::splat(2.0), e, across)
 }
 
 /// a + b.
