@@ -11,11 +11,20 @@
 //! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
 //! macros, one for each solver.
 
-mod abaqus;
-mod c;
-mod calculix;
-mod mgis;
-mod openradioss;
+#[doc(hidden)]
+pub mod abaqus;
+#[doc(hidden)]
+pub mod c;
+#[doc(hidden)]
+pub mod calculix;
+#[doc(hidden)]
+pub mod mgis;
+#[doc(hidden)]
+pub mod openradioss;
+
+// What the macros name, in whatever package they are used.
+#[doc(hidden)]
+pub use {libc, toron};
 
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
@@ -25,7 +34,7 @@ mod openradioss;
 /// of one name or number do not compile.
 #[macro_export]
 macro_rules! export {
-    ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {
+    ($t:ident; $($law:ty as $name:literal, user $number:literal);+ $(;)?) => {
         const _: () = $crate::assert_distinct(&[$($name),+], &[$($number),+]);
         $crate::abaqus! { $t; $($law as $name, user $number;)+ }
         $crate::c! { $t; $($law as $name, user $number;)+ }
