@@ -31,7 +31,24 @@ pub use {libc, toron};
 ///
 /// For each law its type ([`UserMaterial`](toron::user::UserMaterial), or toron's own [`Hyperelastic`](toron::Hyperelastic) and
 /// [`LinearElastic`](toron::LinearElastic)), its name, a C identifier in capitals, and its number in OpenRadioss, `/MAT/USERnn`. Two laws
-/// of one name or number do not compile.
+/// of one name or number do not compile:
+///
+/// ```no_run
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "LINEAR", user 2; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "YARN", user 2; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "LINEAR", user 1; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "yarn", user 1; }
+/// # fn main() {}
+/// ```
 #[macro_export]
 macro_rules! export {
     ($t:ident; $($law:ty as $name:literal, user $number:literal);+ $(;)?) => {
