@@ -42,7 +42,7 @@ impl<R: Real, S: Array<R>> Outcome<R, S> {
 
 /// F, fibre and old state of the points in the lanes.
 #[derive(Clone, Copy)]
-pub(super) struct Given<R: Real, S> {
+pub(super) struct Input<R: Real, S> {
     pub f_old: Matrix<R>,
     pub f: Matrix<R>,
     pub fibre: [R; 3],
@@ -52,7 +52,7 @@ pub(super) struct Given<R: Real, S> {
     pub failed: R,
 }
 
-impl<R: Real, S: Array<R>> Given<R, S> {
+impl<R: Real, S: Array<R>> Input<R, S> {
     /// A point at rest, with the fibre direction of the properties.
     #[inline(always)]
     pub fn at_rest<M: UserMaterial, T: Precision>(law: &User<M, T>) -> Self {
@@ -60,7 +60,7 @@ impl<R: Real, S: Array<R>> Given<R, S> {
         let identity = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
         let [x, y, z] = law.fibre;
         let fibre = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
-        Given { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+        Input { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
     }
 
     /// What the law is evaluated from.
@@ -186,7 +186,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     pub(super) fn bounds_waves(&self) -> bool {
         let law = self.doubled();
         let constants = law.constants::<f64>();
-        let rest = Given::at_rest(&law);
+        let rest = Input::at_rest(&law);
         let step = rest.step();
         M::wave_modulus(&constants, &step, &M::respond(&constants, &step)).is_some()
     }
@@ -257,7 +257,7 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     range: Range<usize>,
 ) -> i32 {
     let constants = law.constants::<R>();
-    let rest = Given::<R, M::State<R>>::at_rest(law);
+    let rest = Input::<R, M::State<R>>::at_rest(law);
     let zero = R::splat(0.0);
     let at_rest = if points.wave_speed.is_null() { zero } else { wave_modulus::<M, R>(&constants, &rest) };
     let (mut worst, mut i) = (zero, range.start);
@@ -282,8 +282,8 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
 
 /// The bound of the law's wave modulus at a point; 0 for a law that has none.
 #[inline(always)]
-pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>, given: &Given<R, M::State<R>>) -> R {
-    let step = given.step();
+pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>, input: &Input<R, M::State<R>>) -> R {
+    let step = input.step();
     M::wave_modulus(constants, &step, &M::respond(constants, &step)).unwrap_or(R::splat(0.0))
 }
 
@@ -297,7 +297,7 @@ pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>
 unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool>(
     constants: &M::Constants<R>,
     points: &Points<T>,
-    rest: &Given<R, M::State<R>>,
+    rest: &Input<R, M::State<R>>,
     i: usize,
     at_rest: R,
 ) -> Option<R> {
@@ -305,37 +305,37 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
     let next_row = |row: *mut T| row.wrapping_add(points.leading_dimension);
     // SAFETY: the arrays that the block has are valid for these points: the state for a row of each variable.
     unsafe {
-        let mut given = *rest;
-        given.f = gradient(&points.f_new, i);
-        given.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { given.f };
+        let mut input = *rest;
+        input.f = gradient(&points.f_new, i);
+        input.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { input.f };
         if !USUAL && !points.fibre[0].is_null() {
             let [x, y, z] = points.fibre;
             let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
-            given.fibre = frame.m;
-            given.usable = usable;
+            input.fibre = frame.m;
+            input.usable = usable;
         }
         if USUAL || !points.state_old.is_null() {
             let mut row = points.state_old.wrapping_add(i);
-            for x in given.own.as_mut() {
+            for x in input.own.as_mut() {
                 *x = R::load(row);
                 row = next_row(row.cast_mut());
             }
-            given.failed = R::load(row);
+            input.failed = R::load(row);
         }
-        let step = given.step();
+        let step = input.step();
         let response = M::respond(constants, &step);
         let modulus = if USUAL || points.wave_speed.is_null() {
             zero
         } else {
             M::wave_modulus(constants, &step, &response).unwrap_or(zero)
         };
-        let (taken, upright) = given.taken(&step, &response, modulus, law.reads_old_gradient);
+        let (taken, upright) = input.taken(&step, &response, modulus, law.reads_old_gradient);
         let mut outcome = Outcome::of(&response, modulus);
         if R::any(!taken) {
             if USUAL {
                 return None;
             }
-            given.restore(&mut outcome, taken, upright, at_rest, law.reads_old_gradient);
+            input.restore(&mut outcome, taken, upright, at_rest, law.reads_old_gradient);
         }
         if USUAL || !points.stress[0].is_null() {
             let mut c = 0;
