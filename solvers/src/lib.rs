@@ -11,6 +11,7 @@
 //! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
 //! macros, one for each solver.
 
+#[cfg(unix)]
 #[doc(hidden)]
 pub mod abaqus;
 #[doc(hidden)]
@@ -25,6 +26,7 @@ pub mod openradioss;
 // What the macros name, in whatever package they are used.
 #[doc(hidden)]
 pub use {libc, toron};
+
 
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
