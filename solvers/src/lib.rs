@@ -27,7 +27,6 @@ pub mod openradioss;
 #[doc(hidden)]
 pub use {libc, toron};
 
-
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
 ///
