@@ -5,13 +5,12 @@
 //! (derivation in `docs/reference/theory.md`)
 //!
 //! ```text
-//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙H + E⊙(G − τ_ld)
-//! H = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
+//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙Y + E⊙(G − τ_ld)
+//! Y = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
 //! ```
 //!
 //! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e
-//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in H (Y in `docs/reference/theory.md`), which becomes
-//! ½ K P + ½ τ_el + ½ τ_ld.
+//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in Y, which becomes ½ K P + ½ τ_el + ½ τ_ld.
 //!
 //! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b', where c, a
 //! and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by construction: only the
@@ -64,7 +63,7 @@ struct Factors<R> {
     /// W = ¼ W″, the compaction's curvature; π = ½ |W′|.
     compaction: R,
     pressure: R,
-    /// W1 = (k_td/4) a/s; K = W1 x; W2 = (k_td/4)(1 − x a/s)/s².
+    /// W1 = (k_td/4) θ/s with θ = 2 I_td; K = W1 x; W2 = (k_td/4)(1 − x θ/s)/s².
     distortion: R,
     stiffness: R,
     curvature: R,
@@ -174,11 +173,11 @@ impl<R: Real> Hyperelastic<R> {
     fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
         let (_, curvature) = self.compaction_slopes(strain, k);
-        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x a/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
+        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
         // series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this term is below a
         // rounding of that with W1.
         let square = (shape.s * shape.s).max(R::splat(R::EPSILON));
-        // a/s and x a/s.
+        // θ/s and x θ/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
         let stiffness = shape.cosh * ratio;
         let distortion = quarter * self.k_td * over;
@@ -208,11 +207,11 @@ impl<R: Real> Hyperelastic<R> {
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
         let f = self.factors(&bases.shape, kinematics.strain, k, over);
-        // H = h_p P − h_d D, G − H = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
+        // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
         // fibre is 0 but for roundings of the other terms.
-        let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
-        let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
-        let g_d = f.shear + h_d - f.distortion;
+        let (y_p, y_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
+        let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - y_p);
+        let g_d = f.shear + y_d - f.distortion;
         let Bases { e, d, .. } = &bases;
         let one = R::splat(1.0);
         let p = [one - e[0], one - e[1], one - e[2]];
@@ -225,14 +224,14 @@ impl<R: Real> Hyperelastic<R> {
             (-g_p).mul_add(e[4], along[4]),
             (-g_p).mul_add(e[5], along[5]),
         ];
-        let on_p = if measure == Measure::Jaumann { half * f.stiffness } else { h_p };
+        let on_p = if measure == Measure::Jaumann { half * f.stiffness } else { y_p };
         let on_e = if measure == Measure::Jaumann { half.mul_add(f.tension, -on_p) } else { -on_p };
         let mut with_one = multiple(on_e, e);
         for diagonal in with_one.iter_mut().take(3) {
             *diagonal = *diagonal + on_p;
         }
         if measure != Measure::Jaumann {
-            with_one = added(&with_one, -h_d, d);
+            with_one = added(&with_one, -y_d, d);
         }
         if shear {
             // τ_ld/J.

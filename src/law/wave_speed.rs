@@ -6,8 +6,8 @@
 //!
 //! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
 //! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
-//! - distortion:       ≤ ¼ k_td ((a/s) eᵃ + a)(1 − y²), a = 2 I_td, s = sinh a;
-//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t eᵃ (1 − y²) + 4 |P b e|).
+//! - distortion:       ≤ ¼ k_td ((θ/s) e^θ + θ)(1 − y²), θ = 2 I_td, s = sinh θ;
+//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t e^θ (1 − y²) + 4 |P b e|).
 //!
 //! The sum is linear in y², so that its maximum is at y² = 0 or y² = 1:
 //!
@@ -53,7 +53,7 @@ impl<R: Real> Hyperelastic<R> {
         let active = zero.le(-strain.i_tc);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
-        let grown = d.s + d.cosh; // eᵃ
+        let grown = d.s + d.cosh; // e^θ
         let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         // The stiffness is multiplied last: its square might overflow.

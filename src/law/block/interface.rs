@@ -136,7 +136,7 @@ impl<'a, T: Precision> Block<'a, T> {
 
 /// What a host passes with every block.
 #[derive(Clone, Copy)]
-pub enum Law<'a, T> {
+pub(crate) enum Law<'a, T> {
     Properties(&'a [T]),
     Prepared(&'a PreparedHyperelastic<T>),
 }
@@ -254,7 +254,7 @@ impl<T: Precision> Hyperelastic<T> {
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
-pub unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
+pub(crate) unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
     // Errors of the properties are reported before errors of the block.
     let law = match law {
         Law::Properties(properties) => Hyperelastic::new(properties)?,
