@@ -19,6 +19,8 @@ pub mod c;
 #[doc(hidden)]
 pub mod calculix;
 #[doc(hidden)]
+pub mod lsdyna;
+#[doc(hidden)]
 pub mod mgis;
 #[doc(hidden)]
 pub mod openradioss;
@@ -57,6 +59,7 @@ macro_rules! export {
         $crate::abaqus! { $t; $($law as $name, user $number;)+ }
         $crate::c! { $t; $($law as $name, user $number;)+ }
         $crate::calculix! { $t; $($law as $name, user $number;)+ }
+        $crate::lsdyna! { $t; $($law as $name, user $number;)+ }
         $crate::mgis! { $t; $($law as $name, user $number;)+ }
         $crate::openradioss! { $t; $($law as $name, user $number;)+ }
     };
