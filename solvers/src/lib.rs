@@ -25,6 +25,8 @@ pub mod mgis;
 #[doc(hidden)]
 pub mod openradioss;
 
+pub use c::c_header;
+
 // What the macros name, in whatever package they are used.
 #[doc(hidden)]
 pub use {libc, toron};
