@@ -17,6 +17,9 @@ mod calculix;
 mod mgis;
 mod openradioss;
 
+#[doc(hidden)]
+pub use toron;
+
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
 ///
