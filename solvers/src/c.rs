@@ -1,7 +1,251 @@
-//! c.
+//! C: for a law of the name `NAME` its tables, `NAME_prepare_f64` and `NAME_block_f64` or `_f32`; and the header with their prototypes.
+
+use toron::host::Material;
+use toron::host::c::{self, AsNumbers, prepared_size};
+use toron::law::interface::Law;
+use toron::law::status;
 
 #[doc(hidden)]
 #[macro_export]
 macro_rules! c {
-    ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {};
+    ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {$(
+        const _: () = {
+            use std::ffi::c_char;
+            use $crate::toron::host::c::{
+                ListedPoints, Named, PreparedOf, TableRow, listed_block, listed_prepare, listed_property, listed_state_variable,
+                status_message,
+            };
+            use $crate::toron::law::description::Description;
+
+            type Law = <$law as $crate::toron::host::Material<$t>>::Law;
+
+            static DESCRIPTION: Description = <Law as $crate::toron::law::interface::Law<$t>>::DESCRIPTION;
+
+            #[derive(Clone, Copy)]
+            pub struct Name;
+
+            impl Named<$t> for Name {
+                type Law = Law;
+                const PREPARED: &'static str = concat!($name, "_", stringify!($t));
+                const PREPARE: &'static str = concat!($name, "_prepare_", stringify!($t));
+                const POINTS: &'static str = concat!($name, "_points_", stringify!($t));
+            }
+
+            #[unsafe(export_name = concat!($name, "_prepare_", stringify!($t)))]
+            pub unsafe extern "C" fn prepare_law(
+                law: *mut PreparedOf<Name, $t>,
+                size: usize,
+                properties: *const $t,
+                count: usize,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise, in the header.
+                unsafe { listed_prepare::<Name, $t>(law, size, properties, count, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_block_", stringify!($t)))]
+            pub unsafe extern "C" fn evaluate_block(
+                law: *const PreparedOf<Name, $t>,
+                points: *const ListedPoints<Name, $t>,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise, in the header.
+                unsafe { listed_block::<Name, $t>(law, points, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_property_count"))]
+            pub extern "C" fn property_count() -> i32 {
+                DESCRIPTION.properties.len() as i32
+            }
+
+            #[unsafe(export_name = concat!($name, "_property"))]
+            pub unsafe extern "C" fn property(
+                index: i32,
+                row: *mut TableRow,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise, in the header.
+                unsafe { listed_property(&DESCRIPTION, index, row, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_state_count"))]
+            pub extern "C" fn state_count() -> i32 {
+                DESCRIPTION.state.len() as i32
+            }
+
+            #[unsafe(export_name = concat!($name, "_state_variable"))]
+            pub unsafe extern "C" fn state_variable(
+                index: i32,
+                row: *mut TableRow,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise, in the header.
+                unsafe { listed_state_variable(&DESCRIPTION, index, row, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_status_message"))]
+            pub unsafe extern "C" fn message_of_status(code: i32, message: *mut c_char, capacity: usize) -> i32 {
+                // SAFETY: the caller's promise, in the header.
+                unsafe { status_message(code, message, capacity) }
+            }
+        };
+    )+};
 }
+
+/// The header of a law in C, from its tables: what a library exports that has the law under this name, in either precision.
+pub fn c_header<M>(name: &str) -> String
+where
+    M: Material<f64> + Material<f32>,
+    <M as Material<f64>>::Law: AsNumbers<f64>,
+    <M as Material<f32>>::Law: AsNumbers<f32>,
+{
+    let law = <<M as Material<f64>>::Law as Law<f64>>::DESCRIPTION;
+    let properties = law.properties.iter().zip(0..).map(|(row, i)| {
+        let default = row.default.map_or_else(String::new, |value| format!(", default {value}"));
+        (row.name, i, format!("{} ({}): {}{default}", row.meaning, row.dimension.name, row.allowed))
+    });
+    let state = law.state.iter().zip(0..).map(|(row, i)| {
+        let comment = format!("{} ({})", row.meaning, row.dimension.name);
+        (row.name, i, comment)
+    });
+    let codes = status::TABLE.iter().map(|&(code, word, meaning)| (word, code, meaning.to_string()));
+    let enumeration = |kind: &str, rows: &mut dyn Iterator<Item = (&str, i32, String)>| -> String {
+        let row = |(word, value, comment): (&str, i32, String)| {
+            format!("    {name}_{kind}_{} = {value}, /* {comment} */\n", word.to_uppercase())
+        };
+        rows.map(row).collect()
+    };
+    let (properties, state, codes) = (
+        enumeration("PROPERTY", &mut { properties }),
+        enumeration("STATE", &mut { state }),
+        enumeration("STATUS", &mut { codes }),
+    );
+    let fibre = match law.fibre {
+        Some(_) => "In, 3 components: the fibre direction of each point, of any length; null: that of the properties.",
+        None => "Null: this law has no fibre.",
+    };
+    let f_old = if law.reads_old_gradient { "Must not be null." } else { "Not read by this law." };
+    let [n_properties, n_state, capacity] =
+        [law.properties.len(), law.state.len(), c::TORON_MESSAGE_CAPACITY].map(|count| count.to_string());
+    let mut header = BEGINNING.replace("{name}", name).replace("{title}", law.title).replace("{capacity}", &capacity);
+    header = header.replace("{n_properties}", &n_properties).replace("{n_state}", &n_state);
+    header = header.replace("{properties}", &properties).replace("{state}", &state).replace("{codes}", &codes);
+    let precisions = [
+        ("f64", "double", prepared_size::<f64, <M as Material<f64>>::Law>(), 8),
+        ("f32", "float", prepared_size::<f32, <M as Material<f32>>::Law>(), 4),
+    ];
+    for (suffix, real, size, width) in precisions {
+        let part = PRECISION.replace("{name}", name).replace("{suffix}", suffix).replace("{real}", real);
+        let values = (size - 2 * size_of::<u64>()) / width;
+        let part = part.replace("{values}", &values.to_string()).replace("{fibre}", fibre).replace("{f_old}", f_old);
+        header += &part.replace("{n_state}", &n_state);
+    }
+    header + END
+}
+
+/// What stands in braces is replaced.
+const BEGINNING: &str = "\
+/* The {title} in C. Written by toron_solvers::c_header from the law's tables: do not edit.
+ *
+ * A library may have the functions of one precision only. Every function may be called from any thread at any time. The last two
+ * arguments are for a message, {name}_MESSAGE_CAPACITY bytes are enough, or null and 0; it is written only if there is an error. The
+ * status returned is 0 or the worst of the codes below; where the call itself is wrong (-1xx, -2xx) nothing else is written. */
+#ifndef {name}_H
+#define {name}_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern \"C\" {
+#endif
+
+/* Indices of the properties, and their number. */
+enum {
+{properties}    {name}_PROPERTIES = {n_properties}
+};
+
+/* Indices of the state variables, all 0 at the start, and their number. */
+enum {
+{state}    {name}_STATE = {n_state}
+};
+
+/* Status codes: what is wrong with the call (-1xx), the properties (-2xx), a point (-3xx). */
+enum {
+{codes}    {name}_MESSAGE_CAPACITY = {capacity} /* room for any message */
+};
+
+/* Tangents: dS/dE (6 x 6); for the Truesdell rate; for the Jaumann rate of the Kirchhoff stress, over J, as Abaqus's DDSDDE;
+ * dP/dF (9 x 9). */
+enum { {name}_TANGENT_MATERIAL = 0, {name}_TANGENT_TRUESDELL = 1, {name}_TANGENT_JAUMANN = 2, {name}_TANGENT_NOMINAL = 3 };
+
+/* Instructions: the best that the processor has, or at most these. */
+enum { {name}_LEVEL_BEST = 0, {name}_LEVEL_BASELINE = 1, {name}_LEVEL_AVX2 = 2, {name}_LEVEL_AVX512 = 3 };
+
+/* A row of the tables. Set `size`; the rest is written. Texts are null-terminated UTF-8. */
+typedef struct {name}_table_row {
+    size_t size;
+    char name[24], symbol[24];
+    char unit[24];                         /* \"stress\", \"energy/volume\", \"-\"; then exponents of mass, length and time */
+    int32_t mass, length, time;
+    int32_t has_default;
+    double default_value;
+    double minimum, maximum;
+    int32_t minimum_excluded;
+    char allowed[80], meaning[100];
+} {name}_table_row;
+
+int32_t {name}_property_count(void);
+int32_t {name}_property(int32_t index, {name}_table_row *row, char *message, size_t capacity);
+int32_t {name}_state_count(void);
+int32_t {name}_state_variable(int32_t index, {name}_table_row *row, char *message, size_t capacity);
+/* The meaning of a status code. */
+int32_t {name}_status_message(int32_t status, char *message, size_t capacity);
+";
+
+const PRECISION: &str = "
+/* The law, prepared: numbers only, which may be copied and shared by threads, and need no release. */
+typedef struct {name}_{suffix} {
+    uint64_t tag, size;
+    {real} values[{values}];
+} {name}_{suffix};
+
+/* Checks {name}_PROPERTIES properties and prepares the law; `size` is sizeof *law, `count` the number of properties. */
+int32_t {name}_prepare_{suffix}({name}_{suffix} *law, size_t size, const {real} *properties, size_t count, char *message, size_t capacity);
+
+/* Points. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left out, and an output that is left out is not
+ * computed. Component c of point i is at c * leading_dimension + i. Arrays of pointers have one for each component; where only the
+ * first is set, the others follow by the leading dimension. Old and new state may be the same array; else arrays must not overlap. */
+typedef struct {name}_points_{suffix} {
+    size_t size;                           /* sizeof this structure */
+    size_t n;                              /* the number of points */
+    size_t leading_dimension;              /* 0: n */
+    int32_t measure;                       /* one of {name}_TANGENT_..., read if there is a tangent */
+    int32_t level;                         /* one of {name}_LEVEL_... */
+    double density;                        /* reference density, read if there is a wave speed */
+    const {real} *f_old[9];                /* In: F at the start of the step, by columns. {f_old} */
+    const {real} *f_new[9];                /* In: F at its end, by columns. Must not be null. */
+    const {real} *fibre[3];                /* {fibre} */
+    const {real} *state_old;               /* In, {n_state} components: the old state; null: all 0. */
+    {real} *state_new;                     /* Out, {n_state} components: the new state. */
+    {real} *stress[6];                     /* Out: Cauchy stress 11 22 33 12 23 31. */
+    {real} *tangent;                       /* Out, 36 or 81 components: entry (row, column) is 6 row + column or 9 row + column. */
+    {real} *wave_speed;                    /* Out: a bound of the speed of every wave. */
+    {real} *active;                        /* Out: 1, or 0 where the point has failed or cannot be evaluated. */
+    int32_t *status;                       /* Out: a status code for each point. */
+} {name}_points_{suffix};
+
+int32_t {name}_block_{suffix}(const {name}_{suffix} *law, const {name}_points_{suffix} *points, char *message, size_t capacity);
+";
+
+const END: &str = "
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+";

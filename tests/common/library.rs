@@ -45,6 +45,15 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
 /// Its folder of libraries.
 pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 
+/// The law of `examples/own_law` as solvers load it: `own_law_double` and `own_law_single`, shared and static.
+pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
+    let build = Path::new(BUILD).join("own_law");
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
+    run(cargo.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true"), "cargo");
+    build.join("release")
+});
+
 /// Runs a command to its end, which must be a good one; `package` is where a user gets it.
 pub fn run(command: &mut Command, package: &str) -> Output {
     let output = command.output().unwrap_or_else(|error| {

@@ -414,7 +414,7 @@ impl<T: BlockPrecision> OpenradiossGroup<T> {
         let mut uparam = array(1, layout.parameters());
         let option = [T::from_f64(if fibre_in_uvar { 2.0 } else { 0.0 })];
         let values = [&properties[..], &option].concat();
-        openradioss::read(layout.number, &values, &mut uparam).map_err(|error| error.code())?;
+        openradioss::read(&T::TORON, layout.number, &values, &mut uparam).map_err(|error| error.code())?;
         Ok(OpenradiossGroup {
             n,
             gradient: array(9, Self::LENGTH),

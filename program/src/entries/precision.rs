@@ -4,7 +4,6 @@ use std::ffi::{c_char, c_int};
 
 use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
 use toron::host::{abaqus, lsdyna, openradioss};
-use toron::law::block::Precision;
 
 /// Rounding to the precision of an entry.
 pub trait FromF64 {
@@ -26,7 +25,7 @@ impl FromF64 for f32 {
 }
 
 /// A precision of the entries that there are in both.
-pub trait BlockPrecision: Precision + Default + FromF64 + Send + Sync + 'static {
+pub trait BlockPrecision: openradioss::MyReal + Default + FromF64 + Send + Sync + 'static {
     const PREPARE: PrepareEntry<HyperelasticLaw<Self>, Self>;
     const PREPARE_LINEAR: PrepareEntry<LinearElasticLaw<Self>, Self>;
     const BLOCK: PreparedEntry<HyperelasticLaw<Self>, Block<Self>>;

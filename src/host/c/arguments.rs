@@ -134,6 +134,11 @@ pub fn measure(measure: i32) -> Result<Measure, Error> {
     }
 }
 
+/// The measure of a tangent, which is read if that is requested.
+pub fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
+    if tangent.is_null() { Ok(Measure::Jaumann) } else { self::measure(measure) }
+}
+
 pub fn rotation(rotation: i32) -> Result<Rotation, Error> {
     match rotation {
         TORON_ROTATION_FIBRE => Ok(Rotation::Fibre),

@@ -5,7 +5,9 @@ use core::ptr::{null, null_mut};
 
 use libc::{c_char, size_t};
 
-use super::arguments::{Layout, check_density, check_points, criterion, leading_dimension, level, measure, rotation};
+use super::arguments::{
+    Layout, check_density, check_points, criterion, leading_dimension, level, measure_of, rotation,
+};
 use super::prepared::{LinearElasticLaw, numbers};
 use crate::host::border::{Message, entry, of_points, properties, store};
 use crate::host::structures::{read, structures};
@@ -18,7 +20,6 @@ use crate::law::number::real::Scalar;
 use crate::law::parameters;
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
-use crate::law::tangent::Measure;
 
 /// A point of the linear elastic law. Set `size`, and what is wanted; the rest is 0: an array that is null is left out, and an
 /// output that is left out is not computed. The arrays of the old and the new state may be the same.
@@ -152,11 +153,6 @@ const _: () = {
     assert!(size_of::<LinearBlock<f32>>() == size_of::<LinearBlock<f64>>());
     assert!(size_of::<LinearIncrement<f64>>() == 7 * 8 && size_of::<LinearIncrement<f32>>() == 7 * 8);
 };
-
-/// The measure of a tangent that is requested.
-fn measure_of<T>(tangent: *mut T, measure: i32) -> Result<Measure, Error> {
-    if tangent.is_null() { Ok(Measure::Jaumann) } else { self::measure(measure) }
-}
 
 /// A point as a block of one.
 ///

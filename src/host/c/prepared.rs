@@ -10,6 +10,7 @@ use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use crate::law::status;
+use crate::law::user::{User, UserMaterial};
 
 /// The hyperelastic law, prepared by `toron_hyperelastic_prepare_f64` or `_f32`: numbers only, without a pointer. It may be
 /// copied, shared by threads and sent to other processes of the same byte order, and needs no release. Its content is the
@@ -33,13 +34,59 @@ pub struct LinearElasticLaw<T> {
     pub values: [T; 30],
 }
 
+/// A prepared law as plain numbers, without padding: they may be copied byte by byte.
+pub trait AsNumbers<T: Precision>: Law<T> {
+    type Numbers: Copy;
+    fn numbers(&self) -> Self::Numbers;
+    /// The law that these numbers came from.
+    fn of(numbers: &Self::Numbers) -> Self;
+}
+
+impl<T: Precision> AsNumbers<T> for Hyperelastic<T> {
+    type Numbers = PreparedHyperelastic<T>;
+
+    fn numbers(&self) -> Self::Numbers {
+        self.into()
+    }
+
+    #[inline(always)]
+    fn of(numbers: &Self::Numbers) -> Self {
+        numbers.law()
+    }
+}
+
+impl<T: Precision> AsNumbers<T> for LinearElastic<T> {
+    type Numbers = PreparedLinearElastic<T>;
+
+    fn numbers(&self) -> Self::Numbers {
+        self.into()
+    }
+
+    #[inline(always)]
+    fn of(numbers: &Self::Numbers) -> Self {
+        numbers.law()
+    }
+}
+
+impl<M: UserMaterial, T: Precision> AsNumbers<T> for User<M, T> {
+    type Numbers = User<M, T>;
+
+    fn numbers(&self) -> Self::Numbers {
+        *self
+    }
+
+    #[inline(always)]
+    fn of(numbers: &Self::Numbers) -> Self {
+        *numbers
+    }
+}
+
 /// A prepared law of the C interface.
 ///
 /// # Safety
-/// The type is `repr(C)`: tag, size, and numbers, of which the first are those of `Numbers`.
+/// The type is `repr(C)`: tag, size, the law's numbers, and a last word behind them.
 pub(super) unsafe trait PreparedLaw<T: Precision>: Copy {
-    type Law: Law<T>;
-    type Numbers: Copy + for<'a> From<&'a Self::Law>;
+    type Law: AsNumbers<T>;
     /// Eight letters: the law, the precision, the version of the numbers' order and meaning.
     const TAG: u64;
     /// Its name in C, and the function that prepares it.
@@ -54,7 +101,6 @@ macro_rules! prepared_laws {
         // SAFETY: its values are more than the numbers, which are as many values.
         unsafe impl PreparedLaw<$t> for $structure<$t> {
             type Law = $law;
-            type Numbers = $numbers<$t>;
             const TAG: u64 = u64::from_le_bytes(*$tag);
             const NAME: &'static str = $name;
             const PREPARED_BY: &'static str = $by;
@@ -73,6 +119,8 @@ prepared_laws! {
         "toron_linear_elastic_prepare_f32";
 }
 
+type NumbersOf<T, L> = <<L as PreparedLaw<T>>::Law as AsNumbers<T>>::Numbers;
+
 /// The numbers of a caller's prepared law.
 ///
 /// # Errors
@@ -81,7 +129,7 @@ prepared_laws! {
 /// # Safety
 /// `law` is null or points to a structure of this type.
 #[inline(always)]
-pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L) -> Result<&'a L::Numbers, Error> {
+pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L) -> Result<&'a NumbersOf<T, L>, Error> {
     if law.is_null() {
         return Err(Error::Null { name: "law" });
     }
@@ -98,7 +146,7 @@ pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L)
 
 /// # Safety
 /// As for `toron_hyperelastic_prepare_f64`.
-unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
+pub(super) unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
     law: *mut L,
     size: size_t,
     values: *const T,
@@ -114,7 +162,7 @@ unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
         }
         // SAFETY: the caller's promise.
         let values = unsafe { properties(values, count, L::Law::DESCRIPTION.properties) }?;
-        let numbers = L::Numbers::from(&L::Law::new(values)?);
+        let numbers = L::Law::new(values)?.numbers();
         // SAFETY: not null, of this size, and the caller's promise; a number whose bytes are all 0 is 0.
         unsafe {
             law.write_bytes(0, 1);

@@ -125,7 +125,7 @@ fn description(law: i32) -> Result<&'static Description, Error> {
 ///
 /// # Safety
 /// As for `toron_property`.
-unsafe fn write_row<R>(table: &'static [R], index: i32, row: *mut TableRow) -> Result<i32, Error>
+pub(super) unsafe fn write_row<R>(table: &'static [R], index: i32, row: *mut TableRow) -> Result<i32, Error>
 where
     TableRow: From<&'static R>,
 {

@@ -1,13 +1,13 @@
 //! What starter and engine agree on: the numbers in UPARAM and the variables in UVAR.
 
-use crate::law::description::{self, Description};
+use crate::law::block::Precision;
+use crate::law::description::Description;
 use crate::law::error::Error;
-use crate::law::linear_elastic::{Criterion, Rotation};
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use crate::law::number::real::Scalar;
-use crate::law::parameters;
 
-/// The most numbers that a law has in UPARAM.
-pub const MOST_PARAMETERS: usize = 1 + parameters::LINEAR_ELASTIC_PROPERTIES + OPTIONS.len();
+use super::laws::{Laws, Material, SolidLaw};
 
 /// What the elements of these laws need, for the listing and for the message where F is missing.
 pub const NEEDS: &str = "/PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1";
@@ -55,7 +55,7 @@ pub enum FibreFrom {
 }
 
 /// Which law a material has, and where its numbers are.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Layout {
     /// UPARAM(1), and nn of `/MAT/USERnn`.
     pub number: i32,
@@ -64,35 +64,29 @@ pub struct Layout {
     pub options: usize,
 }
 
-pub static HYPERELASTIC: Layout = Layout { number: 1, law: &description::HYPERELASTIC, options: 1 };
+pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
 
-pub static LINEAR_ELASTIC: Layout = Layout { number: 2, law: &description::LINEAR_ELASTIC, options: OPTIONS.len() };
+pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
 
 impl Layout {
-    /// The law of `/MAT/USERnn`.
-    ///
-    /// # Errors
-    /// There is none of this number.
-    pub fn of(number: i32) -> Result<&'static Layout, Error> {
-        [&HYPERELASTIC, &LINEAR_ELASTIC].into_iter().find(|layout| layout.number == number).ok_or(Error::Choice {
-            name: "nn of /MAT/USERnn",
-            value: i64::from(number),
-            wanted: "1 (USER01, hyperelastic yarn law), 2 (USER02, linear elastic law)",
-        })
+    /// The law as `/MAT/USERnn`.
+    pub const fn of<T: Precision, L: SolidLaw<T>>(number: i32) -> Self {
+        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS }
     }
 
     /// NUPARAM.
-    pub fn parameters(&self) -> usize {
+    pub const fn parameters(&self) -> usize {
         1 + self.law.properties.len() + self.options
     }
 
-    /// Indices into UVAR, from 0, behind the law's state: the fibre's three components, `deleted`, and the nine of the old F.
+    /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
+    /// nine of the old F.
     pub fn fibre(&self) -> usize {
         self.law.state.len()
     }
 
     pub fn deleted(&self) -> usize {
-        self.fibre() + 3
+        self.fibre() + self.law.fibre_components().len()
     }
 
     pub fn f_old(&self) -> usize {
@@ -110,39 +104,47 @@ impl Layout {
             "fibre_1", "fibre_2", "fibre_3", "deleted", "F11_old", "F21_old", "F31_old", "F12_old", "F22_old",
             "F32_old", "F13_old", "F23_old", "F33_old",
         ];
-        NAMES.split_at_checked(self.variables() - self.law.state.len()).map_or(&[], |(names, _)| names)
+        let first = 3 - self.law.fibre_components().len();
+        NAMES.get(first..first + self.variables() - self.law.state.len()).unwrap_or_default()
     }
 }
 
 /// The numbers of UPARAM, apart.
 #[derive(Clone, Copy, Debug)]
-pub struct Card<'a, T> {
-    pub layout: &'static Layout,
+pub struct Card<'a, T: Precision> {
+    pub material: &'static Material<T>,
     pub properties: &'a [T],
     pub fibre_from: FibreFrom,
     pub rotation: Rotation,
     pub criterion: Criterion,
 }
 
-impl<'a, T: Scalar> Card<'a, T> {
+impl<'a, T: Precision> Card<'a, T> {
     /// Reads what [`read`](super::starter::read) has written.
     ///
     /// # Errors
     /// There are other numbers: UPARAM of another library, or of another version.
-    pub fn of(uparam: &'a [T]) -> Result<Self, Error> {
+    pub fn of(laws: &Laws<T>, uparam: &'a [T]) -> Result<Self, Error> {
         let (number, rest) = uparam.split_first().map_or((0, uparam), |(&number, rest)| (whole(number), rest));
-        let layout = Layout::of(i32::try_from(number).unwrap_or(0))?;
+        let material = laws.material(i32::try_from(number).unwrap_or(0))?;
+        let layout = &material.layout;
         if uparam.len() != layout.parameters() {
             let (found, wanted) = (uparam.len() as i64, layout.parameters() as i64);
             return Err(Error::Count { code: crate::law::status::PROPERTY_COUNT, what: "NUPARAM", found, wanted });
         }
         let (properties, options) = rest.split_at_checked(layout.law.properties.len()).unwrap_or((rest, &[]));
-        Self::with_options(layout, properties, options)
+        Self::with_options(material, properties, options)
+    }
+
+    /// Which law it is, and where its numbers are.
+    #[inline(always)]
+    pub fn layout(&self) -> &'static Layout {
+        &self.material.layout
     }
 
     /// # Errors
     /// An option that has no meaning.
-    pub fn with_options(layout: &'static Layout, properties: &'a [T], options: &[T]) -> Result<Self, Error> {
+    fn with_options(material: &'static Material<T>, properties: &'a [T], options: &[T]) -> Result<Self, Error> {
         let mut chosen = [0; OPTIONS.len()];
         for ((choice, option), &value) in chosen.iter_mut().zip(&OPTIONS).zip(options) {
             *choice = whole(value);
@@ -152,7 +154,7 @@ impl<'a, T: Scalar> Card<'a, T> {
         }
         let [fibre_from, frame, criterion] = chosen;
         Ok(Card {
-            layout,
+            material,
             properties,
             fibre_from: match fibre_from {
                 0 => FibreFrom::Card,

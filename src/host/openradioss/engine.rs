@@ -4,13 +4,12 @@ use core::{ptr, slice};
 
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
-use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
-use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::vector::dot;
 use crate::law::status;
 
-use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, HYPERELASTIC, Layout, MOST_PARAMETERS};
+use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, Layout};
+use super::laws::Laws;
 use crate::host::border::{check_pointers, from_entry, start_at_rest};
 use crate::host::environment::in_default_environment;
 
@@ -59,14 +58,14 @@ pub struct Group<T> {
 /// # Safety
 /// Every pointer that is not null has as many values as its field says, those without a number NEL; the outputs overlap nothing
 /// else.
-pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
+pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result<(), Error> {
     // SAFETY: the caller's promise, here and below.
     unsafe {
-        group.check()?;
+        group.check(laws)?;
         let parameters = slice::from_raw_parts(group.uparam, group.parameters as usize);
-        let card = Card::of(parameters)?;
-        if group.variables != card.layout.variables() as i32 {
-            let (found, wanted) = (i64::from(group.variables), card.layout.variables() as i64);
+        let card = Card::of(laws, parameters)?;
+        if group.variables != card.layout().variables() as i32 {
+            let (found, wanted) = (i64::from(group.variables), card.layout().variables() as i64);
             return Err(Error::Count { code: status::STATE_COUNT, what: "NUVAR", found, wanted });
         }
         if group.elements == 0 {
@@ -78,13 +77,9 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
         if group.time.into() == 0.0 {
             group.initialise(&card)?;
         }
-        group.take_out_deleted(card.layout);
+        group.take_out_deleted(card.layout());
         group.clear_viscosity();
-        if card.layout.number == HYPERELASTIC.number {
-            group.step::<Hyperelastic<T>>(&card)
-        } else {
-            group.step::<LinearElastic<T>>(&card)
-        }
+        (card.material.evaluate_group)(group, &card)
     }
 }
 
@@ -92,15 +87,15 @@ pub unsafe fn evaluate<T: Precision>(group: &Group<T>) -> Result<(), Error> {
 ///
 /// # Safety
 /// As for [`evaluate`].
-pub unsafe fn needs_nodes<T: Precision>(group: &Group<T>) -> bool {
+pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> bool {
     in_default_environment(|| {
         if group.time.into() != 0.0 || group.uparam.is_null() {
             return false;
         }
         let Ok(count) = usize::try_from(group.parameters) else { return false };
         // SAFETY: the caller's promise.
-        let parameters = unsafe { slice::from_raw_parts(group.uparam, count.min(MOST_PARAMETERS)) };
-        Card::of(parameters).is_ok_and(|card| card.fibre_from == FibreFrom::Nodes)
+        let parameters = unsafe { slice::from_raw_parts(group.uparam, count.min(laws.most_parameters)) };
+        Card::of(laws, parameters).is_ok_and(|card| card.fibre_from == FibreFrom::Nodes)
     })
 }
 
@@ -121,9 +116,9 @@ impl<T: Precision> Group<T> {
 
     /// # Errors
     /// A count that is negative or too large, a null pointer.
-    fn check(&self) -> Result<(), Error> {
+    fn check(&self, laws: &Laws<T>) -> Result<(), Error> {
         let counts =
-            [("NEL", self.elements, i64::from(i32::MAX)), ("NUPARAM", self.parameters, MOST_PARAMETERS as i64)];
+            [("NEL", self.elements, i64::from(i32::MAX)), ("NUPARAM", self.parameters, laws.most_parameters as i64)];
         for (name, value, greatest) in counts {
             if value < 0 || i64::from(value) > greatest {
                 let value = i64::from(value);
@@ -175,7 +170,7 @@ impl<T: Precision> Group<T> {
         if from_nodes && self.nodes.is_null() {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
         }
-        let rows = [0, 1, 2].map(|c| self.row(card.layout.fibre() + c));
+        let rows = [0, 1, 2].map(|c| self.row(card.layout().fibre() + c));
         for i in 0..self.count() {
             // SAFETY: the caller's promise, i below NEL.
             unsafe {
@@ -249,7 +244,7 @@ impl<T: Precision> Group<T> {
         match card.fibre_from {
             FibreFrom::Card => [ptr::null(); 3],
             _ => {
-                let row = |c| self.row(card.layout.fibre() + c).wrapping_add(first).cast_const();
+                let row = |c| self.row(card.layout().fibre() + c).wrapping_add(first).cast_const();
                 [row(0), row(1), row(2)]
             }
         }
@@ -270,11 +265,14 @@ impl<T: Precision> Group<T> {
     ///
     /// # Errors
     /// A property that is wrong, a fibre direction that has no length.
-    unsafe fn step<L: Law<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
+    ///
+    /// # Safety
+    /// As for [`evaluate`], with a group that has been checked.
+    pub(super) unsafe fn step<L: Law<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = L::new(card.properties)?;
         let n = self.count();
         // Of a law that does not depend on F at the start of a step, this is not there.
-        let f_old = components_mut(self.row(card.layout.f_old()), n);
+        let f_old = components_mut(self.row(card.layout().f_old()), n);
         if L::DESCRIPTION.reads_old_gradient {
             // SAFETY: the caller's promise, here and below.
             unsafe { start_at_rest(f_old, n) };
@@ -282,7 +280,7 @@ impl<T: Precision> Group<T> {
         let part = |first: usize, count: usize, codes: *mut i32| {
             let row = |variable| self.row(variable).wrapping_add(first);
             let points = Points {
-                f_old: components(row(card.layout.f_old()).cast_const(), n),
+                f_old: components(row(card.layout().f_old()).cast_const(), n),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
                 state_old: row(0),
@@ -299,7 +297,7 @@ impl<T: Precision> Group<T> {
             };
             unsafe { law.step(&points) }
         };
-        unsafe { self.in_chunks(card.layout, part)? };
+        unsafe { self.in_chunks(card.layout(), part)? };
         if L::DESCRIPTION.reads_old_gradient {
             for (row, f) in f_old.into_iter().zip(self.columns(0)) {
                 unsafe { row.copy_from_nonoverlapping(f, n) };

@@ -5,12 +5,11 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use crate::host::border::{Message, check_pointers, entry};
-use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::status;
 
-use super::card::MOST_PARAMETERS;
 use super::engine::{Group, evaluate};
+use super::laws::{Laws, MyReal};
 use super::starter::{listing, read};
 
 /// The buffer of an argument that the starter passes with its length.
@@ -30,10 +29,13 @@ unsafe fn array<'a, T>(array: *const T, count: i32, name: &'static str) -> Resul
     usize::try_from(count).map(|count| unsafe { slice::from_raw_parts(array, count) }).map_err(|_| wrong)
 }
 
+/// NUPARAM of toron's laws at most.
+const MOST_PARAMETERS: usize = <f64 as MyReal>::TORON.most_parameters;
+
 /// # Safety
 /// As for `toron_openradioss_lecm_f64`.
 #[allow(clippy::too_many_arguments)]
-unsafe fn starter<T: Precision>(
+unsafe fn starter<T: MyReal>(
     number: i32,
     values: *const T,
     count: size_t,
@@ -49,7 +51,7 @@ unsafe fn starter<T: Precision>(
     let room = usize::try_from(maxuparam).unwrap_or(0).min(MOST_PARAMETERS);
     // SAFETY: the caller's promise, here and below.
     let values = unsafe { slice::from_raw_parts(values, count) };
-    let material = read(number, values, own.get_mut(..room).unwrap_or_default())?;
+    let material = read(&T::TORON, number, values, own.get_mut(..room).unwrap_or_default())?;
     unsafe {
         uparam.copy_from_nonoverlapping(own.as_ptr(), material.parameters);
         *nuparam = material.parameters as i32;
@@ -61,24 +63,19 @@ unsafe fn starter<T: Precision>(
 
 /// # Safety
 /// As for `toron_openradioss_listing_f64`.
-unsafe fn line_of_listing<T: Precision>(
-    uparam: *const T,
-    nuparam: i32,
-    line: i32,
-    text: Message,
-) -> Result<i32, Error> {
+unsafe fn line_of_listing<T: MyReal>(uparam: *const T, nuparam: i32, line: i32, text: Message) -> Result<i32, Error> {
     // SAFETY: the caller's promise, here and below. Where there is no line, the text is empty.
     unsafe { text.write(|_| ()) };
     let uparam = unsafe { array(uparam, nuparam, "UPARAM") }?;
     let line = usize::try_from(line).unwrap_or(usize::MAX);
     let mut found = Ok(false);
-    unsafe { text.write(|sink| found = listing(uparam, line, sink)) };
+    unsafe { text.write(|sink| found = listing(&T::TORON, uparam, line, sink)) };
     if found? { Ok(status::OK) } else { Err(Error::Plain(status::UNKNOWN_NAME)) }
 }
 
 /// The entries of the C interface in one precision.
 macro_rules! entries {
-    ($t:ty: $lecm:ident, $listing:ident, $luser:ident, $group:ident) => {
+    ($t:ty: $lecm:ident, $listing:ident, $luser:ident, $group:ident, $group_of:ident) => {
         /// The entry of the C interface with `toron_openradioss_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
@@ -196,10 +193,19 @@ macro_rules! entries {
         /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
         pub unsafe fn $group(group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || evaluate(group).map(|()| status::OK)) }
+            unsafe { $group_of(&<$t as MyReal>::TORON, group, message, capacity) }
+        }
+
+        /// The same with the laws of another list.
+        ///
+        /// # Safety
+        /// As for [`evaluate`]; `message` is null or has `capacity` bytes.
+        pub unsafe fn $group_of(laws: &Laws<$t>, group: &Group<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { entry(Message { text: message, capacity }, move || evaluate(laws, group).map(|()| status::OK)) }
         }
     };
 }
 
-entries!(f64: lecm_f64, listing_f64, luser_f64, group_f64);
-entries!(f32: lecm_f32, listing_f32, luser_f32, group_f32);
+entries!(f64: lecm_f64, listing_f64, luser_f64, group_f64, group_of_f64);
+entries!(f32: lecm_f32, listing_f32, luser_f32, group_f32, group_of_f32);

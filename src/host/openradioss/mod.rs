@@ -3,13 +3,13 @@
 //! | | |
 //! |---|---|
 //! | found as | `LECMUSERnn` and `LUSERnn` in `fortran-shim/` for the solver's SDK, or `libtoron_openradioss.so`, which the solver loads by itself |
-//! | law | nn = 01 the hyperelastic one, nn = 02 the linear elastic one |
+//! | law | toron's own libraries: nn = 01 the hyperelastic one, nn = 02 the linear elastic one |
 //! | card | after the line of the density, fields of 20 columns, five a line: the law's properties, then the options of [`card`] |
 //! | UPARAM | number of the law, properties, options |
 //! | deformation | FPSXX YY ZZ XY YZ ZX **YX ZY XZ**, an array for each; 0 unless Ismstr = 10 |
 //! | stress | SIGNXX YY ZZ XY YZ ZX: Cauchy, global; SIGVXX … are set to 0 where the solver has not done so |
 //! | arrays | F and stress have the solver's vector length; UVAR is (NEL, NUVAR), SOUNDSP and OFF are (NEL) |
-//! | UVAR | the law's state, fibre direction, `deleted`; for the linear elastic law the old F too, see [`card::Layout`] |
+//! | UVAR | the law's state, fibre direction of a law that has one, `deleted`; for a law that reads it the old F too, see [`card::Layout`] |
 //! | failure | OFF = 0, `deleted` = 1; a point that cannot be evaluated: OFF = 0, `deleted` = its status code |
 //! | time step | SOUNDSP, the law's bound of the wave speed, in every cycle |
 //!
@@ -18,8 +18,10 @@
 pub mod card;
 pub mod engine;
 pub mod entries;
+pub mod laws;
 pub mod starter;
 
 pub use engine::{Group, evaluate, needs_nodes};
 pub use entries::{lecm_f32, lecm_f64, listing_f32, listing_f64, luser_f32, luser_f64};
+pub use laws::{Laws, Material, MyReal, SolidLaw};
 pub use starter::{Read, listing, read};

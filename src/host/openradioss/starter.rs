@@ -2,13 +2,10 @@
 
 use crate::law::block::Precision;
 use crate::law::error::{Error, describe_integer, describe_number};
-use crate::law::hyperelastic::Hyperelastic;
-use crate::law::linear_elastic::LinearElastic;
-use crate::law::response::Request;
-use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 
-use super::card::{Card, FibreFrom, HYPERELASTIC, Layout, NEEDS, OPTIONS};
+use super::card::{Card, FibreFrom, Layout, NEEDS, OPTIONS};
+use super::laws::Laws;
 
 /// What the starter wants to know of a material besides UPARAM.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,9 +22,10 @@ pub struct Read<T> {
 /// Where each element has a fibre direction of its own, that of the card may be 0 0 0.
 ///
 /// # Errors
-/// There is no such law, too few or too many values, a wrong property or option, too little room in UPARAM.
-pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result<Read<T>, Error> {
-    let layout = Layout::of(number)?;
+/// The list has no such law, too few or too many values, a wrong property or option, too little room in UPARAM.
+pub fn read<T: Precision>(laws: &Laws<T>, number: i32, values: &[T], uparam: &mut [T]) -> Result<Read<T>, Error> {
+    let material = laws.material(number)?;
+    let layout = &material.layout;
     let (needed, wanted) = (layout.law.properties.len(), layout.parameters());
     let count = |what, found: usize, wanted: usize| {
         Err(Error::Count { code: status::PROPERTY_COUNT, what, found: found as i64, wanted: wanted as i64 })
@@ -50,11 +48,10 @@ pub fn read<T: Precision>(number: i32, values: &[T], uparam: &mut [T]) -> Result
         *first = T::splat(f64::from(layout.number));
         rest.iter_mut().zip(values).for_each(|(to, &value)| *to = value);
     }
-    let from = Card::of(own)?.fibre_from;
-    if from != FibreFrom::Card {
+    if Card::of(laws, own)?.fibre_from != FibreFrom::Card {
         give_a_direction(layout, own);
     }
-    let modulus = modulus_at_rest(&Card::of(own)?)?;
+    let modulus = (material.modulus_at_rest)(Card::of(laws, own)?.properties)?;
     Ok(Read { parameters: wanted, variables: layout.variables(), modulus })
 }
 
@@ -69,29 +66,17 @@ fn give_a_direction<T: Precision>(layout: &Layout, uparam: &mut [T]) {
     }
 }
 
-/// ρ0 c² of the fastest wave in the unstressed material.
-///
-/// # Errors
-/// A wrong property.
-fn modulus_at_rest<T: Precision>(card: &Card<'_, T>) -> Result<T, Error> {
-    if card.layout.number != HYPERELASTIC.number {
-        return Ok(T::splat(LinearElastic::new(card.properties)?.lanes::<f64>().wave_modulus()));
-    }
-    Hyperelastic::new(card.properties)?; // an error names the value of the card, not its copy in double precision
-    let mut values = [0.0; crate::law::parameters::HYPERELASTIC_PROPERTIES];
-    values.iter_mut().zip(card.properties).for_each(|(to, &from)| *to = from.into());
-    let rest = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    let wanted = Request { wave_modulus: true, ..Request::default() };
-    let point = Hyperelastic::new(&values)?.point_along(&rest, None, &[0.0; HYPERELASTIC_STATE], wanted);
-    Ok(T::splat(point.wave_modulus))
-}
-
 /// A line, from 0, of what the starter's listing says of a material: passed to `sink` piece by piece. False behind the last line.
 ///
 /// # Errors
 /// UPARAM is not what [`read`] has written.
-pub fn listing<T: Precision>(uparam: &[T], line: usize, sink: &mut dyn FnMut(&str)) -> Result<bool, Error> {
-    let layout = Card::of(uparam)?.layout;
+pub fn listing<T: Precision>(
+    laws: &Laws<T>,
+    uparam: &[T],
+    line: usize,
+    sink: &mut dyn FnMut(&str),
+) -> Result<bool, Error> {
+    let layout = Card::of(laws, uparam)?.layout();
     let (values, variables) = (layout.parameters() - 1, layout.variables());
     const HEAD: usize = 3;
     if line < HEAD {

@@ -23,7 +23,7 @@ use crate::law::response::Request;
 use crate::law::status;
 
 /// A precision that the block kernels are built for: f32 or f64.
-pub trait Precision: Registers {
+pub trait Precision: Registers + 'static {
     /// Runs the kernels of the hyperelastic law at a level.
     ///
     /// # Safety

@@ -123,7 +123,8 @@ pub struct Response<R: Real, S> {
     pub failed: R::Mask,
 }
 
-/// A law in formulas, prepared from its properties.
+/// A law in formulas, prepared from its properties: numbers only, without padding.
+#[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct User<M: UserMaterial, T: Real> {
     properties: M::Properties<T>,

@@ -3,12 +3,19 @@
 use std::ffi::{CStr, c_char, c_void};
 use std::io::Write;
 
-use crate::Real;
+use toron::Real;
 
 /// The exit code of the solver's routine that ends a run after an error in the model.
 const INPUT_ERROR: i32 = 2;
 
+/// The routine of this name; `None` if the program has none, or where the system is not Unix.
+#[cfg(not(unix))]
+fn routine(_name: &CStr) -> Option<*mut c_void> {
+    None
+}
+
 /// The routine of this name; `None` if the program has none.
+#[cfg(unix)]
 fn routine(name: &CStr) -> Option<*mut c_void> {
     // SAFETY: a null-terminated name.
     let found = unsafe { libc::dlsym(libc::RTLD_DEFAULT, name.as_ptr()) };
@@ -38,12 +45,12 @@ pub fn stop(message: &str) {
 }
 
 /// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no such routine.
-pub fn nodes(elements: usize) -> Vec<Real> {
+pub fn nodes<T: Real>(elements: usize) -> Vec<T> {
     let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
-    let mut coordinates = vec![0.0; elements * 8 * 3];
+    let mut coordinates = vec![T::splat(0.0); elements * 8 * 3];
     // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls it.
     unsafe {
-        let get: unsafe extern "C" fn(*mut Real) = std::mem::transmute(get);
+        let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
         get(coordinates.as_mut_ptr());
     }
     coordinates
