@@ -31,9 +31,6 @@ pub use c::c_header;
 #[doc(hidden)]
 pub use {libc, toron};
 
-#[doc(hidden)]
-pub use toron;
-
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
 ///
