@@ -112,10 +112,12 @@ where
         let comment = format!("{} ({})", row.meaning, row.dimension.name);
         (row.name, i, comment)
     });
-    let codes = status::TABLE.iter().map(|&(code, word, meaning)| (word, code, meaning.to_string()));
+    let of_solvers = [status::NO_DEFORMATION_GRADIENT, status::FIBRE_OUT_OF_PLANE, status::STATE_COUNT];
+    let codes = status::TABLE.iter().filter(|row| !of_solvers.contains(&row.0));
+    let codes = codes.map(|&(code, word, meaning)| (word, code, meaning.to_string()));
     let enumeration = |kind: &str, rows: &mut dyn Iterator<Item = (&str, i32, String)>| -> String {
         let row = |(word, value, comment): (&str, i32, String)| {
-            format!("    {name}_{kind}_{} = {value}, /* {comment} */\n", word.to_uppercase())
+            format!("    /* {comment} */\n    {name}_{kind}_{} = {value},\n", word.to_uppercase())
         };
         rows.map(row).collect()
     };
@@ -176,21 +178,33 @@ enum {
 
 /* Status codes: what is wrong with the call (-1xx), the properties (-2xx), a point (-3xx). */
 enum {
-{codes}    {name}_MESSAGE_CAPACITY = {capacity} /* room for any message */
+{codes}    /* room for any message */
+    {name}_MESSAGE_CAPACITY = {capacity}
 };
 
 /* Tangents: dS/dE (6 x 6); for the Truesdell rate; for the Jaumann rate of the Kirchhoff stress, over J, as Abaqus's DDSDDE;
  * dP/dF (9 x 9). */
-enum { {name}_TANGENT_MATERIAL = 0, {name}_TANGENT_TRUESDELL = 1, {name}_TANGENT_JAUMANN = 2, {name}_TANGENT_NOMINAL = 3 };
+enum {
+    {name}_TANGENT_MATERIAL = 0,
+    {name}_TANGENT_TRUESDELL = 1,
+    {name}_TANGENT_JAUMANN = 2,
+    {name}_TANGENT_NOMINAL = 3
+};
 
 /* Instructions: the best that the processor has, or at most these. */
-enum { {name}_LEVEL_BEST = 0, {name}_LEVEL_BASELINE = 1, {name}_LEVEL_AVX2 = 2, {name}_LEVEL_AVX512 = 3 };
+enum {
+    {name}_LEVEL_BEST = 0,
+    {name}_LEVEL_BASELINE = 1,
+    {name}_LEVEL_AVX2 = 2,
+    {name}_LEVEL_AVX512 = 3
+};
 
 /* A row of the tables. Set `size`; the rest is written. Texts are null-terminated UTF-8. */
 typedef struct {name}_table_row {
     size_t size;
     char name[24], symbol[24];
-    char unit[24];                         /* \"stress\", \"energy/volume\", \"-\"; then exponents of mass, length and time */
+    /* \"stress\", \"energy/volume\", \"-\"; then exponents of mass, length and time */
+    char unit[24];
     int32_t mass, length, time;
     int32_t has_default;
     double default_value;
@@ -215,28 +229,45 @@ typedef struct {name}_{suffix} {
 } {name}_{suffix};
 
 /* Checks {name}_PROPERTIES properties and prepares the law; `size` is sizeof *law, `count` the number of properties. */
-int32_t {name}_prepare_{suffix}({name}_{suffix} *law, size_t size, const {real} *properties, size_t count, char *message, size_t capacity);
+int32_t {name}_prepare_{suffix}({name}_{suffix} *law, size_t size, const {real} *properties, size_t count, char *message,
+    size_t capacity);
 
 /* Points. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left out, and an output that is left out is not
  * computed. Component c of point i is at c * leading_dimension + i. Arrays of pointers have one for each component; where only the
  * first is set, the others follow by the leading dimension. Old and new state may be the same array; else arrays must not overlap. */
 typedef struct {name}_points_{suffix} {
-    size_t size;                           /* sizeof this structure */
-    size_t n;                              /* the number of points */
-    size_t leading_dimension;              /* 0: n */
-    int32_t measure;                       /* one of {name}_TANGENT_..., read if there is a tangent */
-    int32_t level;                         /* one of {name}_LEVEL_... */
-    double density;                        /* reference density, read if there is a wave speed */
-    const {real} *f_old[9];                /* In: F at the start of the step, by columns. {f_old} */
-    const {real} *f_new[9];                /* In: F at its end, by columns. Must not be null. */
-    const {real} *fibre[3];                /* {fibre} */
-    const {real} *state_old;               /* In, {n_state} components: the old state; null: all 0. */
-    {real} *state_new;                     /* Out, {n_state} components: the new state. */
-    {real} *stress[6];                     /* Out: Cauchy stress 11 22 33 12 23 31. */
-    {real} *tangent;                       /* Out, 36 or 81 components: entry (row, column) is 6 row + column or 9 row + column. */
-    {real} *wave_speed;                    /* Out: a bound of the speed of every wave. */
-    {real} *active;                        /* Out: 1, or 0 where the point has failed or cannot be evaluated. */
-    int32_t *status;                       /* Out: a status code for each point. */
+    /* sizeof this structure */
+    size_t size;
+    /* the number of points */
+    size_t n;
+    /* 0: n */
+    size_t leading_dimension;
+    /* one of {name}_TANGENT_..., read if there is a tangent */
+    int32_t measure;
+    /* one of {name}_LEVEL_... */
+    int32_t level;
+    /* reference density, read if there is a wave speed */
+    double density;
+    /* In: F at the start of the step, by columns. {f_old} */
+    const {real} *f_old[9];
+    /* In: F at its end, by columns. Must not be null. */
+    const {real} *f_new[9];
+    /* {fibre} */
+    const {real} *fibre[3];
+    /* In, {n_state} components: the old state; null: all 0. */
+    const {real} *state_old;
+    /* Out, {n_state} components: the new state. */
+    {real} *state_new;
+    /* Out: Cauchy stress 11 22 33 12 23 31. */
+    {real} *stress[6];
+    /* Out, 36 or 81 components: entry (row, column) is 6 row + column or 9 row + column. */
+    {real} *tangent;
+    /* Out: a bound of the speed of every wave. */
+    {real} *wave_speed;
+    /* Out: 1, or 0 where the point has failed or cannot be evaluated. */
+    {real} *active;
+    /* Out: a status code for each point. */
+    int32_t *status;
 } {name}_points_{suffix};
 
 int32_t {name}_block_{suffix}(const {name}_{suffix} *law, const {name}_points_{suffix} *points, char *message, size_t capacity);

@@ -25,7 +25,7 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     run(install.arg(format!("--prefix={}", installed.display())), "cargo");
     let mut cargo = Command::new(env!("CARGO"));
     environment(&mut cargo);
-    cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
+    cargo.args(["build", "--release", "--locked", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
     let packages = [
         "toron-abaqus",
         "toron-abaqus-sp",
@@ -49,7 +49,9 @@ pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 #[allow(dead_code)] // not every test file needs it
 pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
+    cargo
+        .args(["build", "--release", "--locked", "--manifest-path"])
+        .arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
     run(cargo.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true"), "cargo");
     Path::new(BUILD).join("release")
 });

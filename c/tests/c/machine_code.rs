@@ -5,9 +5,10 @@
 #![cfg(all(target_arch = "x86_64", target_os = "linux"))]
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 use std::process::Command;
 
-use crate::library::{LIBRARY, run};
+use crate::library::{LIBRARY, OWN_LAW, run};
 
 /// One instruction: its address, its name and what it is applied to.
 struct Instruction {
@@ -118,6 +119,14 @@ impl Function {
         self.stages().iter().map(BTreeSet::len).sum()
     }
 
+    /// Calls, and jumps to other functions or to nowhere known.
+    fn calls(&self) -> Vec<String> {
+        let own: BTreeSet<u64> = self.code.iter().map(|i| i.address).collect();
+        let leaves =
+            |i: &&Instruction| i.calls() || i.jumps() && i.target().is_none_or(|target| !own.contains(&target));
+        self.code.iter().filter(leaves).map(|i| format!("{:x}: {} {}", i.address, i.name, i.operands)).collect()
+    }
+
     /// What the stages hold that they should not: calls, branches beside their own; what is computed in a loop but in no
     /// stage, since a decision makes a loop of it; and jumps to nowhere known, wherever they stand.
     fn faults(&self) -> Vec<String> {
@@ -142,11 +151,11 @@ impl Function {
     }
 }
 
-/// The functions of the shared library.
-fn functions() -> BTreeMap<String, Function> {
+/// The functions of a shared library.
+fn functions(library: &Path) -> BTreeMap<String, Function> {
     let mut objdump = Command::new("objdump");
     objdump.args(["--disassemble", "--demangle", "--no-show-raw-insn", "--section=.text"]);
-    let text = run(objdump.arg(LIBRARY.join("libtoron.so")), "binutils").stdout;
+    let text = run(objdump.arg(library), "binutils").stdout;
 
     let mut functions = BTreeMap::new();
     let (mut name, mut code) = (String::new(), Vec::new());
@@ -178,7 +187,7 @@ const ANY: u8 = 8;
 
 #[test]
 fn usual_kernels_decide_nothing() {
-    let functions = functions();
+    let functions = functions(&LIBRARY.join("libtoron.so"));
     let mut faults = String::new();
     for precision in ["f64", "f32"] {
         for level in ["Avx2", "Avx512"] {
@@ -203,6 +212,28 @@ fn usual_kernels_decide_nothing() {
     assert_eq!(faults, "", "branches or calls in the loops");
 }
 
+/// The kernels of a law of one's own, each in a library of one law and one precision.
+#[test]
+fn kernels_of_an_own_law_call_nothing() {
+    for library in ["libown_law_double.so", "libown_law_single.so"] {
+        let functions = functions(&OWN_LAW.join(library));
+        for level in ["avx2", "avx512"] {
+            let name = format!("toron::law::user::kernel::{level}");
+            let kernel = functions.get(&name).unwrap_or_else(|| panic!("no function {name} in {library}"));
+            let computations = (0..kernel.code.len()).filter(|&k| kernel.computes(k)).count();
+            println!("{library} {level}: {computations} computations");
+            // A kernel that is too short is not the law.
+            assert!(computations > 100, "{library} {level}: {computations} computations");
+            let calls = kernel.calls();
+            assert!(
+                calls.is_empty(),
+                "{name} of {library} calls other functions, which takes several times as long: {calls:?}. Write the law with \
+                 operators and the functions of `vector`, with #[inline(always)] on every function, without closures and `map`"
+            );
+        }
+    }
+}
+
 fn code(lines: &[(&str, &str)]) -> Function {
     let instruction = |(k, &(name, operands)): (usize, &(&str, &str))| Instruction {
         address: k as u64,
@@ -225,6 +256,9 @@ fn the_check_can_fail() {
         ("ret", ""),
     ];
     assert!(code(&clean).faults().is_empty());
+    assert_eq!(code(&clean).calls().len(), 1);
+    assert_eq!(code(&[("vmulpd", ""), ("jne", "0 <f>"), ("ret", "")]).calls().len(), 0);
+    assert_eq!(code(&[("vmulpd", ""), ("jmp", "20 <memcpy>")]).calls().len(), 1);
     // Left at the top, with what follows the loop in its midst.
     let rotated = [
         ("cmp", ""),

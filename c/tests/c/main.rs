@@ -21,5 +21,6 @@ mod machine_code;
 mod mgis;
 mod newton;
 mod openradioss;
+mod own_law;
 mod package;
 mod structures;
