@@ -43,7 +43,10 @@ fn unit_system(name: &str) -> Result<UnitSystem, Error> {
 }
 
 /// The laws' properties and state variables, and the presets.
-fn tables(laws: Laws, units: &UnitSystem) -> Result<String, Error> {
+///
+/// # Errors
+/// A preset that lacks a property.
+pub fn tables(laws: Laws, units: &UnitSystem) -> Result<String, Error> {
     let mut text = String::new();
     for law in laws.names() {
         let (name, description) = (heading(law), law.description());

@@ -72,7 +72,11 @@ pub fn run(laws: Laws, arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>), Error> {
+/// The card, and a warning of units that do not fit.
+///
+/// # Errors
+/// The argument that is wrong, or what is wrong with the yarn.
+pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>), Error> {
     let law = arguments.law.as_deref().map(|name| law(laws, name)).transpose()?;
     let preset = preset(laws, arguments, law)?;
     let units = units(arguments, &preset)?;
