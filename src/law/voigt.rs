@@ -6,7 +6,7 @@ use super::number::vector::Matrix;
 /// The two tensor indices of each of the six components 11 22 33 12 23 31.
 pub const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
 /// The component of two tensor indices: the inverse of [`PAIRS`].
-pub(crate) const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
+pub const VOIGT: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// The symmetric tensor as columns.
 #[inline(always)]
