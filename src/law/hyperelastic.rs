@@ -80,6 +80,16 @@ pub(crate) struct Kirchhoff<R> {
     pub compaction_energy: R,
 }
 
+/// A deformed point of the intact material: what its stress and tangents are computed from.
+#[derive(Clone, Copy)]
+pub(crate) struct Deformed<'a, R: Real> {
+    pub law: &'a Hyperelastic<R>,
+    pub kinematics: Kinematics<'a, R>,
+    pub k: &'a Kirchhoff<R>,
+    /// Whether k_ld is above 0, so that the terms of the longitudinal shear have to be computed.
+    pub shear: bool,
+}
+
 impl<R: Real> Hyperelastic<R> {
     /// W_el, W_tc, W_td, W_ld (Eq. 4.10, 4.11, 4.13).
     #[inline(always)]

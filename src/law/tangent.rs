@@ -16,8 +16,8 @@
 //! and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by construction: only the
 //! upper triangle is computed.
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff};
-use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
+use super::hyperelastic::Deformed;
+use super::kinematics::{FibreFrame, Kinematics, Section, Stretch};
 use super::number::real::Real;
 use super::number::vector::{along, cross, dot, image, scale};
 use super::voigt::{
@@ -167,12 +167,13 @@ fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
     paired_along::<R, ROW, COLUMN>(*fibre, &t.with_fibre, sum)
 }
 
-impl<R: Real> Hyperelastic<R> {
+impl<R: Real> Deformed<'_, R> {
     /// The factors of the modulus, each multiplied by `over`: 1/J for a modulus of σ, 1 for one of τ or S.
     #[inline(always)]
-    fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
+    fn factors(self, shape: &Shape<R>, over: R) -> Factors<R> {
+        let Deformed { law, kinematics: Kinematics { strain, .. }, k, .. } = self;
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
-        let (_, curvature) = self.compaction_slopes(strain, k);
+        let (_, curvature) = law.compaction_slopes(strain, k);
         // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
         // series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this term is below a
         // rounding of that with W1.
@@ -180,8 +181,8 @@ impl<R: Real> Hyperelastic<R> {
         // θ/s and x θ/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
         let stiffness = shape.cosh * ratio;
-        let distortion = quarter * self.k_td * over;
-        let elongation = self.k_el * (one - R::splat(2.0) * strain.i_el);
+        let distortion = quarter * law.k_td * over;
+        let elongation = law.k_el * (one - R::splat(2.0) * strain.i_el);
         Factors {
             elongation: R::select(zero.le(strain.i_el), elongation, zero) * over,
             compaction: quarter * curvature * over,
@@ -196,17 +197,11 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The Truesdell modulus of σ or the Jaumann modulus of τ over J.
     #[inline(always)]
-    pub(super) fn spatial_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        bases: &Bases<R>,
-        k: &Kirchhoff<R>,
-        measure: Measure,
-        shear: bool,
-    ) -> Moduli<R> {
+    fn spatial_tangent(self, bases: &Bases<R>, measure: Measure) -> Moduli<R> {
+        let Deformed { kinematics, k, shear, .. } = self;
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
-        let f = self.factors(&bases.shape, kinematics.strain, k, over);
+        let f = self.factors(&bases.shape, over);
         // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
         // fibre is 0 but for roundings of the other terms.
         let (y_p, y_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
@@ -255,58 +250,42 @@ impl<R: Real> Hyperelastic<R> {
         Moduli(upper_triangle!(entry(&terms)))
     }
 
-    /// dS/dE in reference axes. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes.
-    #[inline(always)]
-    fn material_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        shape: &Shape<R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        along_coordinates: bool,
-        shear: bool,
-    ) -> Moduli<R> {
-        let components = FibreComponents::new(self, kinematics, shape, k, shear);
-        if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
-    }
-
     /// The tangent of a 6×6 measure, dS/dE for [`Measure::Nominal`], whose 9×9 tangent is
-    /// [`nominal_tangent`](Self::nominal_tangent).
+    /// [`nominal_tangent`](Self::nominal_tangent). `n` are the axes of the fibre; `along_coordinates` says whether these are the
+    /// coordinate axes. `bases` may have been computed before.
     #[inline(always)]
-    pub(crate) fn moduli(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
+    pub fn moduli(
+        self,
         n: &FibreFrame<R>,
         along_coordinates: bool,
         measure: Measure,
-        shear: bool,
+        bases: Option<Bases<R>>,
     ) -> Moduli<R> {
-        let Kinematics { stretch, section, images, .. } = kinematics;
+        let Deformed { kinematics: Kinematics { stretch, section, images, .. }, shear, .. } = self;
         match measure {
             Measure::Material | Measure::Nominal => {
-                self.material_tangent(kinematics, &Shape::new(section), k, n, along_coordinates, shear)
+                let components = FibreComponents::new(self, &Shape::new(section));
+                if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
             }
             Measure::Truesdell | Measure::Jaumann => {
-                self.spatial_tangent(kinematics, &Bases::new(stretch, section, &images), k, measure, shear)
+                let bases = match bases {
+                    Some(bases) => bases,
+                    None => Bases::new(stretch, section, &images),
+                };
+                self.spatial_tangent(&bases, measure)
             }
         }
     }
 
     /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of σ.
-    /// `stress` is σ.
     #[inline(always)]
-    pub(crate) fn nominal_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        stress: &[R; 6],
-        shear: bool,
-    ) -> [R; 81] {
+    pub fn nominal_tangent(self, n: &FibreFrame<R>) -> [R; 81] {
+        let Deformed { law, kinematics, k, shear } = self;
         let Kinematics { stretch, section, images, .. } = kinematics;
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
         let bases = Bases::new(stretch, section, &images);
-        let c = self.spatial_tangent(kinematics, &bases, k, Measure::Truesdell, shear).matrix();
+        let c = self.spatial_tangent(&bases, Measure::Truesdell).matrix();
         // F⁻¹ takes c to m, a to α and b' to β, so that its rows follow from these and the dual vectors of c, a and b'.
         let basis = Orthogonal::new(kinematics);
         let [m, alpha, beta] = basis.pulled_back(n);
@@ -390,16 +369,11 @@ struct FibreComponents<R> {
 
 impl<R: Real> FibreComponents<R> {
     #[inline(always)]
-    fn new(
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        shape: &Shape<R>,
-        k: &Kirchhoff<R>,
-        shear: bool,
-    ) -> Self {
+    fn new(point: Deformed<'_, R>, shape: &Shape<R>) -> Self {
+        let Deformed { kinematics, k, shear, .. } = point;
         let (zero, two) = (R::splat(0.0), R::splat(2.0));
-        let Kinematics { stretch, section, strain, .. } = kinematics;
-        let f = law.factors(shape, strain, k, R::splat(1.0));
+        let Kinematics { stretch, section, .. } = kinematics;
+        let f = point.factors(shape, R::splat(1.0));
         let basis = Orthogonal::new(kinematics);
         let Orthogonal { shift, over_a, over_b, .. } = basis;
         let over_area = shape.inverse_area_ratio;

@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use super::pointers::Pointers;
-use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
+use crate::law::hyperelastic::{Deformed, Hyperelastic};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use crate::law::number::elementary::{Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
@@ -367,13 +367,10 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
-        let shear = shears::<R, WANT>(law);
-        let nan_if_invalid = if tangent {
-            nan_if_invalid + store_tangent(law, block, i, kinematics, &k, &frame, shear)
-        } else {
-            nan_if_invalid
-        };
-        let r = law.respond(kinematics, &k, &frame, nan_if_invalid, latch, request, shear);
+        let point = Deformed { law, kinematics, k: &k, shear: shears::<R, WANT>(law) };
+        let nan_if_invalid =
+            if tangent { nan_if_invalid + store_tangent(point, block, i, &frame) } else { nan_if_invalid };
+        let r = point.respond(&frame, nan_if_invalid, latch, request);
 
         if request.stress {
             for c in 0..6 {
@@ -421,13 +418,10 @@ fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
 /// As for [`sweep`], for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
 unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
-    law: &Hyperelastic<R>,
+    point: Deformed<'_, R>,
     block: &Pointers<T>,
     i: usize,
-    kinematics: Kinematics<'_, R>,
-    k: &Kirchhoff<R>,
     frame: &FibreFrame<R>,
-    shear: bool,
 ) -> R {
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
@@ -436,15 +430,13 @@ unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
         }
     };
     if block.measure == Measure::Nominal {
-        let zero = R::splat(0.0);
-        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
-        let nominal = law.nominal_tangent(kinematics, k, frame, &stress, shear);
+        let nominal = point.nominal_tangent(frame);
         store(&nominal);
         nan_unless_finite(&nominal)
     } else {
-        let moduli = law.moduli(kinematics, k, frame, false, block.measure, shear);
+        let moduli = point.moduli(frame, false, block.measure, None);
         store(moduli.matrix().as_flattened());
-        if may_overflow::<R>(block.measure, shear) { nan_unless_finite(&moduli.0) } else { R::splat(0.0) }
+        if may_overflow::<R>(block.measure, point.shear) { nan_unless_finite(&moduli.0) } else { R::splat(0.0) }
     }
 }
 
