@@ -1,18 +1,26 @@
-//! The behaviours of MFront's generic interface as MGIS calls them: every stress and every tangent against the library's own entries
+//! The behaviours of MFront's generic interface as MGIS calls them, of the library's laws and of laws of one's own: every stress and every tangent against the library's own entries
 //! and against differences of the stress, prediction operators, the speed of sound, plane hypotheses.
 
 use std::f64::consts::SQRT_2;
 use std::ffi::c_char;
 use std::ptr::null_mut;
 
-use nalgebra::{Matrix3, Vector3};
-use toron::host::mgis::{
-    BehaviourDataView, INTEGRATED, MESSAGE_CAPACITY, NOT_INTEGRATED, StateView, hyperelastic, hyperelastic_in_plane,
-    linear_elastic, linear_elastic_in_plane,
-};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use toron::host::mgis::{BehaviourDataView, INTEGRATED, MESSAGE_CAPACITY, MgisLaw, NOT_INTEGRATED, StateView};
+use toron::law::description::Description;
+use toron::law::interface::{Law, Points};
 use toron::law::stress::{first_piola_kirchhoff, matrix};
-use toron::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE, LINEAR_WORK};
+use toron::law::user::User;
+use toron::state::{HYPERELASTIC_STATE, LINEAR_WORK};
+use toron::user::parameters::{Property, STRESS, positive};
+use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
+use toron::user::vector::{dot, transposed};
+use toron::user::{Real, Response, UserMaterial};
 use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
+
+#[path = "../examples/own_law/law/src/lib.rs"]
+mod reinforced_solid;
+use reinforced_solid::ReinforcedSolid;
 
 /// Rows and columns of the components, of tensors and of symmetric ones; in the plane the first five and the first four.
 const TENSOR: [(usize, usize); 9] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 0), (0, 2), (2, 0), (1, 2), (2, 1)];
@@ -25,10 +33,99 @@ const PK1: usize = 2;
 const KINDS: [usize; 4] = [0, 1, 2, 3];
 const CONSISTENT: f64 = 4.0;
 
+/// A compressible neo-Hookean solid, W = ½ μ (I1 − 3) − μ ln J + ½ μ (ln J)²: a law without a fibre.
+#[derive(Clone, Copy, Debug, Default)]
+struct NeoHooke;
+
+static PROPERTIES: [Property; 1] = [positive("mu", "μ", STRESS, None, "shear modulus")];
+static STATE: [StateVariable; 3] =
+    [variable("energy", "W", ENERGY_DENSITY, "energy per reference volume"), FAILED, ALIVE];
+
+impl UserMaterial for NeoHooke {
+    const DESCRIPTION: Description = Description {
+        title: "neo-Hookean solid",
+        properties: &PROPERTIES,
+        state: &STATE,
+        fibre: None,
+        second_axis: None,
+        failed: 1,
+        alive: 2,
+        energies: 0..1,
+        reads_old_gradient: false,
+    };
+    type Properties<R: Real> = [R; 1];
+    type State<R: Real> = [R; 1];
+    type Constants<R: Real> = R;
+
+    #[inline(always)]
+    fn constants<R: Real>(&[mu]: &[R; 1]) -> R {
+        mu
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(&mu: &R, step: &toron::user::Step<R, [R; 1]>) -> Response<R, [R; 1]> {
+        let ([x, y, z], one, half) = (transposed(&step.f), R::splat(1.0), R::splat(0.5));
+        let (over, logarithm) = (mu * step.jacobian.reciprocal(), step.jacobian.ln());
+        let normal = |b: R| over * (b - one + logarithm);
+        let (b_11, b_22, b_33) = (dot(x, x), dot(y, y), dot(z, z));
+        let stress = [normal(b_11), normal(b_22), normal(b_33), over * dot(x, y), over * dot(y, z), over * dot(z, x)];
+        let trace = (b_11 - one) + (b_22 - one) + (b_33 - one);
+        let energy = mu * (half * trace - logarithm + half * logarithm * logarithm);
+        Response { stress, state: [energy], failed: R::never() }
+    }
+}
+
+/// The laws: those of the library, and two of one's own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum LawOf {
+    Hyperelastic,
+    LinearElastic,
+    Reinforced,
+    NeoHooke,
+}
+use LawOf::{LinearElastic as Linear, NeoHooke as Isotropic, Reinforced};
+
+const LAWS: [LawOf; 4] = [LawOf::Hyperelastic, Linear, Reinforced, Isotropic];
+
+impl LawOf {
+    fn description(self) -> Description {
+        match self {
+            LawOf::Hyperelastic => Hyperelastic::<f64>::DESCRIPTION,
+            Linear => LinearElastic::<f64>::DESCRIPTION,
+            Reinforced => ReinforcedSolid::DESCRIPTION,
+            Isotropic => NeoHooke::DESCRIPTION,
+        }
+    }
+
+    fn is_of_ones_own(self) -> bool {
+        matches!(self, Reinforced | Isotropic)
+    }
+
+    /// Calls the function of a hypothesis.
+    ///
+    /// # Safety
+    /// The arrays have the sizes that the symbols of the behaviour tell.
+    unsafe fn integrate(self, plane: bool, view: &mut BehaviourDataView) -> i32 {
+        unsafe fn call<L: MgisLaw>(plane: bool, view: &mut BehaviourDataView) -> i32 {
+            // SAFETY: the caller's promise.
+            unsafe { if plane { L::integrate_in_plane(view) } else { L::integrate(view) } }
+        }
+        // SAFETY: the caller's promise.
+        unsafe {
+            match self {
+                LawOf::Hyperelastic => call::<Hyperelastic>(plane, view),
+                Linear => call::<LinearElastic>(plane, view),
+                Reinforced => call::<User<ReinforcedSolid, f64>>(plane, view),
+                Isotropic => call::<User<NeoHooke, f64>>(plane, view),
+            }
+        }
+    }
+}
+
 /// A law in a hypothesis, with its properties.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Behaviour {
-    linear: bool,
+    law: LawOf,
     plane: bool,
     properties: Vec<f64>,
 }
@@ -47,26 +144,30 @@ struct Answer {
 }
 
 impl Behaviour {
-    fn new(linear: bool, plane: bool, fibre: [f64; 3]) -> Self {
-        let properties: &[f64] =
-            if linear { &[79.414, 0.794, 0.126, 0.0] } else { &[82.341, 1.055, 2.2, 0.64974, 0.1, 0.0, 1.8, 0.3] };
-        let second: &[f64] = if linear { &[0.0; 3] } else { &[] };
-        Behaviour { linear, plane, properties: [properties, &fibre, second].concat() }
+    /// A law without a fibre takes no notice of `fibre`.
+    fn new(law: LawOf, plane: bool, fibre: [f64; 3]) -> Self {
+        let properties = match law {
+            LawOf::Hyperelastic => [&[82.341, 1.055, 2.2, 0.64974, 0.1, 0.0, 1.8, 0.3], &fibre[..]].concat(),
+            Linear => [&[79.414, 0.794, 0.126, 0.0], &fibre[..], &[0.0; 3]].concat(),
+            Reinforced => [&[0.8, 1.2, 18.0, 0.0], &fibre[..]].concat(),
+            Isotropic => vec![0.8],
+        };
+        Behaviour { law, plane, properties }
     }
 
-    /// Both laws in three dimensions, and in the plane with the fibre along an axis, in the plane and normal to it.
+    /// The laws in three dimensions, and in the plane with the fibre along an axis, in the plane and normal to it.
     fn all() -> Vec<Behaviour> {
         let mut all = Vec::new();
-        for linear in [false, true] {
-            all.extend([[1.0, 0.0, 0.0], [0.3, -0.5, 0.8]].map(|fibre| Behaviour::new(linear, false, fibre)));
+        for law in LAWS {
+            all.extend([[1.0, 0.0, 0.0], [0.3, -0.5, 0.8]].map(|fibre| Behaviour::new(law, false, fibre)));
             let in_plane = [[1.0, 0.0, 0.0], [0.6, -0.3, 0.0], [0.0, 0.0, 2.0]];
-            all.extend(in_plane.map(|fibre| Behaviour::new(linear, true, fibre)));
+            all.extend(in_plane.map(|fibre| Behaviour::new(law, true, fibre)));
         }
         all
     }
 
     fn state_count(&self) -> usize {
-        if self.linear { LINEAR_ELASTIC_STATE } else { HYPERELASTIC_STATE }
+        self.law.description().state.len()
     }
 
     fn fresh(&self) -> Vec<f64> {
@@ -145,14 +246,7 @@ impl Behaviour {
             s1,
         };
         // SAFETY: the arrays have the sizes that the symbols of the behaviour tell.
-        answer.result = unsafe {
-            match (self.linear, self.plane) {
-                (false, false) => hyperelastic(&mut view),
-                (false, true) => hyperelastic_in_plane(&mut view),
-                (true, false) => linear_elastic(&mut view),
-                (true, true) => linear_elastic_in_plane(&mut view),
-            }
-        };
+        answer.result = unsafe { self.law.integrate(self.plane, &mut view) };
         let text = text.split(|&byte| byte == 0).next().expect("a text");
         answer.text = String::from_utf8_lossy(text).into_owned();
         answer
@@ -252,8 +346,7 @@ fn tangents_are_the_derivatives_of_the_stress() {
                 let found = behaviour.step(&f0, &f1, &state, CAUCHY, Some(kind)).k;
                 let error = deviation(&found, &behaviour.differences(&f0, &f1, &state, kind));
                 worst = worst.max(error);
-                let Behaviour { linear, plane, properties } = &behaviour;
-                assert!(error < 1e-8, "kind {kind}, linear {linear}, plane {plane}, {properties:?}: {error:e}");
+                assert!(error < 1e-8, "kind {kind}, {behaviour:?}: {error:e}");
             }
         }
     }
@@ -273,23 +366,67 @@ fn nominal(entries: &[f64; 81], order: &[(usize, usize)]) -> Vec<f64> {
     order.iter().flat_map(|&a| order.iter().map(move |&b| entries[place(a) + 9 * place(b)])).collect()
 }
 
+/// A law's own answer: stress, dS/dE by rows, dP/dF by columns, and the wave speed at a density of 1.
+struct OwnAnswer {
+    stress: [f64; 6],
+    rows: [[f64; 6]; 6],
+    nominal: [f64; 81],
+    speed: f64,
+}
+
+fn answer_of<L: Law<f64>>(properties: &[f64], f0: &Matrix3<f64>, f1: &Matrix3<f64>, state: &[f64]) -> OwnAnswer {
+    let law = L::new(properties).expect("valid properties");
+    let (mut stress, mut new, mut speed) = ([0.0; 6], L::fresh(), 0.0);
+    let (mut rows, mut entries) = ([[0.0; 6]; 6], [0.0; 81]);
+    let components = |f: &Matrix3<f64>| std::array::from_fn(|c| f.as_ptr().wrapping_add(c));
+    let point = Points {
+        f_old: components(f0),
+        f_new: components(f1),
+        state_old: state.as_ptr(),
+        state_new: new.as_mut().as_mut_ptr(),
+        stress: std::array::from_fn(|c| stress.as_mut_ptr().wrapping_add(c)),
+        ..Points::without_arrays(1, 1)
+    };
+    let calls = [
+        Points { measure: Measure::Material, tangent: rows.as_mut_ptr().cast(), ..point },
+        Points { measure: Measure::Nominal, tangent: entries.as_mut_ptr(), ..point },
+        Points { density: 1.0, wave_speed: &mut speed, ..point },
+    ];
+    for call in &calls {
+        // SAFETY: the arrays have the sizes of one point.
+        assert_eq!(unsafe { law.step(call) }.expect("arrays"), 0);
+    }
+    OwnAnswer { stress, rows, nominal: std::array::from_fn(|k| entries[9 * (k % 9) + k / 9]), speed }
+}
+
 #[test]
 fn stresses_and_tangents_are_those_of_the_library() {
     for behaviour in Behaviour::all() {
         for (f0, f1, state) in behaviour.steps() {
-            let (stress, rows, by_columns) = if behaviour.linear {
-                let law = LinearElastic::new(&behaviour.properties).expect("valid properties");
-                let (old, mut axes) = (state.as_slice().try_into().expect("a state"), Matrix3::identity());
-                let (frame, criterion) = (Rotation::Fibre, Criterion::LargestPrincipal);
-                let (point, tangent) = law.step_with_tangent(&f0, &f1, old, frame, criterion, &mut axes);
-                let rows = tangent.matrix(Measure::Material, &f1, &point.stress).expect("an inverse");
-                (point.stress, rows, tangent.nominal(&f1, &point.stress))
-            } else {
-                let law = Hyperelastic::new(&behaviour.properties).expect("valid properties");
-                let old = state.as_slice().try_into().expect("a state");
-                let f: [[f64; 3]; 3] = f1.into();
-                let (point, moduli) = law.point_with_moduli(&f, None, old, Request::ALL, Measure::Material);
-                (point.stress, moduli.matrix(), law.point_with_nominal(&f, None, old, Request::ALL).1)
+            let (stress, rows, by_columns) = match behaviour.law {
+                Linear => {
+                    let law = LinearElastic::new(&behaviour.properties).expect("valid properties");
+                    let (old, mut axes) = (state.as_slice().try_into().expect("a state"), Matrix3::identity());
+                    let (frame, criterion) = (Rotation::Fibre, Criterion::LargestPrincipal);
+                    let (point, tangent) = law.step_with_tangent(&f0, &f1, old, frame, criterion, &mut axes);
+                    let rows = tangent.matrix(Measure::Material, &f1, &point.stress).expect("an inverse");
+                    (point.stress, rows, tangent.nominal(&f1, &point.stress))
+                }
+                LawOf::Hyperelastic => {
+                    let law = Hyperelastic::new(&behaviour.properties).expect("valid properties");
+                    let old = state.as_slice().try_into().expect("a state");
+                    let f: [[f64; 3]; 3] = f1.into();
+                    let (point, moduli) = law.point_with_moduli(&f, None, old, Request::ALL, Measure::Material);
+                    (point.stress, moduli.matrix(), law.point_with_nominal(&f, None, old, Request::ALL).1)
+                }
+                Reinforced | Isotropic => {
+                    let properties = &behaviour.properties;
+                    let OwnAnswer { stress, rows, nominal, .. } = match behaviour.law {
+                        Reinforced => answer_of::<User<ReinforcedSolid, f64>>(properties, &f0, &f1, &state),
+                        _ => answer_of::<User<NeoHooke, f64>>(properties, &f0, &f1, &state),
+                    };
+                    (stress, rows, nominal)
+                }
             };
             let (symmetric, tensor) = (behaviour.symmetric(), behaviour.tensor());
             let p = first_piola_kirchhoff(&stress, &f1);
@@ -358,21 +495,31 @@ fn speed_of_sound_and_stored_energy() {
     for behaviour in Behaviour::all() {
         for (f0, f1, state) in behaviour.steps() {
             let coded = [100.0, CAUCHY as f64, f64::NAN];
-            let Behaviour { properties, linear, .. } = &behaviour;
+            let Behaviour { properties, law, .. } = &behaviour;
             // Without an operator its kind is not read: the size of K is that of kind 0.
             let answer = behaviour.call([Some(&f0), Some(&f1)], &state, coded, [f64::NAN, DENSITY]);
             assert_eq!(answer.result, INTEGRATED, "{}", answer.text);
             let at_rest = (properties[0] / DENSITY).sqrt();
-            // A bound, which is not far off at these deformations.
-            assert!((1.0 - 1e-15..1.5).contains(&(answer.speed / at_rest)), "{} {at_rest}", answer.speed);
-            let energy = if *linear {
-                answer.state[LINEAR_WORK]
-            } else {
-                let law = Hyperelastic::new(properties).expect("valid properties");
-                let point = law.point(&f1, &[0.0; HYPERELASTIC_STATE], Request::ALL);
-                let speed = (point.wave_modulus / DENSITY).sqrt();
-                assert!((answer.speed - speed).abs() <= 1e-12 * speed, "{} {speed}", answer.speed);
-                point.state[..4].iter().sum()
+            // A bound, which of the library's laws is not far off at these deformations.
+            let ratio = answer.speed / at_rest;
+            assert!(law.is_of_ones_own() || (1.0 - 1e-15..1.5).contains(&ratio), "{behaviour:?}: {ratio}");
+            let energy = match law {
+                Linear => answer.state[LINEAR_WORK],
+                Reinforced | Isotropic => {
+                    let speed = match law {
+                        Reinforced => answer_of::<User<ReinforcedSolid, f64>>(properties, &f0, &f1, &state).speed,
+                        _ => answer_of::<User<NeoHooke, f64>>(properties, &f0, &f1, &state).speed,
+                    } / DENSITY.sqrt();
+                    assert!((answer.speed - speed).abs() <= 1e-12 * speed, "{} {speed}", answer.speed);
+                    answer.state[0]
+                }
+                LawOf::Hyperelastic => {
+                    let law = Hyperelastic::new(properties).expect("valid properties");
+                    let point = law.point(&f1, &[0.0; HYPERELASTIC_STATE], Request::ALL);
+                    let speed = (point.wave_modulus / DENSITY).sqrt();
+                    assert!((answer.speed - speed).abs() <= 1e-12 * speed, "{} {speed}", answer.speed);
+                    point.state[..4].iter().sum()
+                }
             };
             assert!((answer.energy - energy).abs() <= 1e-12 * energy.abs(), "{} {energy}", answer.energy);
         }
@@ -388,7 +535,7 @@ fn oblique_axes_are_refused_in_the_plane() {
         assert_eq!(answer.rdt, 1.0);
         (answer.result == NOT_INTEGRATED).then_some(answer.text)
     };
-    for linear in [false, true] {
+    for law in [LawOf::Hyperelastic, Linear, Reinforced] {
         for (fibre, oblique) in [
             (Vector3::new(1.0, 2.0, 0.0), false),
             (Vector3::new(0.0, 0.0, -1e-3), false),
@@ -396,17 +543,87 @@ fn oblique_axes_are_refused_in_the_plane() {
             (Vector3::new(1.0, 0.0, 1e-6), true),
             (Vector3::new(1e-6, 0.0, 1.0), true),
         ] {
-            let text = refused(&Behaviour::new(linear, true, fibre.into()));
+            let text = refused(&Behaviour::new(law, true, fibre.into()));
             assert_eq!(text.is_some(), oblique, "{fibre}: {text:?}");
             assert!(text.is_none_or(|text| text.contains("(fibre direction) are ")));
-            assert!(refused(&Behaviour::new(linear, false, fibre.into())).is_none());
+            assert!(refused(&Behaviour::new(law, false, fibre.into())).is_none());
         }
     }
     for (second, oblique) in [([0.0, 0.0, 3.0], false), ([0.2, 1.0, 0.0], false), ([0.0, 1.0, 1.0], true)] {
-        let mut behaviour = Behaviour::new(true, true, [1.0, 0.0, 0.0]);
+        let mut behaviour = Behaviour::new(Linear, true, [1.0, 0.0, 0.0]);
         behaviour.properties[7..].copy_from_slice(&second);
         let text = refused(&behaviour);
         assert_eq!(text.is_some(), oblique, "{second:?}: {text:?}");
         assert!(text.is_none_or(|text| text.contains("(second axis) are 0.0, 1.0, 1.0; allowed: ")));
+    }
+}
+
+/// A wrong property is refused by its name, as the law's own table has it, in every hypothesis; a point that has failed carries nothing.
+#[test]
+fn properties_and_failure_of_a_law_of_ones_own() {
+    let (rest, pulled) = (Matrix3::identity(), Matrix3::from_diagonal(&Vector3::new(1.05, 1.0, 1.0)));
+    for plane in [false, true] {
+        let mut behaviour = Behaviour::new(Reinforced, plane, [1.0, 0.0, 0.0]);
+        for (index, value, message) in [
+            (0, 0.0, "property 1 (mu, shear modulus of the solid) is 0.0; allowed: a number > 0, at most 1e25"),
+            (2, -3.0, "property 3 (k, stiffness of the fibres) is -3.0; allowed: a number from 0 to 1e25"),
+            (3, f64::NAN, "property 4 (stretch_lim, fibre stretch at failure, 0: no failure) is NaN"),
+            (4, 0.0, "properties 5 to 7 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero"),
+        ] {
+            let mut wrong = behaviour.clone();
+            wrong.properties[index] = value;
+            let answer = wrong.call([Some(&rest), Some(&rest)], &wrong.fresh(), [0.0; 3], [f64::NAN; 2]);
+            assert_eq!((answer.result, answer.rdt), (NOT_INTEGRATED, 1.0));
+            assert!(answer.text.contains(message), "{}", answer.text);
+            assert!(answer.stress.iter().chain(&answer.state).all(|x| x.is_nan()));
+        }
+        behaviour.properties[3] = 1.04;
+        let failing = behaviour.step(&rest, &pulled, &behaviour.fresh(), CAUCHY, Some(0));
+        assert!(failing.stress[0] > 1.0 && failing.k[0] > 1.0, "the step that fails carries");
+        assert_eq!(failing.state[1..], [1.05, 1.0, 0.0]);
+        for kind in KINDS {
+            let failed = behaviour.step(&pulled, &rest, &failing.state, CAUCHY, Some(kind));
+            assert!(failed.stress.iter().chain(&failed.k).all(|&x| x == 0.0));
+            assert_eq!((failed.state, failed.energy), (failing.state.clone(), failing.energy));
+        }
+        // Inverted: nothing is written, and the time step must shrink.
+        let inverted = Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0, 1.0));
+        let answer = behaviour.call([Some(&rest), Some(&inverted)], &behaviour.fresh(), [4.0, 0.0, 0.0], [f64::NAN; 2]);
+        assert_eq!((answer.result, answer.rdt), (NOT_INTEGRATED, 0.25));
+        assert!(answer.text.contains("determinant <= 0") && answer.stress.iter().all(|x| x.is_nan()));
+    }
+}
+
+/// Newton's method to a given uniaxial stress by dσ/dF, F without rotation: the stress that is missing is squared from one
+/// iteration to the next.
+#[test]
+fn a_given_stress_is_found_quadratically() {
+    /// The entries of F on and above the diagonal.
+    const UNKNOWN: [usize; 6] = [0, 1, 2, 3, 5, 7];
+    for (law, largest) in [(Reinforced, 4.0), (Isotropic, 0.8)] {
+        let behaviour = Behaviour::new(law, false, [0.3, -0.5, 0.8]);
+        let (rest, state) = (Matrix3::identity(), behaviour.fresh());
+        let (mut f, mut residuals) = (rest, Vec::new());
+        for _ in 0..12 {
+            let answer = behaviour.step(&rest, &f, &state, CAUCHY, Some(0));
+            let mut missing = Vector6::from_column_slice(&answer.stress);
+            missing[0] -= largest;
+            residuals.push(missing.norm() / largest);
+            if residuals.last().is_some_and(|&r| r < 1e-13) {
+                break;
+            }
+            let by_unknown = Matrix6::from_fn(|row, column| answer.k[9 * row + UNKNOWN[column]]);
+            let change = by_unknown.lu().solve(&missing).expect("a regular tangent");
+            for (place, change) in UNKNOWN.into_iter().zip(change.iter()) {
+                f[TENSOR[place]] -= change;
+            }
+        }
+        println!("{law:?}: {residuals:?}");
+        assert!(residuals.last().is_some_and(|&r| r < 1e-13), "{law:?}: {residuals:?}");
+        let near: Vec<_> = residuals.windows(2).filter(|pair| (1e-7..0.1).contains(&pair[0])).collect();
+        assert!(near.len() >= 2, "{law:?}: {residuals:?}");
+        for pair in near {
+            assert!(pair[1] <= 20.0 * pair[0] * pair[0], "{law:?}: {residuals:?}");
+        }
     }
 }

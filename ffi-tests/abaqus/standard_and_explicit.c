@@ -35,9 +35,32 @@ void xplb_exit_(void)
     ends_of_explicit++;
 }
 
+#ifdef REINFORCED
+static const double reinforced[7] = {1000, 3000, 20000, 0, 1, 0, 0};
+
+/* Stress along the fibre and energy per reference volume of a stretch. */
+static double reinforced_stress(double l)
+{
+    return (1000 * (l * l - 1) + 3000 * log(l) + 2 * 20000 * (l * l - 1) * l * l) / l;
+}
+
+static double reinforced_energy(double l)
+{
+    return 500 * (l * l - 1) - 1000 * log(l) + 1500 * log(l) * log(l) + 10000 * (l * l - 1) * (l * l - 1);
+}
+#else
 static const double yarn[11] = {82341, 1055, 2.2, 649.74, 0, 0.0458, 1.8, 0, 1, 0, 0};
 static const double linear[10] = {79414, 794, 126, 3637, 1, 0, 0, 0, 0, 0};
-static const char name[80] = "YARN                                                                            ";
+#endif
+
+/* CMNAME, with blanks behind it. */
+static char name[80];
+
+static void set_name(const char *text)
+{
+    memset(name, ' ', sizeof name);
+    memcpy(name, text, strlen(text));
+}
 
 #ifndef SINGLE
 typedef void umat(double *, double *, double *, double *, double *, double *, double *, double *, double *, double *, const double *,
@@ -46,12 +69,12 @@ typedef void umat(double *, double *, double *, double *, double *, double *, do
                   const double *, const double *, double *, const double *, const double *, const double *, const int32_t *,
                   const int32_t *, const int32_t *, const int32_t *, const int32_t *, const int32_t *, int);
 
-static double stress[6], statev[11], ddsdde[36], pnewdt;
+static double stress[6], statev[11], ddsdde[36], pnewdt, sse;
 
 /* A stretch by `lambda` in one increment from rest. */
 static void standard(umat *call, const double *props, int32_t nprops, int32_t nstatv, double lambda)
 {
-    double nan[9], sse = NAN, before[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, f[9] = {lambda, 0, 0, 0, 1, 0, 0, 0, 1};
+    double nan[9], before[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, f[9] = {lambda, 0, 0, 0, 1, 0, 0, 0, 1};
     const int32_t ndi = 3, nshr = 3, ntens = 6, one = 1, jstep[4] = {1, 1, 1, 0};
     for (int i = 0; i < 9; i++)
         nan[i] = NAN;
@@ -61,12 +84,39 @@ static void standard(umat *call, const double *props, int32_t nprops, int32_t ns
         stress[i] = NAN;
     memset(statev, 0, sizeof statev);
     pnewdt = 1;
+    sse = NAN;
     call(stress, statev, ddsdde, &sse, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, nan, name, &ndi, &nshr, &ntens,
          &nstatv, props, &nprops, nan, nan, &pnewdt, nan, before, f, &one, &one, &one, &one, jstep, &one, 80);
 }
 
-static void umat_of_both_laws(umat *call)
+#ifdef REINFORCED
+static void umat_of_laws(umat *call)
 {
+    const char *names[] = {"REINFORCED", "reinforced", "REINFORCED_YARN-2"};
+    const double wrong[7] = {1000, 3000, -1, 0, 1, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        set_name(names[i]);
+        standard(call, reinforced, 7, 4, 1.01);
+        CHECK(fabs(stress[0] / reinforced_stress(1.01) - 1) < 10 * ROUNDING, "%g", stress[0]);
+        CHECK(fabs(sse * 1.01 / reinforced_energy(1.01) - 1) < 1e-11, "%g", sse);
+        CHECK(fabs(statev[1] - 1.01) < ROUNDING && statev[3] == 1 && pnewdt == 1, "%g, %g", statev[1], pnewdt);
+        double logarithmic = 1.01 * (reinforced_stress(1.01 + 1e-5) - reinforced_stress(1.01 - 1e-5)) / 2e-5 + stress[0];
+        CHECK(fabs(ddsdde[0] / logarithmic - 1) < 1e-8, "%g, %g", ddsdde[0], logarithmic);
+    }
+    standard(call, reinforced, 7, 4, -1);
+    CHECK(pnewdt == 0.25 && stress[0] == 0 && ends_of_standard == 0, "%g, %g, %d", pnewdt, stress[0], ends_of_standard);
+    standard(call, wrong, 7, 4, 1.01);
+    CHECK(ends_of_standard == 1 && isnan(stress[0]), "%d, %g", ends_of_standard, stress[0]);
+    standard(call, reinforced, 7, 3, 1.01);
+    CHECK(ends_of_standard == 2 && isnan(stress[0]), "%d, %g", ends_of_standard, stress[0]);
+    set_name("YARN");
+    standard(call, reinforced, 7, 4, 1.01);
+    CHECK(ends_of_standard == 3 && isnan(stress[0]), "%d, %g", ends_of_standard, stress[0]);
+}
+#else
+static void umat_of_laws(umat *call)
+{
+    set_name("YARN");
     standard(call, yarn, 11, 11, 1.01);
     CHECK(fabs(stress[0] / (82341 * log(1.01) / 1.01) - 1) < ROUNDING && ddsdde[0] > 0, "%g, %g", stress[0], ddsdde[0]);
     CHECK(statev[10] == 1 && pnewdt == 1, "%g, %g", statev[10], pnewdt);
@@ -78,6 +128,7 @@ static void umat_of_both_laws(umat *call)
     standard(call, yarn, 10, 11, 1.01); /* a property is missing */
     CHECK(ends_of_standard == 1 && isnan(stress[0]), "%d, %g", ends_of_standard, stress[0]);
 }
+#endif
 #endif
 
 typedef void vumat(const int32_t *, const int32_t *, const int32_t *, const int32_t *, const int32_t *, const int32_t *, const int32_t *,
@@ -110,8 +161,32 @@ static void explicit_step(vumat *call, const double *values, int32_t nprops, int
          nan, zeros, zeros, zeros, nan, u1, nan, nan, sigma, state, energy, inelastic, 80);
 }
 
-static void vumat_of_both_laws(vumat *call)
+#ifdef REINFORCED
+static void vumat_of_laws(vumat *call)
 {
+    const double wrong[7] = {1000, 3000, 20000, 0, 0, 0, 0};
+    set_name("REINFORCED-1");
+    explicit_step(call, reinforced, 7, 4, (real)1.01);
+    for (int i = 0; i < POINTS; i++) {
+        CHECK(fabs((double)sigma[i] / reinforced_stress((real)1.01) - 1) < 100 * ROUNDING, "%g", (double)sigma[i]);
+        CHECK(state[3 * POINTS + i] == 1, "%g", (double)state[3 * POINTS + i]);
+        double specific = (double)energy[i] * 2 * 1.005 / reinforced_energy((real)1.01); /* the density is that at half the step */
+        CHECK(fabs(specific - 1) < 1e5 * ROUNDING, "%g", specific);
+    }
+    explicit_step(call, reinforced, 7, 4, -1);
+    CHECK(state[3 * POINTS + 2] == 0 && ends_of_explicit == 0, "%g, %d", (double)state[3 * POINTS + 2], ends_of_explicit);
+    explicit_step(call, wrong, 7, 4, (real)1.01);
+    CHECK(ends_of_explicit == 1 && isnan((double)sigma[0]), "%d, %g", ends_of_explicit, (double)sigma[0]);
+    explicit_step(call, reinforced, 7, 3, (real)1.01);
+    CHECK(ends_of_explicit == 2 && isnan((double)sigma[0]), "%d, %g", ends_of_explicit, (double)sigma[0]);
+    set_name("REINFORCE");
+    explicit_step(call, reinforced, 7, 4, (real)1.01);
+    CHECK(ends_of_explicit == 3 && isnan((double)sigma[0]), "%d, %g", ends_of_explicit, (double)sigma[0]);
+}
+#else
+static void vumat_of_laws(vumat *call)
+{
+    set_name("YARN");
     explicit_step(call, yarn, 11, 11, (real)1.01);
     double wanted = 82341 * log(1.01) / 1.01;
     CHECK(fabs((double)sigma[2] / wanted - 1) < 100 * ROUNDING, "%g", (double)sigma[2]);
@@ -125,6 +200,7 @@ static void vumat_of_both_laws(vumat *call)
     explicit_step(call, linear, 10, 11, (real)1.01); /* eleven state variables: not the linear elastic law's */
     CHECK(ends_of_explicit == 1 && isnan((double)sigma[0]), "%d, %g", ends_of_explicit, (double)sigma[0]);
 }
+#endif
 
 int main(int argc, char **argv)
 {
@@ -145,10 +221,10 @@ int main(int argc, char **argv)
     *(void **)&call = of_standard;
     CHECK(call != NULL, "umat_");
     if (call != NULL)
-        umat_of_both_laws(call);
+        umat_of_laws(call);
 #endif
     if (of_explicit != NULL)
-        vumat_of_both_laws(of_explicit);
+        vumat_of_laws(of_explicit);
     fflush(stdout);
     return failures > 0;
 }

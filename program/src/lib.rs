@@ -14,11 +14,14 @@
 //! - the fibres of a yarn under impact, as rows of beads in LAMMPS (`toron fibres`): [`fibres`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
+//! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
-//!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`].
+//!   drawing in [`picture`], errors, units, TOML files and tables of measured data in [`common`], arguments and
+//!   exit codes in [`command_line`].
 
 pub mod bench;
 pub mod cell;
+pub mod command_line;
 pub mod common;
 pub mod deck;
 pub mod entries;
@@ -30,6 +33,9 @@ pub mod identify;
 pub mod impact;
 pub mod load_path;
 pub mod material;
+mod own_program;
 pub mod params;
 pub mod picture;
 pub mod weave;
+
+pub use own_program::of_law;

@@ -5,10 +5,13 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use toron_program::common::console::{keep, lost, print, print_error};
+use toron_program::common::console::print;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
-use toron_program::{bench, cell, deck, eval, fabric, fibres, identify, impact, load_path, params, weave};
+use toron_program::material::laws::Laws;
+use toron_program::{
+    bench, cell, command_line, deck, eval, fabric, fibres, identify, impact, load_path, params, weave,
+};
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
 #[derive(Parser)]
@@ -121,28 +124,14 @@ fn completions(shell: Shell) {
 }
 
 fn main() -> ExitCode {
-    let answer = match Arguments::try_parse() {
-        Ok(arguments) => run(arguments.command),
-        Err(error) if error.use_stderr() => error.exit(),
-        // `--help` and `--version` are errors for clap.
-        Err(text) => {
-            keep(text.print());
-            Ok(())
-        }
-    };
-    let lost = lost().map(|reason| Error::Input(format!("standard output: {reason}")));
-    let errors: Vec<Error> = answer.err().into_iter().chain(lost).collect();
-    for error in &errors {
-        print_error(&format!("toron: {error}\n"));
-    }
-    errors.first().map_or(ExitCode::SUCCESS, |error| ExitCode::from(error.exit_code()))
+    command_line::run(Arguments::command(), |arguments: Arguments| run(arguments.command))
 }
 
 fn run(command: Command) -> Result<(), Error> {
     match command {
-        Command::Run { path, output } => load_path::command::run(path.as_deref(), &output),
-        Command::Params { units, preset } => params::print_tables(units.as_deref(), preset.as_deref()),
-        Command::Deck(arguments) => deck::command::run(&arguments),
+        Command::Run { path, output } => load_path::command::run(Laws::Toron, path.as_deref(), &output),
+        Command::Params { units, preset } => params::print_tables(Laws::Toron, units.as_deref(), preset.as_deref()),
+        Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
         Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),

@@ -6,12 +6,13 @@ use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
 use crate::common::units::unit;
+use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
 use crate::material::preset::Preset;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{DENSITY, Dimension, HYPERELASTIC, LINEAR_ELASTIC, NUMBER, PRESETS, Property};
-use toron::law::state::{self, StateVariable};
+use toron::law::parameters::{DENSITY, Dimension, NUMBER, Property};
+use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
 
 /// The text of `toron --version`.
@@ -19,17 +20,18 @@ pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }
 
-/// Prints the tables; or, given a preset by name or file, its values.
+/// Prints the tables of these laws; or, given a preset by name or file, its values.
 ///
 /// # Errors
 /// An unknown preset or unit system; a file of a preset that is wrong, or lacks a property.
-pub fn print_tables(units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
+pub fn print_tables(laws: Laws, units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
     let units = units.map(unit_system).transpose()?;
     let text = match preset {
-        None => tables(&units.unwrap_or(UnitSystem::SI))?,
+        None => tables(laws, &units.unwrap_or(UnitSystem::SI))?,
         Some(name) => {
-            let preset = Preset::find(name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?;
-            values(&preset, &units.unwrap_or(preset.units))?
+            let preset =
+                Preset::find(laws, name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?;
+            values(laws, &preset, &units.unwrap_or(preset.units))?
         }
     };
     print(&text);
@@ -40,30 +42,40 @@ fn unit_system(name: &str) -> Result<UnitSystem, Error> {
     UnitSystem::parse(name).ok_or_else(|| Error::Input(format!("--units {name}; allowed: {}", UnitSystem::ALLOWED)))
 }
 
-/// Both laws' properties and state variables, and the presets.
-fn tables(units: &UnitSystem) -> Result<String, Error> {
+/// The laws' properties and state variables, and the presets.
+///
+/// # Errors
+/// A preset that lacks a property.
+pub fn tables(laws: Laws, units: &UnitSystem) -> Result<String, Error> {
     let mut text = String::new();
-    let laws: [(&str, &[Property], &[StateVariable]); 2] = [
-        ("Hyperelastic yarn law", &HYPERELASTIC, &state::HYPERELASTIC),
-        ("Linear elastic orthotropic law", &LINEAR_ELASTIC, &state::LINEAR_ELASTIC),
-    ];
-    for (name, properties, variables) in laws {
-        text += &format!("{name}: properties\n{}\n", property_table(properties, units));
-        text += &format!("{name}: state variables, all 0 at the start\n{}\n", state_table(variables, units));
+    for law in laws.names() {
+        let (name, description) = (heading(law), law.description());
+        text += &format!("{name}: properties\n{}\n", property_table(description.properties, units));
+        text += &format!("{name}: state variables, all 0 at the start\n{}\n", state_table(description.state, units));
     }
-    for preset in PRESETS.iter().map(Preset::from) {
+    for preset in laws.presets().iter().map(Preset::from) {
         text += &format!("{}\n", preset_text(&preset, units)?);
     }
     Ok(text)
 }
 
+/// What the tables of a law are headed by: its title, with a capital.
+fn heading(law: LawName) -> String {
+    if law == LawName::LinearElastic {
+        return "Linear elastic orthotropic law".to_string();
+    }
+    let mut title = law.description().title.chars();
+    title.next().into_iter().flat_map(char::to_uppercase).chain(title).collect()
+}
+
 /// One preset, and what makes a card of it.
-fn values(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
+fn values(laws: Laws, preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
     let values = preset.complete(units)?;
     Law::new(preset.law, &values, Rotation::Fibre, Criterion::LargestPrincipal)
         .map_err(|error| preset.law_error(&error))?;
     let name = preset.file().unwrap_or(&preset.name);
-    let deck = format!("toron deck --host HOST --preset {name} --units {}", units.names().join("-"));
+    let (program, units_name) = (laws.program(), units.names().join("-"));
+    let deck = format!("{program} deck --host HOST --preset {name} --units {units_name}");
     Ok(format!("{}\nAs a card for a solver: {deck}\n", preset_text(preset, units)?))
 }
 

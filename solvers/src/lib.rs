@@ -11,30 +11,57 @@
 //! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
 //! macros, one for each solver.
 
-mod abaqus;
-mod c;
-mod calculix;
-mod mgis;
+#[cfg(unix)]
+#[doc(hidden)]
+pub mod abaqus;
+#[doc(hidden)]
+pub mod c;
+#[doc(hidden)]
+pub mod calculix;
+#[doc(hidden)]
+pub mod lsdyna;
+#[doc(hidden)]
+pub mod mgis;
 #[doc(hidden)]
 pub mod openradioss;
 
 pub use c::c_header;
+
+// What the macros name, in whatever package they are used.
 #[doc(hidden)]
-pub use toron;
+pub use {libc, toron};
 
 /// Exports laws to every solver, in the precision of the solver's real numbers, `f64` or `f32`. CalculiX and MFront's loaders have double
 /// precision alone.
 ///
 /// For each law its type ([`UserMaterial`](toron::user::UserMaterial), or toron's own [`Hyperelastic`](toron::Hyperelastic) and
 /// [`LinearElastic`](toron::LinearElastic)), its name, a C identifier in capitals, and its number in OpenRadioss, `/MAT/USERnn`. Two laws
-/// of one name or number do not compile.
+/// of one name or number do not compile:
+///
+/// ```no_run
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "LINEAR", user 2; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "YARN", user 2; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "YARN", user 1; toron::LinearElastic as "LINEAR", user 1; }
+/// # fn main() {}
+/// ```
+/// ```compile_fail
+/// toron_solvers::export! { f64; toron::Hyperelastic as "yarn", user 1; }
+/// # fn main() {}
+/// ```
 #[macro_export]
 macro_rules! export {
-    ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {
+    ($t:ident; $($law:ty as $name:literal, user $number:literal);+ $(;)?) => {
         const _: () = $crate::assert_distinct(&[$($name),+], &[$($number),+]);
         $crate::abaqus! { $t; $($law as $name, user $number;)+ }
         $crate::c! { $t; $($law as $name, user $number;)+ }
         $crate::calculix! { $t; $($law as $name, user $number;)+ }
+        $crate::lsdyna! { $t; $($law as $name, user $number;)+ }
         $crate::mgis! { $t; $($law as $name, user $number;)+ }
         $crate::openradioss! { $t; $($law as $name, user $number;)+ }
     };

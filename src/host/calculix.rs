@@ -1,12 +1,12 @@
 //! CalculiX: external behaviours through the native interface, `*MATERIAL, NAME=@TORON_HYPERELASTIC` and
-//! `NAME=@TORON_LINEARELASTIC`.
+//! `NAME=@TORON_LINEARELASTIC`, or `@LIBRARY_LAW` for any other law of a library.
 //!
-//! | | hyperelastic law | linear elastic law |
-//! |---|---|---|
-//! | found as | `HYPERELASTIC` | `LINEARELASTIC`, both in `libTORON.so`, a link to `libtoron_calculix.so` |
-//! | properties, elconloc | 11 | 10 |
-//! | state, nstate_ ≥ | 11 | 19: 10 state variables, then F of the last increment, by columns |
-//! | stiff | dS/dE | its symmetric part |
+//! | | hyperelastic law | linear elastic law | any law |
+//! |---|---|---|---|
+//! | found as | `HYPERELASTIC` | `LINEARELASTIC`, both in `libTORON.so`, a link to `libtoron_calculix.so` | its name |
+//! | properties, elconloc | 11 | 10 | those of its table |
+//! | state, nstate_ ≥ | 11 | 19: 10 state variables, then F of the last increment, by columns | its table, and F where it reads that |
+//! | stiff | dS/dE | its symmetric part | its symmetric part |
 //!
 //! | | |
 //! |---|---|
@@ -24,19 +24,21 @@
 use core::cell::Cell;
 use core::ffi::c_char;
 
-use crate::law::block::linear::LinearPointers;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
 use crate::law::description::{self, Description};
 use crate::law::error::Error;
+use crate::law::hyperelastic::Hyperelastic;
+use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::response::{Request, nan_unless_finite};
-use crate::law::state::{HYPERELASTIC_STATE, LINEAR_ELASTIC_STATE};
+use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
+use crate::law::user::{User, UserMaterial};
 use nalgebra::{Matrix3, Vector3};
 
 use super::border::{properties, start_at_rest};
@@ -48,12 +50,12 @@ const CUTBACK: f64 = 0.25;
 /// The exit code of CalculiX after an error in a material.
 const EXIT_CODE: i32 = 201;
 
-/// The diagonal of stiff at a point without stiffness, relative to the bulk modulus ½ k_el. With 0 CalculiX's equation solver
+/// The diagonal of stiff at a point without stiffness, relative to the bulk modulus. With 0 CalculiX's equation solver
 /// ends the job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
 
-/// The state variables of the linear elastic law, and F of the last increment.
-const LINEAR_HISTORY: usize = description::LINEAR_ELASTIC.history();
+/// Room for the properties of a law whose directions are turned.
+const MOST_PROPERTIES: usize = 128;
 
 /// The arguments of CalculiX that the laws use, see its `umat_user.f`.
 #[derive(Clone, Copy, Debug)]
@@ -95,21 +97,26 @@ struct Arguments<'a> {
     pnewdt: f64,
 }
 
-/// The results that are returned to CalculiX; N state variables.
-struct Answer<const N: usize> {
+/// The results that are returned to CalculiX.
+struct Answer<S> {
     stress: [f64; 6],
     stiffness: [f64; 21],
-    state: [f64; N],
+    state: S,
+    /// F by columns, kept behind the state for the next increment by a law that reads it.
+    kept: Option<[f64; 9]>,
     pnewdt: f64,
     status: i32,
 }
 
-impl<const N: usize> Answer<N> {
-    const EMPTY: Answer<N> =
-        Answer { stress: [0.0; 6], stiffness: [0.0; 21], state: [0.0; N], pnewdt: 0.0, status: status::OK };
+impl<S> Answer<S> {
+    /// A state, and nothing else yet.
+    #[inline(always)]
+    const fn new(state: S) -> Self {
+        Answer { stress: [0.0; 6], stiffness: [0.0; 21], state, kept: None, pnewdt: 0.0, status: status::OK }
+    }
 }
 
-impl Sink<f64, 21> for &mut Answer<HYPERELASTIC_STATE> {
+impl Sink<f64, 21> for &mut Answer<[f64; HYPERELASTIC_STATE]> {
     #[inline(always)]
     fn take(self, point: Point<f64>, _: Option<f64>, moduli: [f64; 21]) {
         let [el, tc, td, ld] = point.modes;
@@ -156,11 +163,11 @@ impl Arguments<'_> {
         Ok(properties)
     }
 
-    /// Completes the answer: pnewdt, and a stiffness where there is none.
+    /// Completes the answer: pnewdt, and a stiffness where there is none, relative to the bulk modulus.
     ///
     /// # Errors
     /// A status that no smaller increment helps.
-    fn finish<const N: usize>(&self, mut answer: Answer<N>, stiffness: f64) -> Result<Answer<N>, Error> {
+    fn finish<S>(&self, mut answer: Answer<S>, bulk: impl FnOnce() -> f64) -> Result<Answer<S>, Error> {
         if [status::FIBRE_DIRECTION, status::STATE_NOT_FINITE].contains(&answer.status) {
             return Err(Error::Plain(answer.status));
         }
@@ -170,61 +177,63 @@ impl Arguments<'_> {
             (_, false) => CUTBACK,
         };
         if answer.stiffness.iter().all(|&c| c == 0.0) {
-            let residual = RESIDUAL_STIFFNESS * 0.5 * stiffness;
+            let residual = RESIDUAL_STIFFNESS * bulk();
             answer.stiffness = DIAGONAL.map(|diagonal| residual * diagonal);
         }
         Ok(answer)
     }
 
-    /// Evaluates the hyperelastic law.
+    /// Evaluates the hyperelastic law, by its kernel of one point.
     ///
     /// # Errors
     /// The errors of a deck that the arguments show.
-    fn hyperelastic(&self) -> Result<Answer<HYPERELASTIC_STATE>, Error> {
+    fn hyperelastic(&self) -> Result<Answer<[f64; HYPERELASTIC_STATE]>, Error> {
         let properties = self.properties(&description::HYPERELASTIC)?;
         let fibre = match (self.orientation, properties) {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
         };
-        let mut answer = Answer::EMPTY;
+        let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
         // SAFETY: CalculiX's promise: there are as many as state_count says.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(Call { source: properties, f: self.f, fibre, state, tangent, sink: &mut answer }, Level::Avx512)?;
-        self.finish(answer, properties.first().copied().unwrap_or_default())
+        self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())
     }
 
-    /// Evaluates the linear elastic law.
+    /// Evaluates any law by its step.
     ///
     /// # Errors
     /// The errors of a deck that the arguments show.
-    fn linear_elastic(&self) -> Result<Answer<LINEAR_HISTORY>, Error> {
-        let values = self.properties(&description::LINEAR_ELASTIC)?;
-        let law = self.oriented(values)?;
+    fn step<L: CalculixLaw>(&self) -> Result<Answer<L::State>, Error> {
+        let values = self.properties(&L::DESCRIPTION)?;
+        let law = self.oriented::<L>(values)?;
         // SAFETY: CalculiX's promise: there are as many as state_count says.
-        let mut state = unsafe { *self.old_state.cast::<[f64; LINEAR_HISTORY]>() };
-        let (old, f_old) = state.split_at_mut(LINEAR_ELASTIC_STATE);
-        let f_old = components_mut(f_old.as_mut_ptr(), 1);
-        // SAFETY: nine values.
-        unsafe { start_at_rest(f_old, 1) };
-        let mut answer = Answer::EMPTY;
+        let old = unsafe { *self.old_state.cast::<L::State>() };
+        let f_new: &[f64; 9] = self.f.as_flattened().first_chunk().unwrap_or(&[0.0; 9]); // there are nine
+        let mut f_old = *f_new;
+        if L::DESCRIPTION.reads_old_gradient {
+            // SAFETY: as above; nine values.
+            unsafe {
+                f_old = *self.old_state.add(L::DESCRIPTION.state.len()).cast();
+                start_at_rest(components_mut(f_old.as_mut_ptr(), 1), 1);
+            }
+        }
+        let mut answer = Answer::new(old);
         let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
-        let pointers = LinearPointers {
-            f_old: f_old.map(<*mut f64>::cast_const),
-            f_new: components(self.f.as_flattened().as_ptr(), 1),
-            state_old: old.as_ptr(),
-            state_new: answer.state.as_mut_ptr(),
+        let point = Points {
+            f_old: components(f_old.as_ptr(), 1),
+            f_new: components(f_new.as_ptr(), 1),
+            state_old: old.as_ref().as_ptr(),
+            state_new: answer.state.as_mut().as_mut_ptr(),
             stress: components_mut(cauchy.as_mut_ptr(), 1),
             tangent: entries.as_mut_ptr().cast(),
             measure: Measure::Material,
-            ..LinearPointers::without_arrays(1, 1)
+            ..Points::without_arrays(1, 1)
         };
         // SAFETY: the arrays have the sizes of one point, and outputs overlap nothing.
-        answer.status = unsafe { law.raw_block(&pointers) }?;
-        let f =
-            if answer.status == status::OK { self.f.as_flattened() } else { state.split_at(LINEAR_ELASTIC_STATE).1 };
-        answer.state.iter_mut().skip(LINEAR_ELASTIC_STATE).zip(f).for_each(|(kept, &f)| *kept = f);
+        answer.status = unsafe { law.step(&point) }?;
         let [s11, s22, s33, s12, s23, s31] = second_piola_kirchhoff(&cauchy, self.f);
         answer.stress = [s11, s22, s33, s12, s31, s23];
         // The symmetric part, its upper triangle by rows. Halves first: a sum might overflow.
@@ -237,23 +246,35 @@ impl Arguments<'_> {
         answer.stiffness = by_columns(upper);
         if nan_unless_finite(&answer.stress) != 0.0 {
             // The state must not advance without its stress.
-            answer = Answer { state, status: status::OVERFLOW, ..Answer::EMPTY };
+            answer = Answer { status: status::OVERFLOW, ..Answer::new(old) };
         }
-        self.finish(answer, values.first().copied().unwrap_or_default())
+        if L::DESCRIPTION.reads_old_gradient {
+            answer.kept = Some(if answer.status == status::OK { *f_new } else { f_old });
+        }
+        self.finish(answer, || law.bulk_modulus(values))
     }
 
-    /// The linear elastic law, its axes turned where the element has an orientation.
+    /// The law, its directions turned where the element has an orientation.
     ///
     /// # Errors
     /// The first property that is wrong.
-    fn oriented(&self, values: &[f64]) -> Result<LinearElastic, Error> {
-        let law = LinearElastic::new(values)?;
-        let (Some((axes, place)), &[.., m_1, m_2, m_3, n_1, n_2, n_3]) = (self.orientation, values) else {
-            return Ok(law);
-        };
-        let second = [n_1, n_2, n_3];
-        let second = if second == [0.0; 3] { None } else { Some(turned(second, axes, place)) };
-        law.along(turned([m_1, m_2, m_3], axes, place), second)
+    fn oriented<L: Law<f64>>(&self, values: &[f64]) -> Result<L, Error> {
+        const { assert!(L::DESCRIPTION.properties.len() <= MOST_PROPERTIES, "CalculiX: too many properties") };
+        // As they are given, so that a message names what stands in the deck.
+        let law = L::new(values)?;
+        let Some((axes, place)) = self.orientation else { return Ok(law) };
+        let mut room = [0.0; MOST_PROPERTIES];
+        room.iter_mut().zip(values).for_each(|(to, &from)| *to = from);
+        let Description { fibre, second_axis, .. } = L::DESCRIPTION;
+        for first in [fibre, second_axis].into_iter().flatten() {
+            // A second axis of 0 is any one.
+            if let Some(direction) = room.get_mut(first..).and_then(<[f64]>::first_chunk_mut)
+                && *direction != [0.0; 3]
+            {
+                *direction = turned(*direction, axes, place);
+            }
+        }
+        L::new(room.get(..values.len()).unwrap_or_default()).map_err(|_| Error::Plain(status::FIBRE_DIRECTION))
     }
 
     /// Whether NLGEOM is missing: the strain is the linear one of this F, without ½ HᵀH, H = F − 1.
@@ -323,10 +344,52 @@ fn refuse(material: &[u8; 80], message: &Message) -> ! {
     unsafe { libc::exit(EXIT_CODE) }
 }
 
+/// A law as an external behaviour of CalculiX.
+pub trait CalculixLaw: Law<f64> {
+    /// The bulk modulus to which the stiffness of a failed point is relative.
+    fn bulk_modulus(&self, _properties: &[f64]) -> f64 {
+        let [bulk, _] = self.bulk_and_shear();
+        bulk
+    }
+
+    /// The function that CalculiX calls.
+    ///
+    /// # Safety
+    /// CalculiX's promise: every pointer has as many values as its `umat_user.f` says.
+    #[inline(never)]
+    unsafe fn behaviour(call: &Behaviour) {
+        // SAFETY: the caller's promise.
+        unsafe { answer(call, |arguments| arguments.step::<Self>()) }
+    }
+}
+
+impl<M: UserMaterial> CalculixLaw for User<M, f64> {}
+
+impl CalculixLaw for Hyperelastic<f64> {
+    #[inline(always)]
+    unsafe fn behaviour(call: &Behaviour) {
+        // SAFETY: the caller's promise.
+        unsafe { hyperelastic(call) }
+    }
+}
+
+impl CalculixLaw for LinearElastic<f64> {
+    /// ½ E1, also where that is not the largest modulus.
+    fn bulk_modulus(&self, properties: &[f64]) -> f64 {
+        0.5 * properties.first().copied().unwrap_or_default()
+    }
+
+    #[inline(always)]
+    unsafe fn behaviour(call: &Behaviour) {
+        // SAFETY: the caller's promise.
+        unsafe { linear_elastic(call) }
+    }
+}
+
 /// The hyperelastic law as an external behaviour of CalculiX.
 ///
 /// # Safety
-/// CalculiX's promise: every pointer has as many values as its `umat_user.f` says.
+/// As for [`CalculixLaw::behaviour`].
 #[inline(never)]
 pub unsafe fn hyperelastic(call: &Behaviour) {
     // SAFETY: the caller's promise.
@@ -336,19 +399,19 @@ pub unsafe fn hyperelastic(call: &Behaviour) {
 /// The linear elastic law as an external behaviour of CalculiX.
 ///
 /// # Safety
-/// As for [`hyperelastic`].
+/// As for [`CalculixLaw::behaviour`].
 #[inline(never)]
 pub unsafe fn linear_elastic(call: &Behaviour) {
     // SAFETY: the caller's promise.
-    unsafe { answer(call, |arguments| arguments.linear_elastic()) }
+    unsafe { answer(call, |arguments| arguments.step::<LinearElastic>()) }
 }
 
 /// Evaluates a law and stores its results, or ends the job.
 ///
 /// # Safety
-/// As for [`hyperelastic`].
+/// As for [`CalculixLaw::behaviour`].
 #[inline(always)]
-unsafe fn answer<const N: usize>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result<Answer<N>, Error>) {
+unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result<Answer<S>, Error>) {
     // SAFETY: the caller's promise; integration points and elements count from 1.
     let (arguments, new) = unsafe {
         let point = (*call.iel as usize - 1) * *call.mi as usize + (*call.iint as usize - 1);
@@ -374,6 +437,9 @@ unsafe fn answer<const N: usize>(call: &Behaviour, law: impl FnOnce(&Arguments<'
             *call.stre.cast() = answer.stress;
             *call.stiff.cast() = answer.stiffness;
             *new.cast() = answer.state;
+            if let Some(f) = answer.kept {
+                *new.add(size_of::<S>() / size_of::<f64>()).cast() = f;
+            }
             *call.pnewdt = answer.pnewdt;
         },
         // SAFETY: a material's name has 80 characters.

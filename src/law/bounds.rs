@@ -6,7 +6,7 @@ use super::parameters::Property;
 use super::status::{PROPERTY_COUNT, PROPERTY_NOT_FINITE, PROPERTY_OUT_OF_BOUNDS};
 
 /// The least and the greatest allowed value of each property of a table.
-pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
+pub(crate) const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
     let mut limits = [[f64::MIN; N], [f64::MAX; N]];
     let mut k = 0;
     while k < N {
@@ -20,7 +20,7 @@ pub const fn limits<const N: usize>(table: &[Property; N]) -> [[f64; N]; 2] {
 
 /// Whether all values are within their limits, as [`check`] finds, but without a branch for each value.
 #[inline(always)]
-pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
+pub(crate) fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]; 2], values: &[T; N]) -> bool {
     // Two loops of one comparison each, which the compiler vectorises.
     let (mut enough, mut too_much) = (true, false);
     let mut k = 0;
@@ -37,7 +37,7 @@ pub fn within<T: Real + Into<f64>, const N: usize>([least, greatest]: &[[f64; N]
 }
 
 /// The error of another number of properties than the table's.
-pub fn wrong_number(found: i64, table: &[Property]) -> Error {
+pub(crate) fn wrong_number(found: i64, table: &[Property]) -> Error {
     Error::Count { code: PROPERTY_COUNT, what: "number of properties", found, wanted: table.len() as i64 }
 }
 

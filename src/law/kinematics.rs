@@ -20,8 +20,8 @@
 //!
 //! Near the reference the strains are differences of nearly equal numbers. There H = F − 1 is exact in floating point, and
 //! C − 1 follows from H without cancellation; elsewhere the sums over F itself round best. One formula covers both,
-//! C_ij = σ δ_ij + g_i·g_j + σ (n_i·g_j + n_j·g_i) with g_i = (F − σ1) n_i, for σ = 1 and σ = 0 (χ in `docs/reference/theory.md`): the
-//! choice is a number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = σ t1 + δ2 and x22 = a·a − σ = δ2·(a + σ t1),
+//! C_ij = χ δ_ij + g_i·g_j + χ (n_i·g_j + n_j·g_i) with g_i = (F − χ1) n_i, for χ = 1 and χ = 0: the choice is a
+//! number, not a branch. With δ2 = g2 − (h2/λ²) c1 the section has a = χ t1 + δ2 and x22 = a·a − χ = δ2·(a + χ t1),
 //! and b and x33 follow in the same way from δ3.
 //!
 //! The computation has several stages ([`Stretch`], [`Section`], [`Logarithms`], [`Strain`]). A block evaluates each stage for
@@ -48,16 +48,16 @@ pub trait Axes<R: Real>: Copy {
     /// The images that [`Stretch::new`] has returned, from what was stored or from F.
     fn recall(&self, kept: &Self::Kept, f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3];
     /// The images of the axes under F.
-    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3];
+    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3];
     /// `v + s n`, n being the axis with the index `axis`, counted from 0.
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
     /// det F, given the images of the axes and the square of that of the fibre.
     fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R;
     /// The scalar product of the images of two different axes; `y` is that of the axis with the index `axis`.
-    fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R;
+    fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R;
 }
 
-/// The image of an axis n: F n (`whole`) and (F − σ1) n (`rest`). Near the reference the latter has digits that F n has lost.
+/// The image of an axis n: F n (`whole`) and (F − χ1) n (`rest`). Near the reference the latter has digits that F n has lost.
 #[derive(Clone, Copy)]
 pub struct Image<R> {
     whole: [R; 3],
@@ -75,13 +75,13 @@ impl<R: Real> Axes<R> for FirstAxis {
     fn keep(&self, _: [[R; 3]; 3]) {}
     #[inline(always)]
     fn recall(&self, (): &(), f: &[[R; 3]; 3], d: &Stretch<R>) -> [[R; 3]; 3] {
-        let [m, t1, t2] = self.images(f, d.sigma);
+        let [m, t1, t2] = self.images(f, d.chi);
         [m.whole, t1.rest, t2.rest]
     }
     #[inline(always)]
-    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3] {
-        // Near the reference these differences are exact; elsewhere σ is 0.
-        let image = |axis: usize, column| Image { whole: column, rest: self.shifted(column, -sigma, axis) };
+    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3] {
+        // Near the reference these differences are exact; elsewhere χ is 0.
+        let image = |axis: usize, column| Image { whole: column, rest: self.shifted(column, -chi, axis) };
         [image(0, f[0]), image(1, f[1]), image(2, f[2])]
     }
     #[inline(always)]
@@ -164,15 +164,12 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
         *kept
     }
     #[inline(always)]
-    fn images(&self, f: &[[R; 3]; 3], sigma: R) -> [Image<R>; 3] {
-        let columns = [
-            [f[0][0] - sigma, f[0][1], f[0][2]],
-            [f[1][0], f[1][1] - sigma, f[1][2]],
-            [f[2][0], f[2][1], f[2][2] - sigma],
-        ];
+    fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3] {
+        let columns =
+            [[f[0][0] - chi, f[0][1], f[0][2]], [f[1][0], f[1][1] - chi, f[1][2]], [f[2][0], f[2][1], f[2][2] - chi]];
         let image = |axis: usize, n| {
             let rest = image(&columns, n);
-            Image { whole: self.shifted(rest, sigma, axis), rest }
+            Image { whole: self.shifted(rest, chi, axis), rest }
         };
         [image(0, self.m), image(1, self.t1), image(2, self.t2)]
     }
@@ -189,8 +186,8 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
         R::select(sure & square.lt(R::splat(SHORT)), images, columns)
     }
     #[inline(always)]
-    fn product(&self, x: &Image<R>, y: &Image<R>, sigma: R, axis: usize) -> R {
-        sigma.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
+    fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R {
+        chi.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
     }
 }
 
@@ -208,7 +205,7 @@ fn triple_product<R: Real>([u, v, w]: [[R; 3]; 3]) -> R {
 #[derive(Clone, Copy)]
 pub struct Stretch<R: Real> {
     /// 1 near the reference, else 0.
-    sigma: R,
+    chi: R,
     /// det F and its reciprocal.
     pub jacobian: R,
     pub inverse_jacobian: R,
@@ -222,7 +219,7 @@ pub struct Stretch<R: Real> {
 }
 
 impl<R: Real> Stretch<R> {
-    /// From `f` (columns of F) and the material axes. Also returns F m, (F − σ1) t1 and (F − σ1) t2, from which the section is
+    /// From `f` (columns of F) and the material axes. Also returns F m, (F − χ1) t1 and (F − χ1) t2, from which the section is
     /// computed.
     ///
     /// Valid where [`Strain::nan_if_invalid`] is 0; the caller masks out the other points.
@@ -235,21 +232,21 @@ impl<R: Real> Stretch<R> {
         let apart = c1[1].mul_add(c1[1], c1[2] * c1[2])
             + c2[0].mul_add(c2[0], c2[2] * c2[2])
             + c3[0].mul_add(c3[0], c3[1].mul_add(c3[1], R::splat(NEAR_REFERENCE)));
-        let sigma = R::select(apart.lt(c1[0].min(c2[1]).min(c3[2])), one, zero);
+        let chi = R::select(apart.lt(c1[0].min(c2[1]).min(c3[2])), one, zero);
 
-        let [m, t1, t2] = n.images(f, sigma);
-        let u11 = dot(m.rest, n.shifted(m.whole, sigma, 0));
-        let square = sigma + u11;
-        let h = [n.product(&m, &t1, sigma, 1), n.product(&m, &t2, sigma, 2)];
+        let [m, t1, t2] = n.images(f, chi);
+        let u11 = dot(m.rest, n.shifted(m.whole, chi, 0));
+        let square = chi + u11;
+        let h = [n.product(&m, &t1, chi, 1), n.product(&m, &t2, chi, 2)];
         let inverse_square = one / square;
         let jacobian = n.determinant(f, [m.whole, t1.whole, t2.whole], square);
         let stretch = Stretch {
-            sigma,
+            chi,
             jacobian,
             inverse_jacobian: jacobian.reciprocal(),
             square,
             inverse_square,
-            rounding: u11 - (square - sigma),
+            rounding: u11 - (square - chi),
             h,
             slip_square: h[0].mul_add(h[0], h[1] * h[1]) * inverse_square,
         };
@@ -266,6 +263,9 @@ impl<R: Real> Stretch<R> {
 }
 
 /// The second stage: the section across the fibre.
+///
+/// Its deviator D̂ = a⊗a + b⊗b − t̂ P is computed as (a⊗v + v⊗a)/(a·a) − d̂ P, with [`deviator`](Self::deviator) for d̂ and
+/// [`beside_a`](Self::beside_a) for v, whose terms are all as small as ŝ: it keeps its digits if the section is hardly distorted.
 #[derive(Clone, Copy, Debug)]
 pub struct Section<R: Real> {
     /// ½(a·a − b·b), a·b and its square, a·a.
@@ -283,40 +283,52 @@ pub struct Section<R: Real> {
 }
 
 impl<R: Real> Section<R> {
-    /// From F m, (F − σ1) t1 and (F − σ1) t2. Also returns a and b, the images of the transverse axes without their components
+    /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their components
     /// along the image of the fibre.
     #[inline(always)]
     pub fn new<A: Axes<R>>(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let delta_2 = along(g2, -(d.h[0] * d.inverse_square), c1);
         let delta_3 = along(g3, -(d.h[1] * d.inverse_square), c1);
-        let a = Image { whole: n.shifted(delta_2, d.sigma, 1), rest: delta_2 };
-        let b = Image { whole: n.shifted(delta_3, d.sigma, 2), rest: delta_3 };
+        let a = Image { whole: n.shifted(delta_2, d.chi, 1), rest: delta_2 };
+        let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };
 
-        // x_ij = a_i·a_j − σ δ_ij for a_2 = a, a_3 = b.
-        let x22 = dot(a.rest, n.shifted(a.whole, d.sigma, 1));
-        let x33 = dot(b.rest, n.shifted(b.whole, d.sigma, 2));
-        let x23 = n.product(&a, &b, d.sigma, 2);
+        // x_ij = a_i·a_j − χ δ_ij for a_2 = a, a_3 = b.
+        let x22 = dot(a.rest, n.shifted(a.whole, d.chi, 1));
+        let x33 = dot(b.rest, n.shifted(b.whole, d.chi, 2));
+        let x23 = n.product(&a, &b, d.chi, 2);
         let (x23_square, sum, delta) = (x23 * x23, x22 + x33, half * (x22 - x33));
 
-        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With σ = 0 `near` never holds.
+        // Where the section is near the reference, J_t² − 1 has more correct digits than J. With χ = 0 `near` never holds.
         let growth = sum + x22.mul_add(x33, -x23_square);
         let ratio = d.jacobian * d.inverse_square * d.jacobian;
-        let near = sum.lt(d.sigma) & (-half).lt(growth);
+        let near = sum.lt(d.chi) & (-half).lt(growth);
         let area_square = R::select(near, one + growth, ratio);
 
         let section = Section {
             delta,
             x23,
             x23_square,
-            a_square: d.sigma + x22,
-            half_trace: half.mul_add(sum, d.sigma),
+            a_square: d.chi + x22,
+            half_trace: half.mul_add(sum, d.chi),
             distortion: delta.mul_add(delta, x23_square).sqrt(),
             area_square,
             inverse_area_square: d.square * d.inverse_jacobian * d.inverse_jacobian,
             rounding: R::select(near, growth - (area_square - one), R::splat(0.0)),
         };
         (section, [a.whole, b.whole])
+    }
+
+    /// d̂ = ½(a·a − b·b) + (a·b)²/(a·a), given 1/(a·a).
+    #[inline(always)]
+    pub fn deviator(&self, inverse_a_square: R) -> R {
+        self.x23_square.mul_add(inverse_a_square, self.delta)
+    }
+
+    /// `factor` v with v = ½(a·a − b·b) a + (a·b) b.
+    #[inline(always)]
+    pub fn beside_a(&self, factor: R, [a, b]: [[R; 3]; 2]) -> [R; 3] {
+        along(scale(factor * self.delta, a), factor * self.x23, b)
     }
 
     /// J_t and its reciprocal.
@@ -408,6 +420,15 @@ pub struct Kinematics<'a, R: Real> {
     /// F m, a and b.
     pub images: [[R; 3]; 3],
     pub strain: &'a Strain<R>,
+}
+
+impl<R: Real> Kinematics<'_, R> {
+    /// `factor` u with u = h2 a + h3 b = λ P F Fᵀ e, the direction of the longitudinal shear.
+    #[inline(always)]
+    pub fn slip(&self, factor: R) -> [R; 3] {
+        let [_, a, b] = self.images;
+        along(scale(factor * self.stretch.h[0], a), factor * self.stretch.h[1], b)
+    }
 }
 
 /// F N = Q R (thesis, Eq. 4.7): Q = (e, q1, q2) holds the current fibre direction and two axes across it, and

@@ -11,7 +11,6 @@
 
 use nalgebra::Matrix3;
 
-use super::bounds::check;
 use super::error::Error;
 use super::failure::Failure;
 use super::kinematics::FibreFrame;
@@ -20,7 +19,6 @@ use super::number::vector::{
     Matrix, along, cofactors, cross, difference, dot, image, is_finite, product, scale, scaled, selected, square_norm,
     sum, transposed, unit,
 };
-use super::parameters::{self, LINEAR_ELASTIC_PROPERTIES, LINEAR_FIBRE, LINEAR_SECOND_AXIS};
 use super::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_LARGEST, LINEAR_STRESS, LINEAR_WORK};
 use super::status;
 use super::stress::{largest_principal, turned};
@@ -48,7 +46,7 @@ pub enum Criterion {
 }
 
 /// The properties by name, in any one consistent system of units. Hosts pass the same numbers as an array, in the order of
-/// [`parameters::LINEAR_ELASTIC`], which also gives their bounds.
+/// [`parameters::LINEAR_ELASTIC`](super::parameters::LINEAR_ELASTIC), which also gives their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties<T> {
     /// Young's moduli along and across the fibre, stresses.
@@ -62,20 +60,6 @@ pub struct Properties<T> {
     pub fibre: [T; 3],
     /// Second axis, made orthogonal to the fibre, of any length; 0: any axis across the fibre.
     pub second_axis: [T; 3],
-}
-
-impl<T> From<Properties<T>> for [T; LINEAR_ELASTIC_PROPERTIES] {
-    fn from(properties: Properties<T>) -> Self {
-        let Properties { e_1, e_2, g, sigma_lim, fibre: [m_1, m_2, m_3], second_axis: [n_1, n_2, n_3] } = properties;
-        [e_1, e_2, g, sigma_lim, m_1, m_2, m_3, n_1, n_2, n_3]
-    }
-}
-
-impl<T> From<[T; LINEAR_ELASTIC_PROPERTIES]> for Properties<T> {
-    #[inline(always)]
-    fn from([e_1, e_2, g, sigma_lim, m_1, m_2, m_3, n_1, n_2, n_3]: [T; LINEAR_ELASTIC_PROPERTIES]) -> Self {
-        Properties { e_1, e_2, g, sigma_lim, fibre: [m_1, m_2, m_3], second_axis: [n_1, n_2, n_3] }
-    }
 }
 
 /// The linear elastic law: its properties, checked, and its axes.
@@ -127,50 +111,6 @@ pub(super) struct Answer<R: Real> {
     pub status: R,
     /// Where the step has been taken: the point has not failed before and can be evaluated.
     pub taken: R::Mask,
-}
-
-impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
-    /// Checks the properties, in the order of [`parameters::LINEAR_ELASTIC`], and prepares the law.
-    ///
-    /// # Errors
-    /// The first property that is wrong, with its value and what is allowed.
-    pub fn new(properties: &[T]) -> Result<Self, Error> {
-        check(&parameters::LINEAR_ELASTIC, properties)?;
-        let Ok(properties) = <&[T; LINEAR_ELASTIC_PROPERTIES]>::try_from(properties) else {
-            return Err(Error::Plain(status::PROPERTY_COUNT)); // not reached: the count is checked
-        };
-        let Properties { e_1, e_2, g, sigma_lim: limit, fibre, second_axis } = Properties::from(*properties);
-        let direction = |index, name, value: [T; 3], wanted| {
-            let (code, value) = (status::PROPERTY_DIRECTION, [value[0].into(), value[1].into(), value[2].into()]);
-            Err(Error::Direction { code, index, name, value, wanted })
-        };
-        let (frame, usable) = FibreFrame::new(fibre);
-        if !usable {
-            return direction(LINEAR_FIBRE, "fibre direction", fibre, "any vector but zero");
-        }
-        let (axes, usable) = axes_of(&frame, second_axis);
-        if !usable {
-            let wanted = "any vector that is not along the fibre, or zero";
-            return direction(LINEAR_SECOND_AXIS, "second axis", second_axis, wanted);
-        }
-        let zero = T::splat(0.0);
-        let second_axis = if is_zero(second_axis) { [zero; 3] } else { FibreFrame::new(second_axis).0.m };
-        Ok(LinearElastic { stiffness: [e_1, e_2, e_2, g, g, g], limit, axes, second_axis })
-    }
-
-    /// The same law in another number type: each of its numbers in all lanes of `L`.
-    #[inline(always)]
-    pub(crate) fn lanes<L: Real>(&self) -> LinearElastic<L> {
-        let lane = |x: T| L::splat(x.into());
-        let vector = |v: [T; 3]| [lane(v[0]), lane(v[1]), lane(v[2])];
-        let [e_1, e_2, e_3, g_12, g_23, g_31] = self.stiffness;
-        LinearElastic {
-            stiffness: [lane(e_1), lane(e_2), lane(e_3), lane(g_12), lane(g_23), lane(g_31)],
-            limit: lane(self.limit),
-            axes: [vector(self.axes[0]), vector(self.axes[1]), vector(self.axes[2])],
-            second_axis: vector(self.second_axis),
-        }
-    }
 }
 
 impl LinearElastic {
@@ -474,15 +414,10 @@ impl Answer<f64> {
     }
 }
 
-/// Whether all components are 0.
-fn is_zero<T: Real + Into<f64>>([x, y, z]: [T; 3]) -> bool {
-    [x.into(), y.into(), z.into()] == [0.0; 3]
-}
-
 /// The material axes from the frame of the fibre direction and a second axis of any length, made orthogonal to the fibre, or 0 if
 /// any will do; and where that axis is usable.
 #[inline(always)]
-fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix<R>, R::Mask) {
+pub(super) fn axes_of<R: Real>(frame: &FibreFrame<R>, second: [R; 3]) -> (Matrix<R>, R::Mask) {
     let zero = R::splat(0.0);
     // A sum, so that a NaN does not count as 0.
     let any = (second[0].abs() + second[1].abs() + second[2].abs()).le(zero);

@@ -15,6 +15,7 @@ pub mod linear_tangent;
 pub(crate) mod number;
 pub mod parameters;
 pub mod point;
+pub(crate) mod preparation;
 pub mod prepared;
 pub mod response;
 pub mod state;

@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use super::derivative::{Derivative, NineByNine, NoTangent, SixBySix};
 use super::error::Error;
 use super::failure::Failure;
-use super::hyperelastic::{Hyperelastic, PropertyFrame};
+use super::hyperelastic::{Deformed, Hyperelastic};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use super::number::elementary::Power;
 use super::number::level::Level;
@@ -15,10 +15,11 @@ use super::number::level::Level;
 use super::number::level::has_fma;
 use super::number::real::{Real, Single};
 use super::number::registers::Registers;
+use super::preparation::PropertyFrame;
 use super::response::{Request, nan_unless_finite};
 use super::state::{ALIVE, FAILED, HYPERELASTIC_STATE};
 use super::status;
-use super::tangent::Measure;
+use super::tangent::{Bases, Measure, may_overflow};
 use super::voigt::Moduli;
 
 /// The results of the law at one point.
@@ -234,7 +235,6 @@ impl<T: Copy> OldState<T> for &[Cell<T>; HYPERELASTIC_STATE] {
 /// # Errors
 /// The first property that is wrong; the sink is not called.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 fn evaluate<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
@@ -258,8 +258,8 @@ fn evaluate<
     let everywhere = R::splat(0.0).le(R::splat(0.0));
     let own = source.frame();
     if own.aligned && fibre.is_none() {
-        let frame = FibreFrame::first_axis();
-        return point_in(source, &own, &f, &FirstAxis, &frame, everywhere, &state, tangent, sink);
+        let axes = MaterialAxes { axes: FirstAxis, frame: FibreFrame::first_axis(), usable: everywhere };
+        return point_in(source, &own, &f, &axes, &state, tangent, sink);
     }
     let (frame, usable) = match fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
@@ -268,7 +268,7 @@ fn evaluate<
             (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
         }
     };
-    point_in(source, &own, &f, &frame, &frame, usable, &state, tangent, sink)
+    point_in(source, &own, &f, &MaterialAxes { axes: frame, frame, usable }, &state, tangent, sink)
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
@@ -390,12 +390,20 @@ fn values<T: Real, R: Single<T>, const N: usize>(numbers: &[R; N]) -> [T; N] {
     values
 }
 
-/// The law at one point with the material axes `axes`, which `frame` holds as vectors.
+/// The material axes of a point.
+struct MaterialAxes<A, R: Real> {
+    /// As the kinematics use them, and as vectors.
+    axes: A,
+    frame: FibreFrame<R>,
+    /// Whether they exist: the fibre direction is finite and not zero.
+    usable: R::Mask,
+}
+
+/// The law at one point.
 ///
 /// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the processor
 /// waits for them, it executes independent operations that are near in the program.
 #[inline(always)]
-#[allow(clippy::too_many_arguments)]
 fn point_in<
     T: Real<Mask = bool> + Into<f64>,
     R: Single<T>,
@@ -409,9 +417,7 @@ fn point_in<
     source: L,
     own: &PropertyFrame<T>,
     f: &[[R; 3]; 3],
-    axes: &A,
-    frame: &FibreFrame<R>,
-    usable: R::Mask,
+    &MaterialAxes { ref axes, ref frame, usable }: &MaterialAxes<A, R>,
     state: &O,
     tangent: D,
     sink: S,
@@ -422,17 +428,22 @@ fn point_in<
     let (section, [a, b]) = Section::new(&stretch, images, axes);
     let images = [images[0], a, b];
     let logarithms = Logarithms::new(&stretch, &section);
-    let early = tangent.early(&stretch, &section, &images);
+    let early = if D::EARLY { Some(Bases::new(&stretch, &section, &images)) } else { None };
     let strain = Strain::new(&stretch, &section, &logarithms);
     let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
     let (power, failure) = source.power_and_failure(&law, &strain);
     law.failure = failure;
     let k = law.kirchhoff(&stretch, &strain, power);
-    let (request, may_overflow) = (tangent.request(), tangent.may_overflow::<R>(shear));
-    let entries = tangent.of(&law, kinematics, &k, frame, A::ALONG_COORDINATES, &early, shear);
+    let deformed = Deformed { law: &law, kinematics, k: &k, shear };
+    let request = tangent.request();
+    let may_overflow = match tangent.measure() {
+        Some(measure) => may_overflow::<R>(measure, shear),
+        None => false,
+    };
+    let entries = tangent.of(deformed, frame, A::ALONG_COORDINATES, early);
     let latch = R::of(state.entry(FAILED));
     let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
-    let r = law.respond(kinematics, &k, frame, nan_if_invalid, latch, request, shear);
+    let r = deformed.respond(frame, nan_if_invalid, latch, request);
     let h = law.history(&strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
     // This check comes after the stress, so that the stress need not wait for the tangent.
     let zero = R::splat(0.0);

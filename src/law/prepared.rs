@@ -3,12 +3,13 @@
 
 use super::error::Error;
 use super::failure::Failure;
-use super::hyperelastic::{Hyperelastic, PropertyFrame};
+use super::hyperelastic::Hyperelastic;
 use super::kinematics::{FibreFrame, Strain};
 use super::linear_elastic::LinearElastic;
 use super::number::elementary::Exponent;
 use super::number::real::{Real, Single};
 use super::point::Source;
+use super::preparation::PropertyFrame;
 
 /// A prepared hyperelastic law: k_el, k_tc, p, k_td, k_ld, the numbers of the exponent, of W″ near zero compaction and of the
 /// failure criterion, the axes m, t1 and t2, and 1 where the fibre lies along the first coordinate axis.

@@ -1,7 +1,7 @@
 //! The results of the law at a point: what a caller requests, and what becomes of it if the point fails or cannot be evaluated.
 
 use super::failure::Failure;
-use super::hyperelastic::{Hyperelastic, Kirchhoff};
+use super::hyperelastic::{Deformed, Hyperelastic, Kirchhoff};
 use super::kinematics::{Decomposition, FibreFrame, Kinematics, Strain, Stretch};
 use super::number::real::Real;
 use super::status;
@@ -59,30 +59,20 @@ pub(crate) struct History<R> {
     pub failed: R,
 }
 
-impl<R: Real> Hyperelastic<R> {
-    /// The results at a point except its new state. `k` has the factors of the modes; `nan_if_invalid` is 0 where the
-    /// kinematics are valid, else NaN; `latch` is that of the old state. `shear` says whether k_ld is above 0, so that the
-    /// terms of the longitudinal shear have to be computed.
+impl<R: Real> Deformed<'_, R> {
+    /// The results at a point except its new state. `nan_if_invalid` is 0 where the kinematics are valid, else NaN; `latch` is
+    /// that of the old state.
     ///
     /// The wave modulus is finite at every point, the other results wherever the point can be evaluated.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
-    pub(crate) fn respond(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        frame: &FibreFrame<R>,
-        nan_if_invalid: R,
-        latch: R,
-        request: Request,
-        shear: bool,
-    ) -> Response<R> {
+    pub fn respond(self, frame: &FibreFrame<R>, nan_if_invalid: R, latch: R, request: Request) -> Response<R> {
+        let Deformed { law, kinematics, k, shear } = self;
         let Kinematics { stretch: d, strain, .. } = kinematics;
         let zero = R::splat(0.0);
         // A latch that is NaN counts as failed.
         let mut latch_or_nan = latch + nan_if_invalid;
         let intact = Failure::intact(latch_or_nan);
-        let stress = if request.stress { self.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
+        let stress = if request.stress { law.cauchy(kinematics, k, intact, shear) } else { [zero; 6] };
 
         // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants, the
         // index and the energies are finite wherever the kinematics are valid, except the energy of the longitudinal shear. If
@@ -95,20 +85,20 @@ impl<R: Real> Hyperelastic<R> {
             }
         }
         if request.energies && shear {
-            latch_or_nan = self.energies(strain, d.shear_invariant(), k, shear)[3].mul_add(zero, latch_or_nan);
+            latch_or_nan = law.energies(strain, d.shear_invariant(), k, shear)[3].mul_add(zero, latch_or_nan);
         }
         let mut modes = [[zero; 6]; 4];
-        let mut wave = self.k_el;
+        let mut wave = law.k_el;
         if request.modes || request.wave_modulus {
             let decomposition = Decomposition::new(kinematics);
             if request.modes {
-                modes = self.modes(&decomposition, k, frame);
+                modes = law.modes(&decomposition, k, frame);
                 for &x in modes.iter().flatten() {
                     latch_or_nan = x.mul_add(zero, latch_or_nan);
                 }
             }
             if request.wave_modulus {
-                wave = self.wave_modulus(&decomposition, strain, k);
+                wave = law.wave_modulus(&decomposition, strain, k);
                 latch_or_nan = wave.mul_add(zero, latch_or_nan);
             }
         }
@@ -118,9 +108,11 @@ impl<R: Real> Hyperelastic<R> {
                 *x = R::select(updated, *x, zero);
             }
         }
-        Response { stress, modes, wave_modulus: R::select(updated, wave, self.k_el), latch_or_nan, updated }
+        Response { stress, modes, wave_modulus: R::select(updated, wave, law.k_el), latch_or_nan, updated }
     }
+}
 
+impl<R: Real> Hyperelastic<R> {
     /// The new state, given [`Response::updated`]. The latch is finite at every point.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)]

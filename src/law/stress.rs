@@ -19,7 +19,7 @@ pub fn components(s: &Matrix3<f64>) -> [f64; 6] {
 
 /// Q s Qᵀ of a symmetric tensor s, 11 22 33 12 23 31.
 #[inline(always)]
-pub fn turned<R: Real>(q: &Matrix<R>, s: &[R; 6]) -> [R; 6] {
+pub(crate) fn turned<R: Real>(q: &Matrix<R>, s: &[R; 6]) -> [R; 6] {
     let moved = product(q, &columns(s));
     let (a, b) = (transposed(&moved), transposed(q));
     [dot(a[0], b[0]), dot(a[1], b[1]), dot(a[2], b[2]), dot(a[0], b[1]), dot(a[1], b[2]), dot(a[2], b[0])]
@@ -85,7 +85,7 @@ pub fn principal_axes(s: &[f64; 6]) -> ([f64; 3], [[f64; 3]; 3]) {
 /// its axis is a column of the matrix of cofactors; the tensor in the plane across that axis gives the other two, however near
 /// to each other they are (after Scherzinger and Dohrmann, Comput. Methods Appl. Mech. Engrg. 197, 2008).
 #[inline(always)]
-pub fn largest_principal<R: Real>(s: &[R; 6]) -> R {
+pub(crate) fn largest_principal<R: Real>(s: &[R; 6]) -> R {
     let (half, least) = (R::splat(0.5), R::splat(R::MIN_POSITIVE));
     let size = s[0].abs().max(s[1].abs()).max(s[2].abs()).max(s[3].abs()).max(s[4].abs()).max(s[5].abs());
     let size = size.max(least);

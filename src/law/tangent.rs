@@ -5,20 +5,19 @@
 //! (derivation in `docs/reference/theory.md`)
 //!
 //! ```text
-//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙H + E⊙(G − τ_ld)
-//! H = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
+//! c = A E⊗E + (W − K) P⊗P + W2 D⊗D + P⊙Y + E⊙(G − τ_ld)
+//! Y = ½ (π + K) P − ½ W1 D,      G = (π + κ J_t x) P − (W1 − κ J_t) D
 //! ```
 //!
 //! For the spatial moduli P is replaced by 1 − E, since products with 1 are sparse; E⊗E = ¼ E⊙E, and a product with E = e⊗e
-//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in H (Y in `docs/reference/theory.md`), which becomes
-//! ½ K P + ½ τ_el + ½ τ_ld.
+//! needs only e_k G_jl + e_l G_jk. The Jaumann modulus, c + ½ 1⊙τ, differs only in Y, which becomes ½ K P + ½ τ_el + ½ τ_ld.
 //!
 //! dS/dE has the same few components in the basis F⁻¹c = m, F⁻¹a, F⁻¹b', each divided by the length of c, a or b', where c, a
 //! and b' are orthogonal (`Orthogonal`). There is no quotient 0/0, and the moduli are symmetric by construction: only the
 //! upper triangle is computed.
 
-use super::hyperelastic::{Hyperelastic, Kirchhoff};
-use super::kinematics::{FibreFrame, Kinematics, Section, Strain, Stretch};
+use super::hyperelastic::Deformed;
+use super::kinematics::{FibreFrame, Kinematics, Section, Stretch};
 use super::number::real::Real;
 use super::number::vector::{along, cross, dot, image, scale};
 use super::voigt::{
@@ -64,7 +63,7 @@ struct Factors<R> {
     /// W = ¼ W″, the compaction's curvature; π = ½ |W′|.
     compaction: R,
     pressure: R,
-    /// W1 = (k_td/4) a/s; K = W1 x; W2 = (k_td/4)(1 − x a/s)/s².
+    /// W1 = (k_td/4) θ/s with θ = 2 I_td; K = W1 x; W2 = (k_td/4)(1 − x θ/s)/s².
     distortion: R,
     stiffness: R,
     curvature: R,
@@ -115,12 +114,11 @@ impl<R: Real> Bases<R> {
         let inverse_lambda = R::splat(1.0) / d.square.sqrt();
         let fibre = scale(inverse_lambda, *c);
         let e = square(R::splat(1.0), fibre);
-        // As in the stress, D = a⊗v + v⊗a − d1 P with v = (½(a·a − b·b) a + (a·b) b)/(a·a J_t).
+        // D = a⊗v + v⊗a − d1 P.
         let inverse_a_square = R::splat(1.0) / section.a_square;
-        let deviator = section.x23_square.mul_add(inverse_a_square, section.delta);
         let share = inverse_a_square * shape.inverse_area_ratio;
-        let v = along(scale(share * section.delta, *a), share * section.x23, *b);
-        let d1 = deviator * shape.inverse_area_ratio;
+        let d1 = section.deviator(inverse_a_square) * shape.inverse_area_ratio;
+        let v = section.beside_a(share, [*a, *b]);
         let d = [
             a[0].mul_add(v[0], a[0].mul_add(v[0], d1.mul_add(e[0], -d1))),
             a[1].mul_add(v[1], a[1].mul_add(v[1], d1.mul_add(e[1], -d1))),
@@ -169,21 +167,22 @@ fn entry<R: Real, const ROW: usize, const COLUMN: usize>(t: &Terms<R>) -> R {
     paired_along::<R, ROW, COLUMN>(*fibre, &t.with_fibre, sum)
 }
 
-impl<R: Real> Hyperelastic<R> {
+impl<R: Real> Deformed<'_, R> {
     /// The factors of the modulus, each multiplied by `over`: 1/J for a modulus of σ, 1 for one of τ or S.
     #[inline(always)]
-    fn factors(&self, shape: &Shape<R>, strain: &Strain<R>, k: &Kirchhoff<R>, over: R) -> Factors<R> {
+    fn factors(self, shape: &Shape<R>, over: R) -> Factors<R> {
+        let Deformed { law, kinematics: Kinematics { strain, .. }, k, .. } = self;
         let (zero, one, quarter) = (R::splat(0.0), R::splat(1.0), R::splat(0.25));
-        let (_, curvature) = self.compaction_slopes(strain, k);
-        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x a/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
+        let (_, curvature) = law.compaction_slopes(strain, k);
+        // W2 D⊗D = (D/s)⊗(D/s)(k_td/4)(1 − x θ/s). The bracket has an error of a few roundings of 1, and D/s has unit size: no
         // series is needed near s = 0, only a divisor that is not 0. Where s² is below a rounding of 1, this term is below a
         // rounding of that with W1.
         let square = (shape.s * shape.s).max(R::splat(R::EPSILON));
-        // a/s and x a/s.
+        // θ/s and x θ/s.
         let ratio = R::splat(2.0) * strain.distortion_ratio * shape.area_ratio;
         let stiffness = shape.cosh * ratio;
-        let distortion = quarter * self.k_td * over;
-        let elongation = self.k_el * (one - R::splat(2.0) * strain.i_el);
+        let distortion = quarter * law.k_td * over;
+        let elongation = law.k_el * (one - R::splat(2.0) * strain.i_el);
         Factors {
             elongation: R::select(zero.le(strain.i_el), elongation, zero) * over,
             compaction: quarter * curvature * over,
@@ -198,22 +197,16 @@ impl<R: Real> Hyperelastic<R> {
 
     /// The Truesdell modulus of σ or the Jaumann modulus of τ over J.
     #[inline(always)]
-    pub(super) fn spatial_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        bases: &Bases<R>,
-        k: &Kirchhoff<R>,
-        measure: Measure,
-        shear: bool,
-    ) -> Moduli<R> {
+    fn spatial_tangent(self, bases: &Bases<R>, measure: Measure) -> Moduli<R> {
+        let Deformed { kinematics, k, shear, .. } = self;
         let (half, quarter) = (R::splat(0.5), R::splat(0.25));
         let over = kinematics.stretch.inverse_jacobian;
-        let f = self.factors(&bases.shape, kinematics.strain, k, over);
-        // H = h_p P − h_d D, G − H = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
+        let f = self.factors(&bases.shape, over);
+        // Y = y_p P − y_d D, G − Y = g_p P + g_d D. No term is a difference of larger ones, so that the stiffness of a slack
         // fibre is 0 but for roundings of the other terms.
-        let (h_p, h_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
-        let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - h_p);
-        let g_d = f.shear + h_d - f.distortion;
+        let (y_p, y_d) = (half * (f.pressure + f.stiffness), half * f.distortion);
+        let g_p = f.shear.mul_add(bases.shape.cosh, f.pressure - y_p);
+        let g_d = f.shear + y_d - f.distortion;
         let Bases { e, d, .. } = &bases;
         let one = R::splat(1.0);
         let p = [one - e[0], one - e[1], one - e[2]];
@@ -226,17 +219,19 @@ impl<R: Real> Hyperelastic<R> {
             (-g_p).mul_add(e[4], along[4]),
             (-g_p).mul_add(e[5], along[5]),
         ];
-        let on_p = if measure == Measure::Jaumann { half * f.stiffness } else { h_p };
+        let on_p = if measure == Measure::Jaumann { half * f.stiffness } else { y_p };
         let on_e = if measure == Measure::Jaumann { half.mul_add(f.tension, -on_p) } else { -on_p };
         let mut with_one = multiple(on_e, e);
         for diagonal in with_one.iter_mut().take(3) {
             *diagonal = *diagonal + on_p;
         }
         if measure != Measure::Jaumann {
-            with_one = added(&with_one, -h_d, d);
+            with_one = added(&with_one, -y_d, d);
         }
         if shear {
-            let slip = slip(kinematics, k.shear * over * bases.inverse_lambda, bases.fibre);
+            // τ_ld/J.
+            let slip = kinematics.slip(k.shear * over * bases.inverse_lambda);
+            let slip = symmetric_product(R::splat(2.0), bases.fibre, slip);
             with_fibre = added(&with_fibre, R::splat(-1.0), &slip);
             if measure == Measure::Jaumann {
                 with_one = added(&with_one, half, &slip);
@@ -255,58 +250,42 @@ impl<R: Real> Hyperelastic<R> {
         Moduli(upper_triangle!(entry(&terms)))
     }
 
-    /// dS/dE in reference axes. `n` are the axes of the fibre; `along_coordinates` says whether these are the coordinate axes.
-    #[inline(always)]
-    fn material_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        shape: &Shape<R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        along_coordinates: bool,
-        shear: bool,
-    ) -> Moduli<R> {
-        let components = FibreComponents::new(self, kinematics, shape, k, shear);
-        if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
-    }
-
     /// The tangent of a 6×6 measure, dS/dE for [`Measure::Nominal`], whose 9×9 tangent is
-    /// [`nominal_tangent`](Self::nominal_tangent).
+    /// [`nominal_tangent`](Self::nominal_tangent). `n` are the axes of the fibre; `along_coordinates` says whether these are the
+    /// coordinate axes. `bases` may have been computed before.
     #[inline(always)]
-    pub(crate) fn moduli(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
+    pub fn moduli(
+        self,
         n: &FibreFrame<R>,
         along_coordinates: bool,
         measure: Measure,
-        shear: bool,
+        bases: Option<Bases<R>>,
     ) -> Moduli<R> {
-        let Kinematics { stretch, section, images, .. } = kinematics;
+        let Deformed { kinematics: Kinematics { stretch, section, images, .. }, shear, .. } = self;
         match measure {
             Measure::Material | Measure::Nominal => {
-                self.material_tangent(kinematics, &Shape::new(section), k, n, along_coordinates, shear)
+                let components = FibreComponents::new(self, &Shape::new(section));
+                if along_coordinates { components.in_fibre_axes(shear) } else { components.in_reference_axes(n, shear) }
             }
             Measure::Truesdell | Measure::Jaumann => {
-                self.spatial_tangent(kinematics, &Bases::new(stretch, section, &images), k, measure, shear)
+                let bases = match bases {
+                    Some(bases) => bases,
+                    None => Bases::new(stretch, section, &images),
+                };
+                self.spatial_tangent(&bases, measure)
             }
         }
     }
 
     /// dP/dF by columns of P and F: ∂P_iJ/∂F_kL = J F⁻¹_Jj (c_ijkl + δ_ik σ_jl) F⁻¹_Ll with the Truesdell modulus c of σ.
-    /// `stress` is σ.
     #[inline(always)]
-    pub(crate) fn nominal_tangent(
-        &self,
-        kinematics: Kinematics<'_, R>,
-        k: &Kirchhoff<R>,
-        n: &FibreFrame<R>,
-        stress: &[R; 6],
-        shear: bool,
-    ) -> [R; 81] {
+    pub fn nominal_tangent(self, n: &FibreFrame<R>) -> [R; 81] {
+        let Deformed { law, kinematics, k, shear } = self;
         let Kinematics { stretch, section, images, .. } = kinematics;
+        let zero = R::splat(0.0);
+        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
         let bases = Bases::new(stretch, section, &images);
-        let c = self.spatial_tangent(kinematics, &bases, k, Measure::Truesdell, shear).matrix();
+        let c = self.spatial_tangent(&bases, Measure::Truesdell).matrix();
         // F⁻¹ takes c to m, a to α and b' to β, so that its rows follow from these and the dual vectors of c, a and b'.
         let basis = Orthogonal::new(kinematics);
         let [m, alpha, beta] = basis.pulled_back(n);
@@ -390,16 +369,11 @@ struct FibreComponents<R> {
 
 impl<R: Real> FibreComponents<R> {
     #[inline(always)]
-    fn new(
-        law: &Hyperelastic<R>,
-        kinematics: Kinematics<'_, R>,
-        shape: &Shape<R>,
-        k: &Kirchhoff<R>,
-        shear: bool,
-    ) -> Self {
+    fn new(point: Deformed<'_, R>, shape: &Shape<R>) -> Self {
+        let Deformed { kinematics, k, shear, .. } = point;
         let (zero, two) = (R::splat(0.0), R::splat(2.0));
-        let Kinematics { stretch, section, strain, .. } = kinematics;
-        let f = law.factors(shape, strain, k, R::splat(1.0));
+        let Kinematics { stretch, section, .. } = kinematics;
+        let f = point.factors(shape, R::splat(1.0));
         let basis = Orthogonal::new(kinematics);
         let Orthogonal { shift, over_a, over_b, .. } = basis;
         let over_area = shape.inverse_area_ratio;
@@ -569,14 +543,6 @@ fn along_fibre<R: Real>(m: [R; 3], g: &[R; 6]) -> [[R; 6]; 3] {
 #[inline(always)]
 fn along_row<R: Real>([x, y, z]: [R; 3], [a, b, c]: [R; 3]) -> [R; 6] {
     [(x + x) * a, (y + y) * b, (z + z) * c, x.mul_add(b, y * a), y.mul_add(c, z * b), z.mul_add(a, x * c)]
-}
-
-/// `factor` λ (w⊗e + e⊗w) with w = P b e, b = F Fᵀ.
-#[inline(always)]
-fn slip<R: Real>(kinematics: Kinematics<'_, R>, factor: R, e: [R; 3]) -> [R; 6] {
-    let Kinematics { stretch, images: [_, a, b], .. } = kinematics;
-    let across = along(scale(factor * stretch.h[0], a), factor * stretch.h[1], b);
-    symmetric_product(R::splat(2.0), e, across)
 }
 
 /// a + b.

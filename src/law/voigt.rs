@@ -16,14 +16,14 @@ pub(crate) fn columns<R: Real>(s: &[R; 6]) -> Matrix<R> {
 
 /// s a⊗a, 11 22 33 12 23 31.
 #[inline(always)]
-pub fn square<R: Real>(s: R, a: [R; 3]) -> [R; 6] {
+pub(crate) fn square<R: Real>(s: R, a: [R; 3]) -> [R; 6] {
     let [x, y, z] = [s * a[0], s * a[1], s * a[2]];
     [x * a[0], y * a[1], z * a[2], x * a[1], y * a[2], z * a[0]]
 }
 
 /// s times the symmetric part of a⊗b, 11 22 33 12 23 31.
 #[inline(always)]
-pub fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
+pub(crate) fn symmetric_product<R: Real>(s: R, a: [R; 3], b: [R; 3]) -> [R; 6] {
     let half = R::splat(0.5) * s;
     [
         s * a[0] * b[0],

@@ -6,8 +6,8 @@
 //!
 //! - elongation:       ≤ k_el ⟨I_el⟩ + k_el (1 − 2 I_el) y², only in tension;
 //! - compaction:       ≤ (W″/4 + |W′|)(1 − y²);
-//! - distortion:       ≤ ¼ k_td ((a/s) eᵃ + a)(1 − y²), a = 2 I_td, s = sinh a;
-//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t eᵃ (1 − y²) + 4 |P b e|).
+//! - distortion:       ≤ ¼ k_td ((θ/s) e^θ + θ)(1 − y²), θ = 2 I_td, s = sinh θ;
+//! - longitudinal shear: ≤ (k_ld/λ²)(2 J_t e^θ (1 − y²) + 4 |P b e|).
 //!
 //! The sum is linear in y², so that its maximum is at y² = 0 or y² = 1:
 //!
@@ -39,6 +39,12 @@ pub fn wave_speed<R: Real>(modulus: R, density: R) -> R {
 }
 
 impl<R: Real> Hyperelastic<R> {
+    /// Bulk and shear modulus of an isotropic solid whose longitudinal wave speed is that of the fibre: K + 4G/3 = k_el. For
+    /// hosts that compute their time step and contact stiffness from two elastic constants.
+    pub fn bulk_and_shear(&self) -> [R; 2] {
+        [R::splat(0.5) * self.k_el, R::splat(0.375) * self.k_el]
+    }
+
     /// ρ0 c² for an upper bound c of the speed of every wave in this state; at least k_el.
     #[inline(always)]
     pub(crate) fn wave_modulus(&self, d: &Decomposition<R>, strain: &Strain<R>, k: &Kirchhoff<R>) -> R {
@@ -47,7 +53,7 @@ impl<R: Real> Hyperelastic<R> {
         let active = zero.le(-strain.i_tc);
         let compacting = R::select(active, quarter.mul_add(curvature, slope), zero);
 
-        let grown = d.s + d.cosh; // eᵃ
+        let grown = d.s + d.cosh; // e^θ
         let distorting = k.distortion * d.area_ratio * grown + R::splat(0.5) * self.k_td * strain.i_td;
         let shearing = R::splat(2.0) * k.shear * d.area_ratio * grown;
         // The stiffness is multiplied last: its square might overflow.

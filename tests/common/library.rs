@@ -18,14 +18,14 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     // Names that tell what a kernel is built for.
     let environment = |command: &mut Command| {
         command.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
-        command.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true");
+        command.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true");
     };
     let mut install = Command::new(Path::new(ROOT).join("install.sh"));
     environment(&mut install);
     run(install.arg(format!("--prefix={}", installed.display())), "cargo");
     let mut cargo = Command::new(env!("CARGO"));
     environment(&mut cargo);
-    cargo.args(["build", "--release", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
+    cargo.args(["build", "--release", "--locked", "--manifest-path"]).arg(Path::new(ROOT).join("Cargo.toml"));
     let packages = [
         "toron-abaqus",
         "toron-abaqus-sp",
@@ -45,14 +45,15 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
 /// Its folder of libraries.
 pub static LIBRARY: LazyLock<PathBuf> = LazyLock::new(|| INSTALLED.join("lib"));
 
-/// The libraries of a law of one's own, `examples/own_law`, as its author builds them.
+/// The law of `examples/own_law` as solvers load it: `own_law_double` and `own_law_single`, shared and static.
+#[allow(dead_code)] // not every test file needs it
 pub static OWN_LAW: LazyLock<PathBuf> = LazyLock::new(|| {
-    let build = Path::new(BUILD).join("../own_law");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.env("CARGO_TARGET_DIR", &build).env("CARGO_NET_OFFLINE", "true");
-    cargo.args(["build", "--release", "--locked", "--manifest-path"]);
-    run(cargo.arg(Path::new(ROOT).join("examples/own_law/Cargo.toml")), "cargo");
-    build.join("release")
+    cargo
+        .args(["build", "--release", "--locked", "--manifest-path"])
+        .arg(Path::new(ROOT).join("examples/own_law/Cargo.toml"));
+    run(cargo.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true"), "cargo");
+    Path::new(BUILD).join("release")
 });
 
 /// Runs a command to its end, which must be a good one; `package` is where a user gets it.

@@ -6,8 +6,8 @@ use std::ptr::{null, null_mut};
 use allocation_counter::measure;
 use toron::host::abaqus::Vumat;
 use toron::host::c::*;
-use toron::host::calculix::Behaviour;
-use toron::host::mgis::{BehaviourDataView, StateView};
+use toron::host::calculix::{Behaviour, CalculixLaw};
+use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
 use toron::host::{abaqus, c, calculix, lsdyna, mgis, openradioss};
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
@@ -29,6 +29,13 @@ const LINEAR: [[f64; L]; 3] = [
     [79.414, 0.794, 0.126, 3.637, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0],
     [f64::NAN; L],
 ];
+
+/// The same for a law of one's own, the second one without a shear modulus.
+const REINFORCED: [[f64; 7]; 3] = [[0.8, 1.2, 20.0, 0.0, 1.0, 0.0, 0.0], [0.0; 7], [f64::NAN; 7]];
+
+#[path = "../../examples/own_law/law/src/lib.rs"]
+mod reinforced_solid;
+type OwnLaw = toron::law::user::User<reinforced_solid::ReinforcedSolid, f64>;
 
 /// Stretched; inverted; not finite.
 fn deformations() -> [[f64; 9]; 3] {
@@ -61,12 +68,21 @@ fn entries() -> Vec<String> {
         include_str!("../../c/src/abaqus.rs"),
         include_str!("../../c/src/lsdyna.rs"),
         include_str!("../../c/src/openradioss.rs"),
-        include_str!("../../calculix/src/lib.rs"),
-        include_str!("../../mgis/src/lib.rs"),
     ];
+    // These have a name for each law, which is called by the law's type.
+    let hosts = [
+        ("calculix", include_str!("../../src/host/calculix.rs")),
+        ("mgis", include_str!("../../src/host/mgis/hyperelastic.rs")),
+        ("mgis", include_str!("../../src/host/mgis/step.rs")),
+    ];
+    let functions = hosts.into_iter().flat_map(|(host, source)| {
+        let definitions = source.split("\npub unsafe ").skip(1);
+        definitions.filter_map(move |text| Some(format!("{host}::{}", text.split_once("fn ")?.1.split_once('(')?.0)))
+    });
     let calls = sources.into_iter().flat_map(|source| source.split("toron::host::").skip(1));
     let calls = calls.filter_map(|call| call.split_once('(')).map(|(name, _)| name);
-    calls.filter(|name| name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == ':')).map(str::to_owned).collect()
+    let is_name = |name: &&str| name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == ':');
+    calls.filter(is_name).map(str::to_owned).chain(functions).collect()
 }
 
 /// A new entry has to be added to the calls below.
@@ -370,6 +386,8 @@ fn calculix() {
         assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
         quiet!(calculix::linear_elastic, &Behaviour { kode: &(-100 - L as i32), elconloc: LINEAR[0].as_ptr(), ..call });
         assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
+        quiet!(OwnLaw::behaviour, &Behaviour { kode: &-107, elconloc: REINFORCED[0].as_ptr(), ..call });
+        assert!(stress.iter().chain(&stiff).chain(&state).all(|x| x.is_finite()));
     }
 }
 
@@ -497,6 +515,12 @@ fn mgis_behaviours() {
                 s0,
                 s1,
             };
+            let mut own = view;
+            own.s1.material_properties = REINFORCED[law].as_ptr();
+            for function in [OwnLaw::integrate, OwnLaw::integrate_in_plane] {
+                k[..3].copy_from_slice(&[f64::from(request), f64::from(measure), f64::from(operator)]);
+                quiet!(function, &mut own);
+            }
             let mut linear = view;
             linear.s1.material_properties = LINEAR[law].as_ptr();
             for view in [&mut view, &mut linear] {

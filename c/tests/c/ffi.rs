@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::c_programs::{CASES, PRECISIONS, compile};
-use crate::library::{INSTALLED, LIBRARY, ROOT, SYSTEM, folder, run};
+use crate::library::{INSTALLED, LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
 
 /// Compiles and runs a program of `ffi-tests/c`.
 fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], reads_cases: bool) {
@@ -89,13 +89,18 @@ fn shim(name: &str) -> PathBuf {
 
 /// Compiles and runs a program of `ffi-tests/fortran` with these sources.
 fn fortran_program(name: &str, options: &[&str], sources: &[PathBuf]) {
+    fortran_program_with(&LIBRARY.join("libtoron.a"), name, options, sources);
+}
+
+/// The same with another library.
+fn fortran_program_with(library: &Path, name: &str, options: &[&str], sources: &[PathBuf]) {
     let folder = folder(&format!("fortran-{name}{}", options.concat()));
     let program = folder.join("program");
     let fortran = Path::new(ROOT).join("ffi-tests/fortran");
     let mut gfortran = Command::new("gfortran");
     gfortran.args(["-std=f2018", "-O1", "-fcheck=bounds", "-Wno-compare-reals"]).args(SHIM_WARNINGS).args(options);
     gfortran.arg("-J").arg(&folder).args(sources).arg(fortran.join("cases.f90")).arg(fortran.join(name));
-    run(gfortran.arg(LIBRARY.join("libtoron.a")).args(SYSTEM).arg("-o").arg(&program), "gfortran");
+    run(gfortran.arg(library).args(SYSTEM).arg("-o").arg(&program), "gfortran");
     run(Command::new(program).arg(&*CASES), "");
 }
 
@@ -167,6 +172,27 @@ fn shims_of_lsdyna_in_other_releases_and_under_other_numbers() {
             let names = names.each_ref().map(String::as_str);
             fortran_program("lsdyna_variants.F90", &[&options[..], &names].concat(), &sources);
         }
+    }
+}
+
+/// A law of one's own, which the shims take by its name.
+#[test]
+fn shims_of_lsdyna_with_a_law_of_ones_own() {
+    let law = ["-DTORON_NAME='REINFORCED'", "-DTORON_NHV=4", "-DTORON_FIBRE=5"];
+    for (kinds, library) in [
+        (&[REALS_64][..], "libown_law_double.a"),
+        (&[INTEGERS_64, REALS_64, TRAPS], "libown_law_double.a"),
+        (&[], "libown_law_single.a"),
+    ] {
+        fortran_program_with(&OWN_LAW.join(library), "own_law.f90", &[kinds, &law].concat(), &LSDYNA.map(shim));
+    }
+}
+
+/// The entries of that law that the shims call.
+#[test]
+fn lsdyna_with_a_law_of_ones_own() {
+    for (precision, library) in PRECISIONS.into_iter().zip(["libown_law_double.a", "libown_law_single.a"]) {
+        c_program("own_law", precision, &[OWN_LAW.join(library)], false);
     }
 }
 

@@ -1,12 +1,17 @@
-//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the laws runs follows from the
-//! numbers of properties and of state variables.
+//! Abaqus: `*MATERIAL` with `*USER MATERIAL` and `*DEPVAR`, the state variables named. Which of the library's laws runs follows from the
+//! numbers of properties and of state variables; the name of a material of another law begins with the law's.
 
 use std::fmt::Write;
 
 use super::material::{Material, WIDE};
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::material::preset::LawName;
+use crate::material::laws::LawName;
+use crate::material::preset::LONGEST_NAME;
+
+/// What nobody but its author knows of a law.
+const UNSYMMETRIC: &str =
+    "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM where the tangent of the law is not symmetric.\n";
 
 /// Which of the two solvers the card is for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +26,19 @@ pub enum Solver {
 pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     let mut card = comments(material);
     match solver {
-        Solver::Standard => card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n",
+        Solver::Standard => {
+            card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements.\n";
+            if let LawName::Own(_) = material.law {
+                card += UNSYMMETRIC;
+            }
+        }
         Solver::Explicit => card += &deletion(material),
         Solver::Both => {
             card += "** Abaqus/Standard: *STEP, NLGEOM=YES. It deletes no failed elements; DELETE is for Explicit.\n";
-            if material.law == LawName::LinearElastic {
-                card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n";
+            match material.law {
+                LawName::Hyperelastic => {}
+                LawName::LinearElastic => card += "** Abaqus/Standard: *USER MATERIAL, CONSTANTS=..., UNSYMM.\n",
+                LawName::Own(_) => card += UNSYMMETRIC,
             }
             card += &deletion(material);
         }
@@ -37,9 +49,9 @@ pub fn card(material: &Material, solver: Solver) -> Result<String, Error> {
     card += &constants(material, if unsymmetric { ", UNSYMM" } else { "" });
     let delete = match solver {
         Solver::Standard => String::new(),
-        Solver::Explicit | Solver::Both => format!(", DELETE={}", material.interface().law.alive + 1),
+        Solver::Explicit | Solver::Both => format!(", DELETE={}", material.law.description().alive + 1),
     };
-    let variables = material.interface().law.state;
+    let variables = material.state_table();
     let _ = writeln!(card, "*DEPVAR{delete}\n{},", variables.len());
     for (i, variable) in variables.iter().enumerate() {
         let _ = writeln!(card, "{}, {}, \"{}\"", i + 1, variable.name.to_uppercase(), variable.meaning);
@@ -51,8 +63,13 @@ pub fn comments(material: &Material) -> String {
     material.comments().map(|comment| format!("** {comment}\n")).concat()
 }
 
+/// The material's name, behind that of its law where Abaqus finds the law by it.
 fn name(material: &Material) -> String {
-    material.name.to_uppercase()
+    let name = material.name.to_uppercase();
+    match material.interface().abaqus {
+        Some(law) if !name.starts_with(law) => format!("{law}-{name}").chars().take(LONGEST_NAME).collect(),
+        _ => name,
+    }
 }
 
 /// What deletes failed elements besides the card.

@@ -8,8 +8,7 @@ use crate::common::short_number::short;
 const FULL: usize = 8;
 
 pub fn card(material: &Material) -> String {
-    let interface = material.interface();
-    let name = interface.calculix;
+    let name = material.interface().calculix;
     let mut card = comments(material);
     card += "** For several materials of this law: the name with a second @ and a text of your own behind it.\n";
     card += &format!("** *SOLID SECTION, ELSET=YARN, MATERIAL={name} and *STEP, NLGEOM belong to it.\n");
@@ -21,5 +20,5 @@ pub fn card(material: &Material) -> String {
     if material.values.len().is_multiple_of(FULL) {
         card += "0.0\n";
     }
-    card + &format!("*DEPVAR\n{}\n", interface.law.history())
+    card + &format!("*DEPVAR\n{}\n", material.law.description().history())
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use toron::host::units::UnitSystem;
-use toron::law::parameters::PRESETS;
 
 use super::abaqus::{self, Solver};
 use super::ls_dyna::{self, Fibre, NUMBERS};
@@ -12,7 +11,8 @@ use super::material::Material;
 use super::{calculix, mtest, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
-use crate::material::preset::{LawName, Preset};
+use crate::material::laws::{LawName, Laws};
+use crate::material::preset::Preset;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {
@@ -59,25 +59,32 @@ pub struct Arguments {
     mt: Option<u32>,
 }
 
-/// Prints the card, and to the standard error a warning of units that do not fit.
+/// Prints the card of a material of one of these laws, and to the standard error a warning of units that do not fit.
 ///
 /// # Errors
 /// The argument that is wrong, or what is wrong with the yarn.
-pub fn run(arguments: &Arguments) -> Result<(), Error> {
-    let (card, warning) = card(arguments)?;
+pub fn run(laws: Laws, arguments: &Arguments) -> Result<(), Error> {
+    let (card, warning) = card(laws, arguments)?;
     print(&card);
     if let Some(warning) = warning {
-        print_error(&format!("toron: warning: {warning}\n"));
+        print_error(&format!("{}: warning: {warning}\n", laws.program()));
     }
     Ok(())
 }
 
-fn card(arguments: &Arguments) -> Result<(String, Option<String>), Error> {
-    let law = arguments.law.as_deref().map(law).transpose()?;
-    let preset = preset(arguments, law)?;
+/// The card, and a warning of units that do not fit.
+///
+/// # Errors
+/// The argument that is wrong, or what is wrong with the yarn.
+pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>), Error> {
+    let law = arguments.law.as_deref().map(|name| law(laws, name)).transpose()?;
+    let preset = preset(laws, arguments, law)?;
     let units = units(arguments, &preset)?;
     let fibre = arguments.fibre.as_deref().map(direction).transpose()?;
     let material = Material::new(&preset, &units, fibre)?;
+    if arguments.axes && material.fibre().is_empty() {
+        return Err(Error::Input("--axes is for a law with a fibre direction".into()));
+    }
     if arguments.host != Host::LsDyna {
         only_for_ls_dyna("--axes", arguments.axes)?;
         only_for_ls_dyna("--mt", arguments.mt.is_some())?;
@@ -98,29 +105,31 @@ fn card(arguments: &Arguments) -> Result<(String, Option<String>), Error> {
     Ok((card?, material.unit_warning()))
 }
 
-fn law(text: &str) -> Result<LawName, Error> {
-    let known = [LawName::Hyperelastic, LawName::LinearElastic];
-    let names = known.map(LawName::text);
-    let found = known.into_iter().find(|law| law.text() == text);
-    found.ok_or_else(|| Error::Input(format!("--law {text}; allowed: {}", names.join(", "))))
+fn law(laws: Laws, text: &str) -> Result<LawName, Error> {
+    laws.find(text).ok_or_else(|| {
+        let names: Vec<&str> = laws.names().into_iter().map(LawName::text).collect();
+        Error::Input(format!("--law {text}; allowed: {}", names.join(", ")))
+    })
 }
 
 /// The preset that the arguments name, which must be of the law, if one is given.
-fn preset(arguments: &Arguments, law: Option<LawName>) -> Result<Preset, Error> {
+fn preset(laws: Laws, arguments: &Arguments, law: Option<LawName>) -> Result<Preset, Error> {
     let preset = match (&arguments.preset, &arguments.properties) {
-        (Some(name), _) => Preset::find(name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?,
+        (Some(name), _) => {
+            Preset::find(laws, name, Path::new(""), |message| Error::Input(format!("--preset: {message}")))?
+        }
         (None, Some(path)) => {
             let file = path.display().to_string();
             let text = std::fs::read_to_string(path)
                 .map_err(|reason| Error::Input(format!("--properties {file}: it cannot be read: {reason}")))?;
-            Preset::parse(&file, &text)?
+            Preset::parse(laws, &file, &text)?
         }
         (None, None) => {
-            let law = law.unwrap_or(LawName::Hyperelastic);
-            let mut presets = PRESETS.iter().map(Preset::from);
+            let law = law.unwrap_or(laws.first());
+            let mut presets = laws.presets().iter().map(Preset::from);
             presets
                 .find(|preset| preset.law == law)
-                .ok_or_else(|| Error::Input("--preset is missing; allowed: a name or a file".into()))?
+                .ok_or_else(|| Error::Input("--preset or --properties is missing; allowed: a file".into()))?
         }
     };
     match law {

@@ -2,45 +2,50 @@
 //! those of the law's tables.
 
 use toron::host::openradioss::card::{self, Layout};
-use toron::law::description::{self, Description};
 
-use crate::material::preset::LawName;
+use crate::material::laws::LawName;
 
-/// A law as the hosts see it.
+/// A law as the hosts find it.
 #[derive(Debug)]
 pub struct Interface {
-    pub law: &'static Description,
+    /// What Abaqus's names of materials begin with; `None` where the counts of properties and state variables tell the laws apart.
+    pub abaqus: Option<&'static str>,
     /// LS-DYNA's number of the material, and with it of the routine: `umat41`.
     pub ls_dyna: u32,
-    /// CalculiX's name of the material.
-    pub calculix: &'static str,
-    /// MGIS's and MTest's name of the behaviour.
+    /// CalculiX's name of the material: `@`, the library's name without `lib` and `.so`, `_`, the law's.
+    pub calculix: String,
+    /// MGIS's and MTest's library, and name of the behaviour.
+    pub library: &'static str,
     pub behaviour: &'static str,
-    /// OpenRadioss: nn of `/MAT/USERnn` and the options behind the properties.
-    pub openradioss: &'static Layout,
+    /// OpenRadioss: nn of `/MAT/USERnn`, and how many options stand behind the properties.
+    pub openradioss: i32,
+    pub options: usize,
 }
 
-static HYPERELASTIC: Interface = Interface {
-    law: &description::HYPERELASTIC,
-    ls_dyna: 41,
-    calculix: "@TORON_HYPERELASTIC",
-    behaviour: "ToronHyperelastic",
-    openradioss: &card::HYPERELASTIC,
-};
-
-static LINEAR_ELASTIC: Interface = Interface {
-    law: &description::LINEAR_ELASTIC,
-    ls_dyna: 43,
-    calculix: "@TORON_LINEARELASTIC",
-    behaviour: "ToronLinearElastic",
-    openradioss: &card::LINEAR_ELASTIC,
-};
-
 impl Interface {
-    pub fn of(law: LawName) -> &'static Interface {
+    pub fn of(law: LawName) -> Interface {
+        let ours = |ls_dyna: u32, calculix: &str, behaviour: &'static str, layout: &Layout| Interface {
+            abaqus: None,
+            ls_dyna,
+            calculix: format!("@TORON_{calculix}"),
+            library: "libtoron_mgis.so",
+            behaviour,
+            openradioss: layout.number,
+            options: layout.options,
+        };
         match law {
-            LawName::Hyperelastic => &HYPERELASTIC,
-            LawName::LinearElastic => &LINEAR_ELASTIC,
+            LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
+            LawName::LinearElastic => ours(43, "LINEARELASTIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
+            LawName::Own(law) => Interface {
+                abaqus: Some(law.symbol),
+                ls_dyna: 41,
+                calculix: format!("@OWN_{}", law.symbol),
+                library: "libOWN.so",
+                behaviour: law.symbol,
+                openradioss: law.number,
+                // Where the fibre direction comes from.
+                options: usize::from(law.description.fibre.is_some()),
+            },
         }
     }
 }

@@ -29,9 +29,9 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
         along_the_axes(material, &mut values);
     }
     let count = values.len();
-    let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()?).collect();
+    let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()).collect();
     let names: Vec<&str> = table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
-    let history = interface.law.history();
+    let history = material.law.description().history();
     let [ortho, hyper] = if fibre == Fibre::Axes { ["1", "-1"] } else { ["0", "1"] };
 
     let mut card = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n", material.name);
@@ -66,18 +66,17 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
 /// In the material axes the fibre is the first one; a second axis, if the law has one, is the second.
 fn along_the_axes(material: &Material, values: &mut [f64]) {
     values[material.fibre()].copy_from_slice(&[1.0, 0.0, 0.0]);
-    if let Some(second) = values.get_mut(material.fibre().end..).filter(|rest| rest.iter().any(|&x| x != 0.0)) {
-        second.copy_from_slice(&[0.0, 1.0, 0.0]);
+    if let Some(second) = material.second_axis() {
+        values[second].copy_from_slice(&[0.0, 1.0, 0.0]);
     }
 }
 
 /// AOPT = 2: a is the fibre, and d with it spans the plane of the first two axes.
 fn axes(material: &Material) -> String {
     let a = &material.values[material.fibre()];
-    let second = material.values.get(material.fibre().end..).filter(|rest| rest.iter().any(|&x| x != 0.0));
     // Any vector across will do: z, or x for a fibre along z.
     let across = if a[0] == 0.0 && a[1] == 0.0 { [1.0, 0.0, 0.0] } else { [0.0, 0.0, 1.0] };
-    let d = second.unwrap_or(&across);
+    let d = material.second_axis().map_or(&across[..], |second| &material.values[second]);
     let vector = |v: &[f64]| v.iter().map(|&x| number_of(x)).collect::<Vec<_>>();
     let zero = || vec!["0.0".to_string(); 3];
     let first = [vec!["2.0".to_string(), "1".to_string()], zero(), vector(a)].concat();

@@ -1,15 +1,19 @@
 //! The material of a card: values in the deck's units, and the comments that all cards have.
 
+use std::ops::Range;
+
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{DENSITY, Dimension, NUMBER, Property, STRESS};
-use toron::{Criterion, Hyperelastic, LinearElastic, Rotation};
+use toron::law::state::StateVariable;
+use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
 use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::material::fibre_wave::FibreWave;
+use crate::material::laws::LawName;
 use crate::material::model::Law;
-use crate::material::preset::{LawName, Preset};
+use crate::material::preset::Preset;
 
 /// The columns of a number in cards that have room enough: twelve digits.
 pub const WIDE: usize = 19;
@@ -24,6 +28,7 @@ pub struct Material {
     source: String,
     units: UnitSystem,
     pub law: LawName,
+    bulk_and_shear: [f64; 2],
     /// In the order of the law's table.
     pub values: Vec<f64>,
     density: Option<f64>,
@@ -38,21 +43,27 @@ impl Material {
             values[i] = component;
         }
         let law = Law::new(preset.law, &values, Rotation::Fibre, Criterion::LargestPrincipal);
-        law.map_err(|error| match error {
+        let prepared = law.map_err(|error| match error {
             toron::Error::Direction { .. } if fibre.is_some() => Error::Input(format!("--fibre: {error}")),
             error => preset.law_error(&error),
         })?;
         let (name, source) = (preset.name.clone(), preset.source.clone());
         let place = preset.file().unwrap_or(&name).to_string();
-        Ok(Material { name, place, source, units: *units, law: preset.law, values, density: preset.density_in(units) })
+        let (law, density) = (preset.law, preset.density_in(units));
+        let bulk_and_shear = prepared.bulk_and_shear();
+        Ok(Material { name, place, source, units: *units, law, bulk_and_shear, values, density })
     }
 
-    pub fn interface(&self) -> &'static Interface {
+    pub fn interface(&self) -> Interface {
         Interface::of(self.law)
     }
 
     pub fn table(&self) -> &'static [Property] {
         self.law.table()
+    }
+
+    pub fn state_table(&self) -> &'static [StateVariable] {
+        self.law.description().state
     }
 
     /// The density, which the hosts with a mass of their own need.
@@ -69,16 +80,9 @@ impl Material {
         self.density
     }
 
-    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre or, of the linear elastic law, a faster one.
-    ///
-    /// # Errors
-    /// The first property that is wrong.
-    pub fn bulk_and_shear(&self) -> Result<[f64; 2], Error> {
-        let moduli = match self.law {
-            LawName::Hyperelastic => Hyperelastic::new(&self.values).map(|law| law.bulk_and_shear()),
-            LawName::LinearElastic => LinearElastic::new(&self.values).map(|law| law.bulk_and_shear()),
-        };
-        moduli.map_err(|error| Error::Input(format!("{}: {error}", self.place)))
+    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre or a faster one.
+    pub fn bulk_and_shear(&self) -> [f64; 2] {
+        self.bulk_and_shear
     }
 
     /// What is to be said of a wave along the fibre that no fibre has: a density or a stiffness is in other units.
@@ -88,8 +92,15 @@ impl Material {
     }
 
     /// Where the fibre's three components are among the values.
-    pub fn fibre(&self) -> std::ops::Range<usize> {
+    pub fn fibre(&self) -> Range<usize> {
         self.law.description().fibre_components()
+    }
+
+    /// Where those of a second axis are, of a law that has one and values that give it.
+    pub fn second_axis(&self) -> Option<Range<usize>> {
+        let first = self.law.description().second_axis?;
+        let second = first..first + 3;
+        self.values[second.clone()].iter().any(|&x| x != 0.0).then_some(second)
     }
 
     /// What the card is, where its values come from, and their units.
@@ -97,7 +108,7 @@ impl Material {
         let stresses = self.table().iter().filter(|property| property.dimension == STRESS);
         let names: Vec<&str> = stresses.map(|property| property.name).collect();
         let [length, mass, time] = self.units.names().map(ascii);
-        let (title, stress, density) = (self.interface().law.title, self.unit(STRESS), self.unit(DENSITY));
+        let (title, stress, density) = (self.law.description().title, self.unit(STRESS), self.unit(DENSITY));
         [
             format!("{}: {}", self.name, self.source),
             format!("toron, {title}, in {length}, {mass}, {time}"),

@@ -2,12 +2,14 @@
 
 use std::fmt::Write;
 
+use super::interface::Interface;
 use super::material::{Material, WIDE};
 use crate::common::short_number::short;
 
 pub fn card(material: &Material) -> String {
     let mut card = material.comments().map(|comment| format!("// {comment}\n")).concat();
-    let _ = writeln!(card, "@Behaviour<generic> 'libtoron_mgis.so' '{}';", material.interface().behaviour);
+    let Interface { library, behaviour, .. } = material.interface();
+    let _ = writeln!(card, "@Behaviour<generic> '{library}' '{behaviour}';");
     for (property, &value) in material.table().iter().zip(&material.values) {
         let unit = material.unit(property.dimension);
         let blank = if unit.is_empty() { "" } else { ", " };

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use toron::host::openradioss::card::OPTIONS;
 
+use super::interface::Interface;
 use super::material::{Material, WIDE};
 use crate::common::error::Error;
 use crate::common::short_number::short;
@@ -24,13 +25,13 @@ const PROPERTY: &str = "\
 /// # Errors
 /// The material has no density.
 pub fn card(material: &Material, id: u32) -> Result<String, Error> {
-    let (layout, name) = (material.interface().openradioss, &material.name);
-    let mut card = format!("/MAT/USER{:02}/{id}\n{name}\n", layout.number);
+    let (Interface { openradioss: number, options, .. }, name) = (material.interface(), &material.name);
+    let mut card = format!("/MAT/USER{number:02}/{id}\n{name}\n");
     for comment in material.comments() {
         let _ = writeln!(card, "# {comment}");
     }
     card += &lines(&["RHO_I"], &[short(material.density()?, WIDE)]);
-    let options = &OPTIONS[..layout.options];
+    let options = &OPTIONS[..options];
     let names = material.table().iter().map(|property| property.name).chain(options.iter().map(|option| option.name));
     let zeros = options.iter().map(|_| "0".to_string());
     let values: Vec<String> = material.values.iter().map(|&value| short(value, WIDE)).chain(zeros).collect();

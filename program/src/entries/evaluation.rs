@@ -89,7 +89,7 @@ fn evaluate_point<T: BlockPrecision>(law: Given<'_, T>, f: &[T; 9], tangent: boo
 
 /// The deformations that stand beside the point in a block: rest, a stretched, a compacted and sheared one, and two that
 /// cannot be evaluated, none of which may disturb it.
-const NEIGHBOURS: [[f64; 9]; 5] = [
+pub const NEIGHBOURS: [[f64; 9]; 5] = [
     [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
     [1.2, 0.0, 0.0, 0.1, 0.9, 0.0, 0.0, 0.2, 1.1],
     [0.9, 0.3, 0.0, 0.0, 0.6, 0.1, 0.5, 0.0, 0.8],
@@ -98,7 +98,7 @@ const NEIGHBOURS: [[f64; 9]; 5] = [
 ];
 
 /// Where a line's point stands: the number of points of its block, its place in it, and the leading dimension.
-fn place(line: usize) -> (usize, usize, usize) {
+pub fn place(line: usize) -> (usize, usize, usize) {
     let n = 1 + line * 7 % 23;
     (n, line * 5 % n, n + line % 4)
 }

@@ -8,6 +8,7 @@ use nalgebra::Matrix3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
+use super::lines::{self, order};
 use super::polar::polar_decomposition;
 use super::push_forward::{cauchy_of_second, truesdell_of_material};
 use crate::common::error::Error;
@@ -168,37 +169,23 @@ pub fn lines(entry: Entry, tangent: bool) -> Result<(), Error> {
             others.collect::<Vec<_>>().join(", ")
         )));
     }
-    match evaluate(entry, tangent, io::stdin().lock(), io::BufWriter::new(io::stdout().lock())) {
-        // A reader that has gone is no error.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Error::Input(error.to_string())),
-        _ => Ok(()),
-    }
+    lines::standard(|input, output| evaluate(entry, tangent, input, output))
 }
 
 /// Evaluates every line of `input`, from a fresh state each; with `tangent` DDSDDE too, where the entry has a tangent.
 ///
 /// # Errors
 /// Reading or writing fails. A line that cannot be read or evaluated is answered by a line with its status.
-pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, mut output: impl Write) -> io::Result<()> {
-    let of_output = |error: io::Error| io::Error::new(error.kind(), format!("standard output: {error}"));
-    let mut number = 0;
-    for line in input.split(b'\n') {
-        let line = line.map_err(|error| io::Error::new(error.kind(), format!("standard input: {error}")))?;
-        number += 1;
-        if line.iter().all(u8::is_ascii_whitespace) {
-            continue;
-        }
+pub fn evaluate(entry: Entry, tangent: bool, input: impl BufRead, output: impl Write) -> io::Result<()> {
+    lines::answer(input, output, |line, number| {
         let expected =
             "expected {\"F\": 3×3 rows, \"m\": [3], \"params\": {kel, ktc, p, ktd, kld, eps_lim, alpha, beta}}";
-        let answer = match (wrong_key(&line), serde_json::from_slice::<Input>(&line)) {
+        match (wrong_key(line), serde_json::from_slice::<Input>(line)) {
             (Some(reason), _) => refused(format!("line {number}: {reason}")),
             (None, Err(error)) => refused(format!("line {number}: {error}; {expected}")),
             (None, Ok(point)) => evaluate_point(entry, tangent, &point, number),
-        };
-        serde_json::to_writer(&mut output, &answer).map_err(|error| of_output(error.into()))?;
-        output.write_all(b"\n").map_err(of_output)?;
-    }
-    output.flush().map_err(of_output)
+        }
+    })
 }
 
 /// The answer to a line that is no point.
@@ -253,11 +240,6 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         s_td: mode(2),
         s_ld: mode(3),
     }
-}
-
-/// 11 22 33 12 23 31 to 11 22 33 12 13 23.
-fn order<X: Copy>(s: [X; 6]) -> [X; 6] {
-    [s[0], s[1], s[2], s[3], s[5], s[4]]
 }
 
 /// The answer of MGIS, with dS/dE pushed forward.

@@ -1,5 +1,7 @@
-//! `toron eval`: points as JSON through any of the C entries.
+//! `toron eval`: points as JSON through any of the C entries; and for a law of one's own, without them.
 
 pub mod command;
+mod lines;
+pub mod own_law;
 pub mod polar;
 pub mod push_forward;

@@ -95,6 +95,10 @@ impl<T: Number> Medium<T> {
                 let entry = Entry::LinearElastic { law: prepared, modulus: e_1, frame, criterion };
                 (entry, law.wave_modulus(), e_2, g, e_2, sigma_lim)
             }
+            Law::Own(_) => {
+                let message = format!("the law is {}; allowed here: hyperelastic, linear-elastic", material.law_name());
+                return Err(Error::Input(message));
+            }
         };
         Ok(Medium {
             entry,

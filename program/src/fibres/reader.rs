@@ -10,6 +10,7 @@ use super::scene::{Case, Contact, Fibre, Outline, Packing, Scene, SectionLaw, St
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source, same_files};
 use crate::common::units::SPEED;
+use crate::material::laws::Laws;
 use crate::material::preset::Preset;
 use toron::host::units::UnitSystem;
 
@@ -260,7 +261,7 @@ impl Reader<'_> {
     /// The law's section of a preset.
     fn law(&self, name: &Spanned<String>) -> Result<SectionLaw, Error> {
         let error = |message: &str| self.source.error(name.span(), message);
-        let preset = Preset::find(name.get_ref(), self.source.folder(), error)?;
+        let preset = Preset::find(Laws::Toron, name.get_ref(), self.source.folder(), error)?;
         let values = preset.complete(self.units)?;
         let value = |property: &str| {
             let index = preset.law.table().iter().position(|known| known.name == property);

@@ -15,7 +15,8 @@ use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
-use crate::material::preset::{LONGEST_NAME, LawName, Preset};
+use crate::material::laws::{LawName, Laws};
+use crate::material::preset::{LONGEST_NAME, Preset};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::HYPERELASTIC;
 
@@ -236,7 +237,7 @@ impl Source<'_> {
 
     /// The preset that fills in what nothing else gives.
     fn base(&self, name: &Spanned<String>, folder: &Path) -> Result<Preset, Error> {
-        let preset = Preset::find(name.get_ref(), folder, |message| self.error(name.span(), message))?;
+        let preset = Preset::find(Laws::Toron, name.get_ref(), folder, |message| self.error(name.span(), message))?;
         if preset.law != LawName::Hyperelastic {
             let message =
                 format!("preset \"{}\" belongs to the linear elastic law; allowed: a hyperelastic one", preset.name);

@@ -4,7 +4,7 @@ use super::data::DataSet;
 use super::fit::{Fit, Problem, SetFit};
 use super::parameter::{ALL, Parameter};
 use crate::material::fibre_wave::FibreWave;
-use crate::material::preset::LawName;
+use crate::material::laws::LawName;
 
 /// An interval that reaches this far to one side, over the value, tells little.
 const WIDE: f64 = 0.5;

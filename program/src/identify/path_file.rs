@@ -13,6 +13,7 @@ use crate::common::units::{ENERGY, FORCE, LENGTH};
 use crate::load_path::element::Hexahedron;
 use crate::load_path::newton::{COMPONENT_NAMES, COMPONENTS};
 use crate::load_path::path::{LoadPath, Target};
+use crate::material::laws::Laws;
 use crate::material::model::Law;
 use toron::law::parameters::{Dimension, NUMBER, STRESS};
 
@@ -40,7 +41,7 @@ pub(super) fn set(
     let name = reader.folder.join(path.get_ref());
     let text = std::fs::read_to_string(&name)
         .map_err(|error| source.error(path.span(), &format!("path {}: {error}", name.display())))?;
-    let load_path = LoadPath::parse(&name.display().to_string(), &text)?;
+    let load_path = LoadPath::parse(Laws::Toron, &name.display().to_string(), &text)?;
     let refuse = |message: &str| Err(source.error(path.span(), &format!("path {}: {message}", name.display())));
     if load_path.points.len() > 1 {
         return refuse("it has several points; allowed: one material");

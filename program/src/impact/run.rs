@@ -89,11 +89,12 @@ impl<'a, T: Number> Run<'a, T> {
         let media = materials.iter().map(medium).collect::<Result<Vec<_>, _>>()?;
         let yarn = Body::new(mesh, &media, |element| usize::from(element / per_layer >= near));
         let mut solver = Solver::new(vec![yarn], media);
-        let tension = Tension::of(&materials[0]);
-        let smith = tension.smith(case.speed, materials[0].density.unwrap_or_default()).ok_or_else(|| {
-            let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
-            Error::Input(format!("case {}: speed is {}; allowed: {allowed}", case.name, case.speed))
-        })?;
+        let density = materials[0].density.unwrap_or_default();
+        let smith =
+            Tension::of(&materials[0]).and_then(|tension| tension.smith(case.speed, density)).ok_or_else(|| {
+                let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
+                Error::Input(format!("case {}: speed is {}; allowed: {allowed}", case.name, case.speed))
+            })?;
         solver.all_outputs = case.outputs == Outputs::Full;
         let start = set_up(case, &mut solver);
         Ok(Run {

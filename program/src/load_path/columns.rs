@@ -38,11 +38,16 @@ pub fn columns(material: &Material) -> Vec<Column> {
     if let Law::LinearElastic { .. } = material.law {
         group("", &["failure_index"], NUMBER);
     }
-    group("", &["fibre_stress"], STRESS);
+    if material.has_fibre() {
+        group("", &["fibre_stress"], STRESS);
+    }
     for face in ["x", "y", "z"] {
         group(&format!("force_{face}_"), &["x", "y", "z"], FORCE);
     }
-    group("", &["external_work", "stored_energy"], ENERGY);
+    group("", &["external_work"], ENERGY);
+    if material.has_energy() {
+        group("", &["stored_energy"], ENERGY);
+    }
     if material.density.is_some() {
         group("", &["wave_speed"], SPEED);
     }

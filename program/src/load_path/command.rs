@@ -13,20 +13,21 @@ use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::progress;
+use crate::material::laws::Laws;
 
 const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.toml");
 /// A run that is over before this needs no progress bar.
 const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
-/// Runs the load path of a file, or the demonstration, and writes what came of it to the directory `output`.
+/// Runs the load path of a file with materials of these laws, or the demonstration of the library's, and writes what came of it to the directory `output`.
 ///
 /// # Errors
 /// The input, a file that cannot be written, or the evaluation of a point; what was computed before is written all the
 /// same.
-pub fn run(path: Option<&Path>, output: &Path) -> Result<(), Error> {
+pub fn run(laws: Laws, path: Option<&Path>, output: &Path) -> Result<(), Error> {
     let path = match path {
-        Some(path) => LoadPath::read(path)?,
-        None => LoadPath::parse("demonstration", DEMONSTRATION)?,
+        Some(path) => LoadPath::read(laws, path)?,
+        None => LoadPath::parse(Laws::Toron, "demonstration", DEMONSTRATION)?,
     };
     folder::create(output)?;
     let histories = run_with_progress(&path);

@@ -16,6 +16,7 @@ use super::path::{LoadPath, Point, Step, Target, equal_parts};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use crate::material::file::MaterialFile;
+use crate::material::laws::Laws;
 use toron::host::units::UnitSystem;
 
 /// Most increments that a path may have, all cycles counted: a point's history is kept in memory until it is written.
@@ -88,25 +89,25 @@ struct RotationFile {
 }
 
 impl LoadPath {
-    /// Reads the file.
+    /// Reads the file; its materials are of these laws.
     ///
     /// # Errors
     /// An input error that names file, line and what was expected.
-    pub fn read(path: &Path) -> Result<LoadPath, Error> {
+    pub fn read(laws: Laws, path: &Path) -> Result<LoadPath, Error> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|error| Error::Input(format!("{name}: {error}")))?;
-        LoadPath::parse(&name, &text)
+        LoadPath::parse(laws, &name, &text)
     }
 
-    /// The load path that `text` describes; `name` stands for the file in messages.
+    /// The load path that `text` describes, with materials of these laws; `name` stands for the file in messages.
     ///
     /// # Errors
     /// An input error that names file, line and what was expected.
-    pub fn parse(name: &str, text: &str) -> Result<LoadPath, Error> {
+    pub fn parse(laws: Laws, name: &str, text: &str) -> Result<LoadPath, Error> {
         let source = Source { name, text };
         let file: PathFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let points = source.points(&file, &units)?;
+        let points = source.points(laws, &file, &units)?;
         Ok(LoadPath {
             title: file.title.clone().unwrap_or_else(|| name.to_string()),
             element: source.element(file.element.as_ref())?,
@@ -141,13 +142,13 @@ impl Source<'_> {
         Ok(name.clone())
     }
 
-    fn points(&self, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
+    fn points(&self, laws: Laws, file: &PathFile, units: &UnitSystem) -> Result<Vec<Point>, Error> {
         let (base, span) = match &file.material {
             Some(material) => (material.get_ref().clone(), material.span()),
             None => (MaterialFile::default(), 0..0),
         };
         if file.point.is_empty() {
-            let material = self.material(&base, units, span)?;
+            let material = self.material(laws, &base, units, span)?;
             return Ok(vec![Point { name: material.label.clone(), material }]);
         }
         let mut points: Vec<Point> = Vec::new();
@@ -158,7 +159,7 @@ impl Source<'_> {
                 let wanted = "a name of its own out of letters, digits and - _ ., since files are named by it";
                 return Err(self.error(span, &format!("point \"{name}\"; allowed: {wanted}")));
             }
-            let material = self.material(&point.get_ref().material.over(&base), units, span)?;
+            let material = self.material(laws, &point.get_ref().material.over(&base), units, span)?;
             points.push(Point { name: name.clone(), material });
         }
         Ok(points)

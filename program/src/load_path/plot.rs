@@ -76,8 +76,9 @@ fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
         Law::Hyperelastic { .. } => {
             ("Deformation by mode: invariants", modes(history, INVARIANTS), modes(history, ENERGIES))
         }
-        Law::LinearElastic { .. } => {
-            let work = line(history, "work", COLOURS[0], |i| material.energy(&i.answer.memory));
+        Law::LinearElastic { .. } | Law::Own(_) => {
+            let name = if let Law::Own(_) = material.law { "energy" } else { "work" };
+            let work = line(history, name, COLOURS[0], |i| material.energy(&i.answer.memory));
             ("Deformation gradient", gradient(history), vec![work])
         }
     };
@@ -87,7 +88,8 @@ fn panels(path: &LoadPath, history: &History) -> [Panel; 4] {
     } else {
         let stored = |i: &Increment| material.energy(&i.answer.memory) * path.element.volume();
         let external = line(history, "external work", COLOURS[0], |i| i.work);
-        panel("Work", ENERGY, vec![external, line(history, "stored energy", COLOURS[1], stored)], None)
+        let stored = material.has_energy().then(|| line(history, "stored energy", COLOURS[1], stored));
+        panel("Work", ENERGY, [external].into_iter().chain(stored).collect(), None)
     };
     [
         panel(title, NUMBER, deformation, None),
@@ -117,7 +119,7 @@ fn gradient(history: &History) -> Vec<Series> {
 /// The failure index, and for the hyperelastic law the terms that it is the sum of.
 fn index(history: &History) -> Vec<Series> {
     let material = &history.point.material;
-    let total = |i: &Increment| material.failure_index(&i.answer.memory);
+    let total = |i: &Increment| material.failure_index(&i.answer.memory).unwrap_or(0.0);
     // Where the fibre is not in tension the index is 0, whatever its terms.
     let term = |m: usize| {
         let terms = |i: &Increment| material.failure_terms(&i.answer.memory).filter(|_| total(i) > 0.0);
@@ -125,7 +127,7 @@ fn index(history: &History) -> Vec<Series> {
     };
     let mut series: Vec<Series> = match material.law {
         Law::Hyperelastic { .. } => (0..3).map(term).collect(),
-        Law::LinearElastic { .. } => Vec::new(),
+        Law::LinearElastic { .. } | Law::Own(_) => Vec::new(),
     };
     series.push(line(history, "index", INK, total));
     series

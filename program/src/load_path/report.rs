@@ -29,7 +29,8 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
     if let Some(wave) = wave {
         line("wave along the fibre", format!("{} km/s = {}", number(wave.speed), wave.formula));
     }
-    if let Some(largest) = history.increments.iter().max_by(|a, b| a.fibre_stress.total_cmp(&b.fibre_stress)) {
+    let stressed = history.increments.iter().filter(|_| material.has_fibre());
+    if let Some(largest) = stressed.max_by(|a, b| a.fibre_stress.total_cmp(&b.fibre_stress)) {
         let value = format!("{} {}", number(largest.fibre_stress), unit(&path.units, STRESS));
         line("largest fibre stress", format!("{value}, {}", place(path, largest)));
     }
@@ -40,10 +41,14 @@ pub fn summary(path: &LoadPath, history: &History) -> String {
         line(name, value);
     }
     if let Some(last) = history.increments.last() {
-        let stored = material.energy(&last.answer.memory) * path.element.volume();
-        let kept = if history.failure.is_some() { "frozen at failure" } else { "stored" };
         let unit = unit(&path.units, ENERGY);
-        line("work on the element", format!("{} {unit}; {kept} {} {unit}", number(last.work), number(stored)));
+        let mut work = format!("{} {unit}", number(last.work));
+        if material.has_energy() {
+            let stored = material.energy(&last.answer.memory) * path.element.volume();
+            let kept = if history.failure.is_some() { "frozen at failure" } else { "stored" };
+            work += &format!("; {kept} {} {unit}", number(stored));
+        }
+        line("work on the element", work);
     }
     let iterations = history.increments.iter().map(|increment| increment.iterations);
     if let Some(most) = iterations.clone().max().filter(|&most| most > 0) {
@@ -77,12 +82,22 @@ fn energies(path: &LoadPath, history: &History) -> Vec<(String, String)> {
     let unit = unit(&path.units, ENERGY_DENSITY);
     let material = &history.point.material;
     let parts = |increment: &Increment| -> Vec<f64> {
-        match material.law {
+        match &material.law {
             Law::Hyperelastic { .. } => increment.answer.memory.state[ENERGIES..INVARIANTS].to_vec(),
             Law::LinearElastic { .. } => vec![material.energy(&increment.answer.memory)],
+            Law::Own(own) => increment.answer.memory.state[own.law.description.energies.clone()].to_vec(),
         }
     };
-    let names: &[&str] = if let Law::Hyperelastic { .. } = material.law { &MODE_NAMES } else { &["work per volume"] };
+    let names: Vec<&str> = match &material.law {
+        Law::Hyperelastic { .. } => MODE_NAMES.to_vec(),
+        Law::LinearElastic { .. } => vec!["work per volume"],
+        Law::Own(own) => {
+            material.state_table()[own.law.description.energies.clone()].iter().map(|row| row.name).collect()
+        }
+    };
+    if names.is_empty() {
+        return Vec::new();
+    }
     let Some(last) = history.increments.last().map(parts) else { return Vec::new() };
     let largest = history.increments.iter().map(parts).fold(vec![0.0; names.len()], |largest, parts| {
         largest.iter().zip(parts).map(|(a, b): (&f64, f64)| a.max(b)).collect()
@@ -102,11 +117,12 @@ fn failure(path: &LoadPath, history: &History) -> Vec<(&'static str, String)> {
     let material = &history.point.material;
     let index = |increment: &Increment| material.failure_index(&increment.answer.memory);
     let Some(first) = history.failure.map(|i| &history.increments[i]) else {
-        let largest = history.increments.iter().map(index).fold(0.0, f64::max);
-        return vec![("failure", format!("none; largest failure index {}", number(largest)))];
+        let largest = history.increments.iter().filter_map(index).reduce(f64::max);
+        let index = largest.map(|largest| format!("; largest failure index {}", number(largest.max(0.0))));
+        return vec![("failure", format!("none{}", index.unwrap_or_default()))];
     };
-    let reason = format!("{}{}", number(index(first)), parts(material, first));
-    vec![("failure", place(path, first)), ("failure index", reason)]
+    let reason = index(first).map(|index| ("failure index", format!("{}{}", number(index), parts(material, first))));
+    [("failure", place(path, first))].into_iter().chain(reason).collect()
 }
 
 /// The terms whose sum is the hyperelastic law's failure index.

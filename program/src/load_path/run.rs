@@ -17,7 +17,7 @@ const HALVINGS: usize = 8;
 const CARRIED: f64 = 1e-9;
 
 /// The results at the end of an increment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Increment {
     /// Index of the step among [`LoadPath::steps`]; the increment within it, from 1 (0: the start of the path).
     pub step: usize,
@@ -267,7 +267,8 @@ impl<'a> PointState<'a> {
     fn increment(&self, step: usize, number: usize, time: f64) -> Increment {
         let e = (self.q * self.f * self.material.fibre()).normalize();
         let fibre_stress = e.dot(&(toron::law::stress::matrix(&self.answer.cauchy) * e));
-        let PointState { f, p, q, answer, work, iterations, .. } = *self;
+        let PointState { f, p, q, work, iterations, .. } = *self;
+        let answer = self.answer.clone();
         Increment { step, number, time, f, p, q, fibre_stress, answer, work, iterations }
     }
 }

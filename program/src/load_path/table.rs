@@ -28,14 +28,19 @@ pub fn values(increment: &Increment, material: &Material, element: &Hexahedron) 
     if let Law::Hyperelastic { .. } = material.law {
         values.extend(answer.modes.iter().flatten());
     }
-    values.extend(&answer.memory.state[..material.state_table().len()]);
+    values.extend(&answer.memory.state);
     if let Law::LinearElastic { .. } = material.law {
-        values.push(material.failure_index(&answer.memory));
+        values.extend(material.failure_index(&answer.memory));
     }
-    values.push(increment.fibre_stress);
+    if material.has_fibre() {
+        values.push(increment.fibre_stress);
+    }
     // One face after the other: the columns of the forces.
     values.extend(element.face_forces(&stress).iter());
-    values.extend([increment.work, material.energy(&answer.memory) * element.volume()]);
+    values.push(increment.work);
+    if material.has_energy() {
+        values.push(material.energy(&answer.memory) * element.volume());
+    }
     if let Some(density) = material.density {
         values.push(wave_speed(answer.wave_modulus, density));
     }

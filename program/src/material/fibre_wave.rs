@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use super::laws::LawName;
 use super::model::{Law, Material};
-use super::preset::LawName;
 use crate::common::units::{SPEED, number};
 use toron::host::units::UnitSystem;
 
@@ -22,11 +22,13 @@ pub struct FibreWave {
 }
 
 impl FibreWave {
-    /// The wave of a material in these units; none without a density or without stiffness.
+    /// The wave of a material in these units; none without a density or without stiffness, and none of a law of one's own, of which it
+    /// is not known what resists it.
     pub fn of(material: &Material, units: &UnitSystem) -> Option<FibreWave> {
         let (law, stiffness) = match material.law {
             Law::Hyperelastic { properties, .. } => (LawName::Hyperelastic, properties.k_el),
             Law::LinearElastic { properties, .. } => (LawName::LinearElastic, properties.e_1),
+            Law::Own(_) => return None,
         };
         Self::along(law, stiffness, material.density?, units)
     }
@@ -36,6 +38,7 @@ impl FibreWave {
         let (name, formula) = match law {
             LawName::Hyperelastic => ("k_el", "√(k_el/density)"),
             LawName::LinearElastic => ("e_1", "√(e_1/density)"),
+            LawName::Own(_) => return None,
         };
         let speed = (stiffness / density).sqrt();
         let speed_in_km = speed / units.from_si(1000.0, SPEED);
@@ -63,6 +66,7 @@ mod tests {
     use super::*;
     use crate::common::toml_file::Source;
     use crate::material::file::MaterialFile;
+    use crate::material::laws::Laws;
 
     /// The wave of the preset, but for these keys of its table.
     fn wave(units: &str, preset: &str, keys: &str) -> (Option<FibreWave>, UnitSystem) {
@@ -70,7 +74,7 @@ mod tests {
         let source = Source { name: "material.toml", text: &text };
         let units = UnitSystem::parse(units).expect("a unit system");
         let file: MaterialFile = source.parse().expect("the keys exist");
-        let material = source.material(&file, &units, 0..0).expect("the material is valid");
+        let material = source.material(Laws::Toron, &file, &units, 0..0).expect("the material is valid");
         (FibreWave::of(&material, &units), units)
     }
 

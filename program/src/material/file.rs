@@ -6,8 +6,9 @@ use std::ops::Range;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::laws::{LawName, LawText, Laws};
 use super::model::{Law, Material};
-use super::preset::{LawName, Preset, first_property};
+use super::preset::{Preset, first_property};
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use toron::host::units::UnitSystem;
@@ -19,7 +20,7 @@ use toron::{Criterion, Rotation};
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
     preset: Option<Spanned<String>>,
-    law: Option<Spanned<LawName>>,
+    law: Option<Spanned<LawText>>,
     fibre: Option<Spanned<Numbers<3>>>,
     density: Option<Spanned<f64>>,
     frame: Option<Spanned<FrameName>>,
@@ -52,7 +53,7 @@ impl MaterialFile {
     /// Whose yarn it is: the preset, or the law where it names one without a preset.
     pub fn yarn(&self) -> Option<&str> {
         let preset = self.preset.as_ref().map(|name| name.get_ref().as_str());
-        preset.or(self.law.as_ref().map(|law| law.get_ref().text()))
+        preset.or(self.law.as_ref().map(|law| law.get_ref().0.as_str()))
     }
 
     /// What is other than the preset has it. A fibre is a place rather than a yarn's property.
@@ -92,10 +93,22 @@ struct Values {
 }
 
 impl Source<'_> {
-    /// The material of a table; `span` is the place that errors name for keys that are missing.
-    pub fn material(&self, file: &MaterialFile, units: &UnitSystem, span: Range<usize>) -> Result<Material, Error> {
-        let preset = file.preset.as_ref().map(|name| self.preset(name)).transpose()?;
-        let law_name = self.law_name(file, preset.as_ref(), span.clone())?;
+    /// The material of a table, of one of these laws; `span` is the place that errors name for keys that are missing.
+    pub fn material(
+        &self,
+        laws: Laws,
+        file: &MaterialFile,
+        units: &UnitSystem,
+        span: Range<usize>,
+    ) -> Result<Material, Error> {
+        let named = file.law.as_ref().map(|name| self.law(laws, name)).transpose()?;
+        let preset = file.preset.as_ref().map(|name| self.preset(laws, name)).transpose()?;
+        let law_name = named.or(preset.as_ref().map(|preset| preset.law)).or(laws.only());
+        let law_name = law_name
+            .ok_or_else(|| self.error(span.clone(), "the material needs a preset, or a law and its properties"))?;
+        if let (Some(law), Some(preset)) = (&file.law, preset.as_ref().filter(|preset| preset.law != law_name)) {
+            return Err(self.error(law.span(), &format!("preset \"{}\" belongs to the other law", preset.name)));
+        }
         let Values { values, places } = self.values(file, preset.as_ref(), law_name, units, &span)?;
         let (frame, criterion) = self.options(file, law_name)?;
         let law = Law::new(law_name, &values, frame, criterion).map_err(|error| {
@@ -114,26 +127,14 @@ impl Source<'_> {
         Ok(Material { law, density, label, own: file.own() })
     }
 
-    fn preset(&self, name: &Spanned<String>) -> Result<Preset, Error> {
-        Preset::find(name.get_ref(), self.folder(), |message| self.error(name.span(), message))
+    fn preset(&self, laws: Laws, name: &Spanned<String>) -> Result<Preset, Error> {
+        Preset::find(laws, name.get_ref(), self.folder(), |message| self.error(name.span(), message))
     }
 
-    /// The law that is named or that the preset belongs to.
-    fn law_name(&self, file: &MaterialFile, preset: Option<&Preset>, span: Range<usize>) -> Result<LawName, Error> {
-        match (&file.law, preset) {
-            (Some(law), Some(preset)) if *law.get_ref() != preset.law => {
-                Err(self.error(law.span(), &format!("preset \"{}\" belongs to the other law", preset.name)))
-            }
-            (Some(law), _) => Ok(*law.get_ref()),
-            (None, Some(preset)) => Ok(preset.law),
-            (None, None) => Err(self.error(span, "the material needs a preset, or a law and its properties")),
-        }
-    }
-
-    /// The options of the linear elastic law; the other law has none.
+    /// The options of the linear elastic law; no other law has any.
     fn options(&self, file: &MaterialFile, law: LawName) -> Result<(Rotation, Criterion), Error> {
         let place = file.frame.as_ref().map(Spanned::span).or(file.criterion.as_ref().map(Spanned::span));
-        if let (LawName::Hyperelastic, Some(place)) = (law, place) {
+        if let Some(place) = place.filter(|_| law != LawName::LinearElastic) {
             return Err(self.error(place, "frame and criterion are options of the linear elastic law"));
         }
         let frame = match file.frame.as_ref().map(|name| *name.get_ref()) {

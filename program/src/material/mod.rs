@@ -2,7 +2,9 @@
 
 pub mod fibre_wave;
 pub mod file;
+pub mod laws;
 pub mod model;
 pub mod of_law;
+pub mod own_law;
 pub mod preset;
 pub mod smith;

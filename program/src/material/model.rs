@@ -1,18 +1,17 @@
-//! Both laws behind one interface: properties, memory, evaluation from the deformation gradient.
+//! The laws behind one interface: properties, memory, evaluation from the deformation gradient.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
-use super::preset::LawName;
+use super::laws::LawName;
+use super::own_law::Own;
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES, Property, STRESS};
-use toron::law::state::{FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
-use toron::law::state::{LINEAR_ELASTIC_STATE, LINEAR_LARGEST, LINEAR_STRESS};
+use toron::law::state::{FAILURE_INDEX, INVARIANTS, LINEAR_LARGEST, LINEAR_STRESS, StateVariable};
 use toron::law::status;
 use toron::law::{hyperelastic, linear_elastic};
-use toron::{Criterion, LinearElastic, Rotation};
-use toron::{Hyperelastic, Request};
+use toron::{Criterion, Hyperelastic, LinearElastic, Measure, Request, Rotation};
 
 /// A law, prepared, and the properties that it was prepared from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Law {
     Hyperelastic {
         law: Hyperelastic<f64>,
@@ -24,6 +23,7 @@ pub enum Law {
         frame: Rotation,
         criterion: Criterion,
     },
+    Own(Own),
 }
 
 /// A law with its properties.
@@ -39,12 +39,12 @@ pub struct Material {
 }
 
 /// The history of a point: what it keeps from one increment to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Memory {
     /// Deformation gradient of the last increment.
     pub f: Matrix3<f64>,
-    /// State variables; the linear elastic law's are the first ones.
-    pub state: [f64; HYPERELASTIC_STATE],
+    /// The law's state variables.
+    pub state: Vec<f64>,
     /// The linear elastic law's axes, which follow the spin where that is its frame.
     axes: Matrix3<f64>,
 }
@@ -53,12 +53,12 @@ pub struct Memory {
 pub type NominalTangent = SMatrix<f64, 9, 9>;
 
 /// The material's response to a deformation gradient.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// Cauchy stress 11 22 33 12 23 31.
     pub cauchy: [f64; 6],
     pub memory: Memory,
-    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31; 0 for the linear elastic law.
+    /// S_el, S_tc, S_td, S_ld, each 11 22 33 12 23 31; 0 for a law without modes.
     pub modes: [[f64; 6]; 4],
     /// ρ0 c² for a bound c of the wave speed.
     pub wave_modulus: f64,
@@ -79,6 +79,7 @@ impl Law {
                 let law = LinearElastic::new(values)?;
                 Ok(Law::LinearElastic { law, properties: array(values).into(), frame, criterion })
             }
+            LawName::Own(law) => law.prepared(values).map(Law::Own),
         }
     }
 
@@ -88,7 +89,7 @@ impl Law {
     /// The first property that is wrong.
     pub fn with(&self, values: &[f64]) -> Result<Law, toron::Error> {
         let (frame, criterion) = match *self {
-            Law::Hyperelastic { .. } => (Rotation::Fibre, Criterion::LargestPrincipal),
+            Law::Hyperelastic { .. } | Law::Own(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
             Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
         };
         Law::new(self.name(), values, frame, criterion)
@@ -98,6 +99,16 @@ impl Law {
         match self {
             Law::Hyperelastic { .. } => LawName::Hyperelastic,
             Law::LinearElastic { .. } => LawName::LinearElastic,
+            Law::Own(own) => LawName::Own(own.law),
+        }
+    }
+
+    /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre, or a faster one at rest.
+    pub fn bulk_and_shear(&self) -> [f64; 2] {
+        match self {
+            Law::Hyperelastic { law, .. } => law.bulk_and_shear(),
+            Law::LinearElastic { law, .. } => law.bulk_and_shear(),
+            Law::Own(own) => own.bulk_and_shear(),
         }
     }
 }
@@ -130,29 +141,44 @@ impl Material {
     }
 
     pub fn law_name(&self) -> &'static str {
-        match self.law {
+        match &self.law {
             Law::Hyperelastic { .. } => "hyperelastic",
             Law::LinearElastic { .. } => "linear elastic",
+            Law::Own(own) => &own.law.name,
         }
     }
 
-    /// Unit fibre direction in the reference placement.
+    /// Unit fibre direction in the reference placement; the first axis of a law without fibre.
     pub fn fibre(&self) -> Vector3<f64> {
-        let (Law::Hyperelastic { properties: hyperelastic::Properties { fibre, .. }, .. }
-        | Law::LinearElastic { properties: linear_elastic::Properties { fibre, .. }, .. }) = self.law;
-        Vector3::from(fibre).normalize()
+        match &self.law {
+            Law::Hyperelastic { properties: hyperelastic::Properties { fibre, .. }, .. }
+            | Law::LinearElastic { properties: linear_elastic::Properties { fibre, .. }, .. } => {
+                Vector3::from(*fibre).normalize()
+            }
+            Law::Own(own) => Vector3::from(own.axes()[0]),
+        }
+    }
+
+    /// Whether the law has a fibre.
+    pub fn has_fibre(&self) -> bool {
+        self.law.name().description().fibre.is_some()
     }
 
     /// The properties in the order of [`table`](Self::table).
     pub fn values(&self) -> Vec<f64> {
-        match self.law {
-            Law::Hyperelastic { properties, .. } => <[f64; HYPERELASTIC_PROPERTIES]>::from(properties).to_vec(),
-            Law::LinearElastic { properties, .. } => <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(properties).to_vec(),
+        match &self.law {
+            Law::Hyperelastic { properties, .. } => <[f64; HYPERELASTIC_PROPERTIES]>::from(*properties).to_vec(),
+            Law::LinearElastic { properties, .. } => <[f64; LINEAR_ELASTIC_PROPERTIES]>::from(*properties).to_vec(),
+            Law::Own(own) => own.values.clone(),
         }
     }
 
-    /// The largest of the properties that are a stress: what counts as a small stress is measured by it.
+    /// What counts as a small stress is measured by this: the largest of the properties that are a stress, or the bulk modulus of a
+    /// law of which nothing is known.
     pub fn stress_scale(&self) -> f64 {
+        if let Law::Own(own) = &self.law {
+            return own.bulk_and_shear()[0];
+        }
         let stresses = self.table().iter().zip(self.values()).filter(|(property, _)| property.dimension == STRESS);
         stresses.map(|(_, value)| value).fold(0.0, f64::max)
     }
@@ -160,10 +186,11 @@ impl Material {
     /// The memory of a point at rest.
     pub fn at_rest(&self) -> Memory {
         let axes = match &self.law {
-            Law::Hyperelastic { .. } => Matrix3::identity(),
+            Law::Hyperelastic { .. } | Law::Own(_) => Matrix3::identity(),
             Law::LinearElastic { law, .. } => law.reference_axes(),
         };
-        Memory { f: Matrix3::identity(), state: [0.0; HYPERELASTIC_STATE], axes }
+        let state = if let Law::Own(own) = &self.law { own.fresh() } else { vec![0.0; self.state_table().len()] };
+        Memory { f: Matrix3::identity(), state, axes }
     }
 
     /// The stress and the new memory at the deformation gradient `f`.
@@ -171,23 +198,24 @@ impl Material {
     /// # Errors
     /// The law's status code where it cannot be evaluated.
     pub fn evaluate(&self, f: &Matrix3<f64>, memory: &Memory, request: Request) -> Result<Answer, i32> {
-        let mut new = Memory { f: *f, ..*memory };
-        match &self.law {
+        let mut axes = memory.axes;
+        let none = [[0.0; 6]; 4];
+        let (status, cauchy, state, modes, wave_modulus) = match &self.law {
             Law::Hyperelastic { law, .. } => {
-                let point = law.point(f, &memory.state, request);
-                new.state = point.state;
-                let (cauchy, modes, wave_modulus) = (point.stress, point.modes, point.wave_modulus);
-                accept(point.status, Answer { cauchy, memory: new, modes, wave_modulus })
+                let point = law.point(f, &array(&memory.state), request);
+                (point.status, point.stress, point.state.to_vec(), point.modes, point.wave_modulus)
             }
             Law::LinearElastic { law, frame, criterion, .. } => {
-                let mut old = [0.0; LINEAR_ELASTIC_STATE];
-                old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
-                let point = law.step(&memory.f, f, &old, *frame, *criterion, &mut new.axes);
-                new.state[..LINEAR_ELASTIC_STATE].copy_from_slice(&point.state);
-                let (cauchy, wave_modulus) = (point.stress, law.wave_modulus());
-                accept(point.status, Answer { cauchy, memory: new, modes: [[0.0; 6]; 4], wave_modulus })
+                let point = law.step(&memory.f, f, &array(&memory.state), *frame, *criterion, &mut axes);
+                (point.status, point.stress, point.state.to_vec(), none, law.wave_modulus())
             }
-        }
+            Law::Own(own) => {
+                let point = own.point(&memory.f, f, &memory.state, None);
+                (point.status[0], array(&point.stress), point.state, none, point.wave_modulus[0])
+            }
+        };
+        let memory = Memory { f: *f, state, axes };
+        if status == status::OK { Ok(Answer { cauchy, memory, modes, wave_modulus }) } else { Err(status) }
     }
 
     /// The Cauchy stress at the deformation gradient `f`, and dP/dF.
@@ -198,15 +226,19 @@ impl Material {
         let (cauchy, nominal, status) = match &self.law {
             Law::Hyperelastic { law, .. } => {
                 let request = Request { stress: true, ..Request::default() };
-                let (point, nominal) = law.point_with_nominal(&f.data.0, None, &memory.state, request);
+                let (point, nominal) = law.point_with_nominal(&f.data.0, None, &array(&memory.state), request);
                 (point.stress, nominal, point.status)
             }
             Law::LinearElastic { law, frame, criterion, .. } => {
-                let mut old = [0.0; LINEAR_ELASTIC_STATE];
-                old.copy_from_slice(&memory.state[..LINEAR_ELASTIC_STATE]);
-                let mut axes = memory.axes;
+                let (mut axes, old) = (memory.axes, array(&memory.state));
                 let (point, tangent) = law.step_with_tangent(&memory.f, f, &old, *frame, *criterion, &mut axes);
                 (point.stress, tangent.nominal(f, &point.stress), point.status)
+            }
+            Law::Own(own) => {
+                let point = own.point(&memory.f, f, &memory.state, Some(Measure::Nominal));
+                // By rows there.
+                let nominal = std::array::from_fn(|entry| point.tangent[entry % 9 * 9 + entry / 9]);
+                (array(&point.stress), nominal, point.status[0])
             }
         };
         if status == status::OK { Ok((cauchy, NominalTangent::from_column_slice(&nominal))) } else { Err(status) }
@@ -217,27 +249,34 @@ impl Material {
         memory.state[self.law.name().description().failed] != 0.0
     }
 
-    /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work.
+    /// Energy per reference volume: the sum of the four modes', or the linear elastic law's work; 0 of a law that counts none.
     pub fn energy(&self, memory: &Memory) -> f64 {
         memory.state[self.law.name().description().energies.clone()].iter().sum()
     }
 
-    /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim.
-    pub fn failure_index(&self, memory: &Memory) -> f64 {
+    /// Whether the law counts energies.
+    pub fn has_energy(&self) -> bool {
+        !self.law.name().description().energies.is_empty()
+    }
+
+    /// 1 at the failure limit, 0 without one. The linear elastic law's is its criterion's stress over σ_lim. None of a law that
+    /// tells nothing but whether it has failed.
+    pub fn failure_index(&self, memory: &Memory) -> Option<f64> {
         match self.law {
-            Law::Hyperelastic { .. } => memory.state[FAILURE_INDEX],
+            Law::Hyperelastic { .. } => Some(memory.state[FAILURE_INDEX]),
             Law::LinearElastic { properties: linear_elastic::Properties { sigma_lim, .. }, criterion, .. } => {
                 let stress = match criterion {
                     Criterion::LargestPrincipal => memory.state[LINEAR_LARGEST],
                     Criterion::FibreStress => memory.state[LINEAR_STRESS],
                 };
-                if sigma_lim == 0.0 { 0.0 } else { stress / sigma_lim }
+                Some(if sigma_lim == 0.0 { 0.0 } else { stress / sigma_lim })
             }
+            Law::Own(_) => None,
         }
     }
 
     /// The terms of the hyperelastic law's failure index: I_el/I_lim, α⟨−I_tc⟩, β I_td; their sum counts in tension only. None of
-    /// the linear elastic law.
+    /// other laws.
     pub fn failure_terms(&self, memory: &Memory) -> Option<[f64; 3]> {
         let Law::Hyperelastic { properties: hyperelastic::Properties { eps_lim, alpha, beta, .. }, .. } = self.law
         else {
@@ -251,19 +290,16 @@ impl Material {
     pub fn longitudinal_shear(&self) -> Option<f64> {
         match self.law {
             Law::Hyperelastic { properties, .. } => Some(properties.k_ld),
-            Law::LinearElastic { .. } => None,
+            Law::LinearElastic { .. } | Law::Own(_) => None,
         }
     }
 
-    /// Whether there is a limit at all.
+    /// Whether there is a limit of the failure index at all.
     pub fn can_fail(&self) -> bool {
         match self.law {
             Law::Hyperelastic { properties, .. } => properties.eps_lim > 0.0,
             Law::LinearElastic { properties, .. } => properties.sigma_lim > 0.0,
+            Law::Own(_) => false,
         }
     }
-}
-
-fn accept(status: i32, answer: Answer) -> Result<Answer, i32> {
-    if status == status::OK { Ok(answer) } else { Err(status) }
 }

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::file::MaterialFile;
+use super::laws::Laws;
 use super::model::{Law, Material};
 use crate::common::error::Error;
 use crate::common::toml_file::{Source, Unused};
@@ -103,6 +104,7 @@ impl Source<'_> {
         let (limit, weights): (usize, &[usize]) = match material.law {
             Law::Hyperelastic { .. } => (EPS_LIM, &[ALPHA, BETA]),
             Law::LinearElastic { .. } => (SIGMA_LIM, &[]),
+            Law::Own(_) => return Ok(()), // of no case
         };
         let (off, allowed): (&[usize], &str) = match failure {
             FailureName::None => (&[limit], "uniaxial or multiaxial"),
@@ -162,7 +164,7 @@ impl Source<'_> {
             Some(table) => (table.get_ref().over(&default), table.span()),
             None => (default, choice.span.clone()),
         };
-        let mut material = self.material(&file, units, span.clone())?;
+        let mut material = self.material(Laws::Toron, &file, units, span.clone())?;
         let found = material.law.name().text();
         if found != law {
             return Err(self.error(span, &format!("{law} has a material of the law {found}; allowed: {law}")));

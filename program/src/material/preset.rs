@@ -7,53 +7,16 @@ use std::path::Path;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
 use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
 use toron::law::bounds;
-use toron::law::description::{self, Description};
-use toron::law::parameters::{self, DENSITY, Dimension, PRESETS, Property};
+use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
-
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "kebab-case")]
-pub enum LawName {
-    Hyperelastic,
-    LinearElastic,
-}
-
-impl From<parameters::LawName> for LawName {
-    fn from(law: parameters::LawName) -> LawName {
-        match law {
-            parameters::LawName::Hyperelastic => LawName::Hyperelastic,
-            parameters::LawName::LinearElastic => LawName::LinearElastic,
-        }
-    }
-}
-
-impl LawName {
-    pub fn description(self) -> &'static Description {
-        match self {
-            LawName::Hyperelastic => &description::HYPERELASTIC,
-            LawName::LinearElastic => &description::LINEAR_ELASTIC,
-        }
-    }
-
-    pub fn table(self) -> &'static [Property] {
-        self.description().properties
-    }
-
-    /// As files have it.
-    pub fn text(self) -> &'static str {
-        match self {
-            LawName::Hyperelastic => "hyperelastic",
-            LawName::LinearElastic => "linear-elastic",
-        }
-    }
-}
 
 /// A yarn's properties, with or without some of them, in units of their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +47,7 @@ struct PresetFile {
     name: Option<Spanned<String>>,
     source: Option<Spanned<String>>,
     units: Spanned<String>,
-    law: Option<LawName>,
+    law: Option<Spanned<LawText>>,
     density: Option<Spanned<f64>>,
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
@@ -111,35 +74,35 @@ impl Preset {
         Preset { name: name.to_string(), source: source.to_string(), law, units, values, density: None, file: None }
     }
 
-    /// The library's preset of this name, or the file, where the name ends in `.toml`; a relative one is in `folder`.
+    /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is in `folder`.
     /// `error` makes the error at the place that names the preset.
     ///
     /// # Errors
     /// There is no such preset, the file cannot be read, or something is wrong in it.
-    pub fn find(name: &str, folder: &Path, error: impl Fn(&str) -> Error) -> Result<Preset, Error> {
-        if let Some(preset) = parameters::preset(name) {
+    pub fn find(laws: Laws, name: &str, folder: &Path, error: impl Fn(&str) -> Error) -> Result<Preset, Error> {
+        if let Some(preset) = laws.preset(name) {
             return Ok(preset.into());
         }
         if !name.ends_with(".toml") {
-            let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-            let message = format!("preset \"{name}\"; allowed: {}, or a file NAME.toml", known.join(", "));
-            return Err(error(&message));
+            let known: String = laws.presets().iter().map(|preset| format!("{}, ", preset.name)).collect();
+            let or = if known.is_empty() { "" } else { "or " };
+            return Err(error(&format!("preset \"{name}\"; allowed: {known}{or}a file NAME.toml")));
         }
         let path = folder.join(name);
         let file = path.display().to_string();
         let text = std::fs::read_to_string(&path)
             .map_err(|reason| error(&format!("preset \"{name}\": {file} cannot be read: {reason}")))?;
-        Preset::parse(&file, &text)
+        Preset::parse(laws, &file, &text)
     }
 
     /// The preset that the text of a file describes; `name` stands for the file in messages.
     ///
     /// # Errors
     /// An input error that names file, line, value and what is allowed.
-    pub fn parse(name: &str, text: &str) -> Result<Preset, Error> {
+    pub fn parse(laws: Laws, name: &str, text: &str) -> Result<Preset, Error> {
         let source = Source { name, text };
         let file: PresetFile = source.parse()?;
-        let law = file.law.unwrap_or(LawName::Hyperelastic);
+        let law = file.law.as_ref().map(|name| source.law(laws, name)).transpose()?.unwrap_or(laws.first());
         let (values, properties) = source.preset_values(&file, law.table())?;
         let density = file.density.as_ref();
         let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
@@ -328,7 +291,7 @@ mod tests {
     const YARN: &str = "name = \"my-yarn\"\nunits = \"mm-tonne-s\"\ndensity = 1.3514e-9\n[properties]\nk_el = 82445\n";
 
     fn parse(text: &str) -> Result<Preset, String> {
-        Preset::parse("yarns/my-yarn.toml", text).map_err(|error| error.to_string())
+        Preset::parse(Laws::Toron, "yarns/my-yarn.toml", text).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -344,7 +307,7 @@ mod tests {
 
     #[test]
     fn built_in_presets_become_the_same_type() {
-        for built_in in &PRESETS {
+        for built_in in Laws::Toron.presets() {
             let (preset, mm) = (Preset::from(built_in), UnitSystem::parse("mm-tonne-s").expect("a system"));
             let values = built_in.table().iter().zip(built_in.values);
             let expected: Vec<f64> = values.map(|(row, &value)| mm.from_si(value, row.dimension)).collect();
@@ -416,7 +379,9 @@ mod tests {
             assert!(error.starts_with(&format!("yarns/my-yarn.toml:{line}: ")), "line {line}: {error}\n{text}");
             assert!(error.contains(message), "{message}: {error}\n{text}");
         }
-        let unnamed = Preset::parse("my yarn.toml", "units = \"si\"").expect_err("the file's name is none").to_string();
+        let unnamed = Preset::parse(Laws::Toron, "my yarn.toml", "units = \"si\"")
+            .expect_err("the file's name is none")
+            .to_string();
         assert_eq!(
             unnamed,
             format!("my yarn.toml:1: without a name, the preset has that of its file, \"my yarn\"; {name}")

@@ -43,11 +43,12 @@ pub enum Tension {
 }
 
 impl Tension {
-    /// The tension of a material.
-    pub fn of(material: &Material) -> Tension {
+    /// The tension of a material; none of a law of one's own, which no scene has.
+    pub fn of(material: &Material) -> Option<Tension> {
         match material.law {
-            Law::Hyperelastic { properties, .. } => Tension::Logarithmic(properties.k_el),
-            Law::LinearElastic { properties, .. } => Tension::Linear(properties.e_1),
+            Law::Hyperelastic { properties, .. } => Some(Tension::Logarithmic(properties.k_el)),
+            Law::LinearElastic { properties, .. } => Some(Tension::Linear(properties.e_1)),
+            Law::Own(_) => None,
         }
     }
 
@@ -113,7 +114,8 @@ impl Source<'_> {
         material: &Material,
         units: &UnitSystem,
     ) -> Result<f64, Error> {
-        let most = Tension::of(material).fastest_strike(material.density.unwrap_or_default());
+        let density = material.density.unwrap_or_default();
+        let most = Tension::of(material).map_or(0.0, |tension| tension.fastest_strike(density));
         if speed <= most {
             return Ok(speed);
         }

@@ -15,6 +15,7 @@ use super::section::{Section, Thread};
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source};
 use crate::common::units::LENGTH;
+use crate::material::laws::Laws;
 use crate::material::model::Material;
 use toron::host::units::UnitSystem;
 
@@ -66,7 +67,8 @@ impl Scene {
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
         let material = file.material.as_ref();
-        let material = material.map(|table| source.material(table.get_ref(), &units, table.span())).transpose()?;
+        let material =
+            material.map(|table| source.material(Laws::Toron, table.get_ref(), &units, table.span())).transpose()?;
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
             woven: source.woven(&file.weave, &units)?,

@@ -5,6 +5,7 @@ use std::path::Path;
 use toron::law::state::{ENERGIES, INVARIANTS};
 use toron_program::load_path::path::LoadPath;
 use toron_program::load_path::run::{self, End, History, Increment};
+use toron_program::material::laws::Laws;
 use toron_program::material::model::Law;
 
 /// Kevlar KM2 600 in MPa: Tab. 4.3 and 4.5.
@@ -24,7 +25,8 @@ const TOLERANCE: f64 = 1e-11;
 const NEWTON: f64 = 1e-9;
 
 fn load(name: &str) -> LoadPath {
-    LoadPath::read(&Path::new(crate::library::ROOT).join("examples").join(name)).expect("the example is valid")
+    LoadPath::read(Laws::Toron, &Path::new(crate::library::ROOT).join("examples").join(name))
+        .expect("the example is valid")
 }
 
 /// Runs an example of one point to its end.
@@ -66,7 +68,7 @@ fn intact<'a>(history: &'a History) -> &'a [Increment] {
 #[track_caller]
 fn assert_dead_after_failure(history: &History) {
     let failing = history.failure.expect("the point fails");
-    let frozen = history.increments[failing];
+    let frozen = &history.increments[failing];
     assert!(history.increments.len() > failing + 1, "the path goes on after failure");
     for increment in &history.increments[failing + 1..] {
         assert_eq!(increment.answer.cauchy, [0.0; 6]);

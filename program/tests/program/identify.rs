@@ -16,6 +16,7 @@ use toron_program::identify::response::{Measured, Quantity};
 use toron_program::identify::{notes, output, report, worth};
 use toron_program::impact::{self, scene::Scene};
 use toron_program::load_path::path::LoadPath;
+use toron_program::material::laws::Laws;
 
 /// Table 4.3, in GPa.
 const TRUE: Values = [82.341, 1.055, 2.2, 0.64974, 0.0, 0.0458, 1.8, 0.0];
@@ -388,7 +389,7 @@ fn the_preset_that_comes_out_is_used_by_a_load_path() {
     let path = "units = \"mm-tonne-s\"\n[material]\npreset = \"out/kevlar-energies.toml\"\nproperties = { k_el = 82000 }\n\
                 [[step]]\nF = { 33 = 0.9 }\n";
     std::fs::write(folder.join("path.toml"), path).expect("a file can be written");
-    let path = LoadPath::read(&folder.join("path.toml")).expect("the preset is valid");
+    let path = LoadPath::read(Laws::Toron, &folder.join("path.toml")).expect("the preset is valid");
     let material = &path.points[0].material;
     for parameter in [Parameter::KTc, Parameter::P, Parameter::KTd] {
         assert_eq!(Some(material.values()[parameter.index()]), fit.values[parameter.index()]);

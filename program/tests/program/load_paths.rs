@@ -5,11 +5,12 @@ use toron_program::common::error::Error;
 use toron_program::load_path::element::Hexahedron;
 use toron_program::load_path::path::LoadPath;
 use toron_program::load_path::run::{self, End, History};
+use toron_program::material::laws::Laws;
 
 const HEAD: &str = "units = \"mm-tonne-s\"\n[material]\npreset = \"kevlar-km2-600\"\n";
 
 fn parse(text: &str) -> LoadPath {
-    LoadPath::parse("path.toml", text).expect("the path is valid")
+    LoadPath::parse(Laws::Toron, "path.toml", text).expect("the path is valid")
 }
 
 fn first(path: &LoadPath) -> History<'_> {
@@ -18,7 +19,7 @@ fn first(path: &LoadPath) -> History<'_> {
 
 /// The message of the error that the path is rejected with.
 fn rejected(text: &str) -> String {
-    match LoadPath::parse("path.toml", text) {
+    match LoadPath::parse(Laws::Toron, "path.toml", text) {
         Err(Error::Input(message)) => message,
         other => panic!("an input error was expected, not {other:?}"),
     }
@@ -118,7 +119,7 @@ fn a_rotation_on_top_changes_neither_work_nor_energies() {
         assert_eq!(a.f, b.f);
         assert!((a.work - b.work).abs() < 1e-12 * scale);
         assert!((a.p - b.p).amax() < 1e-12 * 82341.0);
-        for (x, y) in a.answer.memory.state.iter().zip(b.answer.memory.state) {
+        for (x, y) in a.answer.memory.state.iter().zip(&b.answer.memory.state) {
             assert!((x - y).abs() < 1e-12 * (1.0 + x.abs()));
         }
     }

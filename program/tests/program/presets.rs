@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 use toron::host::units::UnitSystem;
 use toron_program::impact::scene::{Scene, Zones};
 use toron_program::load_path::path::LoadPath;
+use toron_program::material::laws::Laws;
 use toron_program::material::model::Material;
 
 const YARN: &str = "name = \"my-yarn\"\nsource = \"lot 12\"\nunits = \"mm-tonne-s\"\ndensity = 1.1e-9\n[properties]\n\
@@ -45,7 +46,7 @@ fn load_path(units: &str, material: &str) -> String {
 
 fn materials(folder: &Path, text: &str) -> Vec<Material> {
     write(folder, "path.toml", text);
-    let path = LoadPath::read(&folder.join("path.toml")).unwrap_or_else(|error| panic!("{text}: {error}"));
+    let path = LoadPath::read(Laws::Toron, &folder.join("path.toml")).unwrap_or_else(|error| panic!("{text}: {error}"));
     path.points.into_iter().map(|point| point.material).collect()
 }
 

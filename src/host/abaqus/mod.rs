@@ -15,13 +15,14 @@
 //! Solids: three-dimensional ones (NDI = 3, NSHR = 3), plane-strain and axisymmetric ones (3, 1). Plane stress is (2, 1) in Standard
 //! and refused; in Explicit it is (3, 1) too. The symbols `umat_` and `vumat_` that Abaqus looks for are in `fortran-shim/`, and in the
 //! libraries of `abaqus/`. A material with 10 properties and 10 state variables has the linear elastic law there, every other one the
-//! hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`.
+//! hyperelastic law; (3, 1) in Explicit must be announced by the material's name, which ends in `_PSTRAIN` or `_AXIS`. In a library of
+//! laws of one's own the material's name begins with that of its law.
 
 mod umat;
 mod vumat;
 
-pub use umat::{linear_umat_f64, umat_f64, umat_tangent_f64};
-pub use vumat::{Vumat, linear_vumat_f32, linear_vumat_f64, vumat_f32, vumat_f64};
+pub use umat::{StandardLaw, linear_umat_f64, umat_f64, umat_tangent_f64};
+pub use vumat::{ExplicitLaw, Vumat, linear_vumat_f32, linear_vumat_f64, vumat_f32, vumat_f64};
 
 use crate::law::bounds::wrong_number;
 use crate::law::error::Error;

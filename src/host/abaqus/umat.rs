@@ -1,4 +1,4 @@
-//! The UMAT of Abaqus/Standard, of both laws.
+//! The UMAT of Abaqus/Standard: of any law, and that of the hyperelastic law by its kernels of one point.
 
 use core::cell::Cell;
 use core::slice;
@@ -20,6 +20,7 @@ use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
 use crate::law::tangent::Measure;
+use crate::law::user::{User, UserMaterial};
 use crate::law::voigt::Moduli;
 
 /// The value that PNEWDT is lowered to if a point cannot be evaluated.
@@ -355,6 +356,133 @@ unsafe fn step<L: Law<f64>>(
     Ok(code)
 }
 
+/// The UMAT of a law by its step.
+///
+/// # Safety
+/// As documented for `toron_abaqus_linear_umat_f64` in package `toron-c`.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+unsafe fn of_law<L: Law<f64>>(
+    stress: *mut f64,
+    statev: *mut f64,
+    ddsdde: *mut f64,
+    sse: *mut f64,
+    pnewdt: *mut f64,
+    dfgrd0: *const f64,
+    dfgrd1: *const f64,
+    props: *const f64,
+    nprops: i32,
+    nstatv: i32,
+    ndi: i32,
+    nshr: i32,
+    nlgeom: i32,
+    message: *mut c_char,
+    capacity: size_t,
+) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe {
+        entry(Message { text: message, capacity }, move || {
+            step::<L>(stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)
+        })
+    }
+}
+
+/// A law as a UMAT of Abaqus/Standard.
+pub trait StandardLaw: Law<f64> {
+    /// The UMAT, with the arguments of `toron_abaqus_linear_umat_f64` in package `toron-c`, of which `dfgrd0` is read where the law's
+    /// description says so, and `ddsdde` may be null. Returns the status code.
+    ///
+    /// # Safety
+    /// As documented there, with as many properties and state variables as the law has.
+    #[allow(clippy::too_many_arguments)]
+    #[inline(never)]
+    unsafe fn umat(
+        stress: *mut f64,
+        statev: *mut f64,
+        ddsdde: *mut f64,
+        sse: *mut f64,
+        pnewdt: *mut f64,
+        dfgrd0: *const f64,
+        dfgrd1: *const f64,
+        props: *const f64,
+        nprops: i32,
+        nstatv: i32,
+        ndi: i32,
+        nshr: i32,
+        nlgeom: i32,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            of_law::<Self>(
+                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
+                capacity,
+            )
+        }
+    }
+}
+
+impl<M: UserMaterial> StandardLaw for User<M, f64> {}
+
+impl StandardLaw for Hyperelastic<f64> {
+    #[inline(always)]
+    unsafe fn umat(
+        stress: *mut f64,
+        statev: *mut f64,
+        ddsdde: *mut f64,
+        sse: *mut f64,
+        pnewdt: *mut f64,
+        _dfgrd0: *const f64,
+        dfgrd1: *const f64,
+        props: *const f64,
+        nprops: i32,
+        nstatv: i32,
+        ndi: i32,
+        nshr: i32,
+        nlgeom: i32,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            umat_tangent_f64(
+                stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
+                capacity,
+            )
+        }
+    }
+}
+
+impl StandardLaw for LinearElastic<f64> {
+    #[inline(always)]
+    unsafe fn umat(
+        stress: *mut f64,
+        statev: *mut f64,
+        ddsdde: *mut f64,
+        sse: *mut f64,
+        pnewdt: *mut f64,
+        dfgrd0: *const f64,
+        dfgrd1: *const f64,
+        props: *const f64,
+        nprops: i32,
+        nstatv: i32,
+        ndi: i32,
+        nshr: i32,
+        nlgeom: i32,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            linear_umat_f64(
+                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
+                capacity,
+            )
+        }
+    }
+}
+
 /// `toron_abaqus_linear_umat_f64` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
@@ -380,11 +508,10 @@ pub unsafe extern "C" fn linear_umat_f64(
 ) -> i32 {
     // SAFETY: the caller's promise.
     unsafe {
-        entry(Message { text: message, capacity }, move || {
-            step::<LinearElastic>(
-                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
-            )
-        })
+        of_law::<LinearElastic>(
+            stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
+            capacity,
+        )
     }
 }
 

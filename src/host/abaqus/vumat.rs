@@ -1,4 +1,4 @@
-//! The VUMAT of Abaqus/Explicit, of both laws.
+//! The VUMAT of Abaqus/Explicit, of any law.
 
 use core::mem::MaybeUninit;
 
@@ -15,6 +15,7 @@ use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::status;
+use crate::law::user::{User, UserMaterial};
 
 /// The arguments of a VUMAT that the laws use, stored as in Abaqus: arrays are (nblock, components), column-major.
 #[repr(C)]
@@ -248,6 +249,21 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
     }
 }
 
+/// A law as a VUMAT of Abaqus/Explicit, for jobs in the precision of `T`.
+pub trait ExplicitLaw<T: Precision>: Law<T> {
+    /// The VUMAT, with the arguments of `toron_abaqus_vumat_f64` in package `toron-c`. Returns the worst status code.
+    ///
+    /// # Safety
+    /// As documented there, with as many properties and state variables as the law has.
+    #[inline(never)]
+    unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block)) }
+    }
+}
+
+impl<M: UserMaterial, T: Precision> ExplicitLaw<T> for User<M, T> {}
+
 /// The entry of the C interface for a law in one precision.
 macro_rules! entries {
     ($law:ident, $t:ty: $vumat:ident) => {
@@ -259,6 +275,14 @@ macro_rules! entries {
         pub unsafe extern "C" fn $vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
             // SAFETY: the caller's promise.
             unsafe { entry(Message { text: message, capacity }, move || vumat::<$law<$t>, $t>(block)) }
+        }
+
+        impl ExplicitLaw<$t> for $law<$t> {
+            #[inline(always)]
+            unsafe fn vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { $vumat(block, message, capacity) }
+            }
         }
     };
 }

@@ -3,6 +3,7 @@
 use core::cell::Cell;
 use core::ffi::c_int;
 
+use super::message::History;
 use super::{check_number, element_range, is_plausible, law, no_gradient};
 use crate::host::border::{check_pointers, properties};
 use crate::host::c::PointAnswer;
@@ -20,6 +21,13 @@ use crate::law::response::Request;
 use crate::law::state::{ALIVE, FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use crate::law::status;
 use crate::law::tangent::Measure;
+
+/// In the words of a library that had this law alone.
+impl<T: Precision> History<T> for Hyperelastic<T> {
+    const NUMBER: &'static str = "number of history variables, NHV";
+    const NO_GRADIENT: &'static str =
+        "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11";
+}
 
 /// The card's properties, F by columns, and the state of an element.
 type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELASTIC_STATE]);

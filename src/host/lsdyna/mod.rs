@@ -1,12 +1,12 @@
 //! LS-DYNA: user materials, scalar (`umat41`) and vectorised (`umat41v`), and their tangents (`utan41`, `utan41v`).
 //!
-//! | | hyperelastic law | linear elastic law |
-//! |---|---|---|
-//! | properties | cm(1) … cm(11) | cm(1) … cm(10) |
-//! | bulk and shear modulus | cm(12), cm(13): IBULK = 12, IG = 13 | cm(11), cm(12): IBULK = 11, IG = 12 |
-//! | history, NHV | 11 state variables | 19: 10 state variables, then the 9 entries of F of the last step, by columns |
-//! | F by columns, behind it, read only | hsv(12) … hsv(20) | hsv(20) … hsv(28) |
-//! | tangent | of the step | of a further, infinitesimal step; its symmetric part |
+//! | | hyperelastic law | linear elastic law | a law with n properties and m state variables |
+//! |---|---|---|---|
+//! | properties | cm(1) … cm(11) | cm(1) … cm(10) | cm(1) … cm(n) |
+//! | bulk and shear modulus | cm(12), cm(13): IBULK = 12, IG = 13 | cm(11), cm(12): IBULK = 11, IG = 12 | cm(n + 1), cm(n + 2) |
+//! | history, NHV | 11 state variables | 19: 10 state variables, then the 9 entries of F of the last step, by columns | m, or m + 9 with the F of the last step |
+//! | F by columns, behind it, read only | hsv(12) … hsv(20) | hsv(20) … hsv(28) | hsv(NHV + 1) … hsv(NHV + 9) |
+//! | tangent | of the step | of a further, infinitesimal step; its symmetric part | of the step to F from the state written; its symmetric part |
 //!
 //! | | |
 //! |---|---|
@@ -18,46 +18,129 @@
 //!
 //! Solids only. The symbols that LS-DYNA looks for are in `fortran-shim/`.
 
+mod any_law;
 mod hyperelastic;
-mod linear_elastic;
+mod message;
 
 use core::ffi::c_int;
 
 use libc::{c_char, size_t};
 
-use crate::host::border::{Message, check_pointers, entry, from_entry, properties, start_at_rest, store};
-use crate::law::block::{Precision, components, components_mut};
+use message::History;
+
+use crate::host::border::{Message, check_pointers, entry, properties, store};
+use crate::law::block::Precision;
 use crate::law::description::Description;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
-use crate::law::interface::{Law, Points};
+use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
 use crate::law::number::vector::dot;
 use crate::law::status;
+use crate::law::user::{User, UserMaterial};
 
-/// A law as a user material: its history is the law's state, the entries of F that are kept for it, and, behind these, F.
-trait Material<T: Precision>: Law<T> {
-    /// What the number of history variables, NHV, is called in messages.
-    const NUMBER: &'static str;
-    /// What to say if there is no F behind them.
-    const NO_GRADIENT: &'static str;
+/// A law as a user material of LS-DYNA. Its history is the law's state, the entries of F that are kept for it, and, behind these, F.
+/// The routines return the worst status code.
+pub trait UserRoutines<T: Precision>: History<T> {
+    /// The material routine, with the arguments of `toron_lsdyna_umat_f64` in package `toron-c`.
+    ///
+    /// # Safety
+    /// As documented there, with as many properties and history variables as the law has.
+    #[inline(never)]
+    unsafe fn umat(
+        cm: *const T,
+        sig: *mut T,
+        hsv: *mut T,
+        nhv: i32,
+        failel: *mut c_int,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            entry(Message { text: message, capacity }, move || any_law::scalar::<T, Self>(cm, sig, hsv, nhv, failel))
+        }
+    }
+
+    /// The vectorised one, with the arguments of `toron_lsdyna_umat_vector_f64`: `stress` is `sig1` to `sig6`, `range` `lft`, `llt` and
+    /// `nlq`.
+    ///
+    /// # Safety
+    /// As for [`umat`](Self::umat).
+    #[allow(clippy::too_many_arguments)]
+    #[inline(never)]
+    unsafe fn umat_vector(
+        cm: *const T,
+        stress: [*mut T; 6],
+        hsvs: *mut T,
+        nhv: i32,
+        range: [i32; 3],
+        failels: *mut c_int,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            entry(Message { text: message, capacity }, move || {
+                any_law::vector::<T, Self>(cm, stress, hsvs, nhv, range, failels)
+            })
+        }
+    }
+
+    /// The tangent, with the arguments of `toron_lsdyna_utan_f64`.
+    ///
+    /// # Safety
+    /// As for [`umat`](Self::umat).
+    #[inline(never)]
+    unsafe fn utan(cm: *const T, hsv: *const T, nhv: i32, es: *mut T, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            entry(Message { text: message, capacity }, move || any_law::scalar_tangent::<T, Self>(cm, hsv, nhv, es))
+        }
+    }
+
+    /// The vectorised one, with the arguments of `toron_lsdyna_utan_vector_f64`: `range` is `lft`, `llt` and `nlq`.
+    ///
+    /// # Safety
+    /// As for [`umat`](Self::umat).
+    #[inline(never)]
+    unsafe fn utan_vector(
+        cm: *const T,
+        hsvs: *const T,
+        nhv: i32,
+        range: [i32; 3],
+        dsave: *mut T,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe {
+            entry(Message { text: message, capacity }, move || {
+                any_law::vector_tangent::<T, Self>(cm, hsvs, nhv, range, dsave)
+            })
+        }
+    }
+
+    /// The moduli that the card asks for, with the arguments of `toron_lsdyna_bulk_and_shear_f64`.
+    ///
+    /// # Safety
+    /// As documented there.
+    #[inline(never)]
+    unsafe fn card_moduli(
+        values: *const T,
+        count: size_t,
+        bulk: *mut T,
+        shear: *mut T,
+        message: *mut c_char,
+        capacity: size_t,
+    ) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { entry(Message { text: message, capacity }, move || moduli::<T, Self>(values, count, bulk, shear)) }
+    }
 }
 
-impl<T: Precision> Material<T> for Hyperelastic<T> {
-    const NUMBER: &'static str = "number of history variables, NHV";
-    const NO_GRADIENT: &'static str =
-        "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 11";
-}
-
-impl<T: Precision> Material<T> for LinearElastic<T> {
-    const NUMBER: &'static str = "number of history variables, NHV, of the linear elastic law";
-    const NO_GRADIENT: &'static str =
-        "there is no deformation gradient behind the history: set IHYPER = 1 or -1, and NHV = 19 (linear elastic law)";
-}
-
-/// The elements that a vectorised routine evaluates at once.
-const CHUNK: usize = 64;
+impl<M: UserMaterial, T: Precision> UserRoutines<T> for User<M, T> {}
 
 /// `count` elements of a vector block from `first` on, counted from 0.
 struct Elements<T> {
@@ -139,11 +222,11 @@ fn element_range([lft, llt, nlq]: [i32; 3]) -> Result<[usize; 3], Error> {
 ///
 /// # Safety
 /// `values` has `count` properties, if it is not null; the other pointers that are not null may be written.
-unsafe fn bulk_and_shear<L: Law<f64>>(
-    values: *const f64,
+unsafe fn moduli<T: Precision, L: Law<T>>(
+    values: *const T,
     count: usize,
-    bulk: *mut f64,
-    shear: *mut f64,
+    bulk: *mut T,
+    shear: *mut T,
 ) -> Result<i32, Error> {
     check_pointers(&[(bulk, "bulk"), (shear, "shear")])?;
     // SAFETY: the caller's promise, here and below.
@@ -156,7 +239,7 @@ unsafe fn bulk_and_shear<L: Law<f64>>(
 }
 
 /// Refuses a wrong number of history variables.
-fn check_number<T: Precision, L: Material<T>>(nhv: i32) -> Result<(), Error> {
+fn check_number<T: Precision, L: History<T>>(nhv: i32) -> Result<(), Error> {
     let variables = L::DESCRIPTION.history();
     if nhv == variables as i32 {
         return Ok(());
@@ -166,7 +249,7 @@ fn check_number<T: Precision, L: Material<T>>(nhv: i32) -> Result<(), Error> {
 }
 
 /// The error of a history without F.
-fn no_gradient<T: Precision, L: Material<T>>() -> Error {
+fn no_gradient<T: Precision, L: History<T>>() -> Error {
     Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: L::NO_GRADIENT }
 }
 
@@ -175,7 +258,7 @@ fn no_gradient<T: Precision, L: Material<T>>() -> Error {
 ///
 /// # Safety
 /// `cm` has the law's properties.
-unsafe fn law<T: Precision, L: Material<T>>(
+unsafe fn law<T: Precision, L: History<T>>(
     cm: *const T,
     nhv: i32,
     count: usize,
@@ -189,67 +272,6 @@ unsafe fn law<T: Precision, L: Material<T>>(
         return Err(no_gradient::<T, L>());
     }
     Ok(law)
-}
-
-/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
-///
-/// # Safety
-/// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their history.
-unsafe fn evaluate<T: Precision, L: Material<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
-    let Elements { leading_dimension: stride, first, count, .. } = *elements;
-    // SAFETY: the caller's promise, here and below.
-    let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
-    let (mut worst, mut done) = (status::OK, 0);
-    while done < count {
-        let (start, n) = (first + done, CHUNK.min(count - done));
-        let row = |variable: usize| elements.variable(variable, start);
-        let (f, mut codes) = (row(L::DESCRIPTION.history()), [status::OK; CHUNK]);
-        // Of a law that does not depend on F at the start of a step, this is F at its end, which is not written.
-        let f_old = components_mut(row(L::DESCRIPTION.state.len()), stride);
-        if L::DESCRIPTION.reads_old_gradient {
-            unsafe { start_at_rest(f_old, n) };
-        }
-        let points = Points {
-            f_old: components(row(L::DESCRIPTION.state.len()).cast_const(), stride),
-            f_new: components(f.cast_const(), stride),
-            state_old: row(0),
-            state_new: row(0),
-            stress: from_entry(elements.stress, start),
-            status: codes.as_mut_ptr(),
-            ..Points::without_arrays(n, stride)
-        };
-        worst = worst.min(unsafe { law.step(&points) }?);
-        let codes = codes.get(..n).unwrap_or(&codes);
-        if L::DESCRIPTION.reads_old_gradient {
-            for (i, _) in codes.iter().enumerate().filter(|(_, code)| **code == status::OK) {
-                for (old, new) in f_old.into_iter().zip(points.f_new) {
-                    unsafe { *old.add(i) = *new.add(i) };
-                }
-            }
-        }
-        // SAFETY: the elements are those of the block.
-        unsafe { elements.mark_failed(&L::DESCRIPTION, start, codes) };
-        done += n;
-    }
-    Ok(worst)
-}
-
-/// A vectorised material routine: the elements `range` of a block.
-///
-/// # Safety
-/// As for [`evaluate`], for arrays that are not null.
-unsafe fn vector<T: Precision, L: Material<T>>(
-    cm: *const T,
-    stress: [*mut T; 6],
-    hsvs: *mut T,
-    nhv: i32,
-    range: [i32; 3],
-    failels: *mut c_int,
-) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm")])?;
-    let elements = Elements::new(stress, hsvs, range, failels)?;
-    // SAFETY: the caller's promise.
-    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
 }
 
 /// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
@@ -292,7 +314,72 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
 
 /// The entries of the C interface for a law in one precision.
 macro_rules! entries {
-    ($module:ident, $law:ident, $t:ty: $umat:ident, $umat_vector:ident, $utan:ident, $utan_vector:ident) => {
+    (
+        $law:ident, $t:ty, $module:ident::<$($parameter:ty),+>:
+        $umat:ident, $umat_vector:ident, $utan:ident, $utan_vector:ident
+    ) => {
+        impl UserRoutines<$t> for $law<$t> {
+            #[inline(always)]
+            unsafe fn umat(
+                cm: *const $t,
+                sig: *mut $t,
+                hsv: *mut $t,
+                nhv: i32,
+                failel: *mut c_int,
+                message: *mut c_char,
+                capacity: size_t,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { $umat(cm, sig, hsv, nhv, failel, message, capacity) }
+            }
+
+            #[inline(always)]
+            unsafe fn umat_vector(
+                cm: *const $t,
+                [sig1, sig2, sig3, sig4, sig5, sig6]: [*mut $t; 6],
+                hsvs: *mut $t,
+                nhv: i32,
+                [lft, llt, nlq]: [i32; 3],
+                failels: *mut c_int,
+                message: *mut c_char,
+                capacity: size_t,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe {
+                    $umat_vector(
+                        cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
+                    )
+                }
+            }
+
+            #[inline(always)]
+            unsafe fn utan(
+                cm: *const $t,
+                hsv: *const $t,
+                nhv: i32,
+                es: *mut $t,
+                message: *mut c_char,
+                capacity: size_t,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { $utan(cm, hsv, nhv, es, message, capacity) }
+            }
+
+            #[inline(always)]
+            unsafe fn utan_vector(
+                cm: *const $t,
+                hsvs: *const $t,
+                nhv: i32,
+                [lft, llt, nlq]: [i32; 3],
+                dsave: *mut $t,
+                message: *mut c_char,
+                capacity: size_t,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { $utan_vector(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+            }
+        }
+
         /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
@@ -308,7 +395,7 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || $module::scalar(cm, sig, hsv, nhv, failel)) }
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar::<$($parameter),+>(cm, sig, hsv, nhv, failel)) }
         }
 
         /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
@@ -338,7 +425,7 @@ macro_rules! entries {
             // SAFETY: the caller's promise.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
-                    vector::<$t, $law<$t>>(cm, stress, hsvs, nhv, [lft, llt, nlq], failels)
+                    any_law::vector::<$t, $law<$t>>(cm, stress, hsvs, nhv, [lft, llt, nlq], failels)
                 })
             }
         }
@@ -357,7 +444,7 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || $module::scalar_tangent(cm, hsv, nhv, es)) }
+            unsafe { entry(Message { text: message, capacity }, move || $module::scalar_tangent::<$($parameter),+>(cm, hsv, nhv, es)) }
         }
 
         /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
@@ -380,17 +467,23 @@ macro_rules! entries {
             // SAFETY: the caller's promise.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
-                    $module::vector_tangent(cm, hsvs, nhv, [lft, llt, nlq], dsave)
+                    $module::vector_tangent::<$($parameter),+>(cm, hsvs, nhv, [lft, llt, nlq], dsave)
                 })
             }
         }
     };
 }
 
-entries!(hyperelastic, Hyperelastic, f64: umat_f64, umat_vector_f64, utan_f64, utan_vector_f64);
-entries!(hyperelastic, Hyperelastic, f32: umat_f32, umat_vector_f32, utan_f32, utan_vector_f32);
-entries!(linear_elastic, LinearElastic, f64: linear_umat_f64, linear_umat_vector_f64, linear_utan_f64, linear_utan_vector_f64);
-entries!(linear_elastic, LinearElastic, f32: linear_umat_f32, linear_umat_vector_f32, linear_utan_f32, linear_utan_vector_f32);
+entries!(Hyperelastic, f64, hyperelastic::<f64>: umat_f64, umat_vector_f64, utan_f64, utan_vector_f64);
+entries!(Hyperelastic, f32, hyperelastic::<f32>: umat_f32, umat_vector_f32, utan_f32, utan_vector_f32);
+entries!(
+    LinearElastic, f64, any_law::<f64, LinearElastic<f64>>:
+    linear_umat_f64, linear_umat_vector_f64, linear_utan_f64, linear_utan_vector_f64
+);
+entries!(
+    LinearElastic, f32, any_law::<f32, LinearElastic<f32>>:
+    linear_umat_f32, linear_umat_vector_f32, linear_utan_f32, linear_utan_vector_f32
+);
 
 /// The entry of the C interface for the moduli of a law.
 macro_rules! moduli {
@@ -409,11 +502,7 @@ macro_rules! moduli {
             capacity: size_t,
         ) -> i32 {
             // SAFETY: the caller's promise.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    bulk_and_shear::<$law<f64>>(values, count, bulk, shear)
-                })
-            }
+            unsafe { <$law<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
         }
     };
 }

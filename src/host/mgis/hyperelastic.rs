@@ -19,12 +19,27 @@ use crate::law::voigt::{Moduli, sum};
 
 use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
 use super::results::{Results, Stress, status_of};
+use super::step::MgisLaw;
 use super::view::{BehaviourDataView, Operator, Options, StressMeasure, columns, integrate};
+
+impl MgisLaw for Hyperelastic<f64> {
+    #[inline(always)]
+    unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { hyperelastic(view) }
+    }
+
+    #[inline(always)]
+    unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { hyperelastic_in_plane(view) }
+    }
+}
 
 /// `ToronHyperelastic_Tridimensional`.
 ///
 /// # Safety
-/// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+/// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
@@ -34,7 +49,7 @@ pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
 /// `ToronHyperelastic_PlaneStrain` and `ToronHyperelastic_Axisymmetrical`.
 ///
 /// # Safety
-/// As for [`hyperelastic`].
+/// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
@@ -47,7 +62,7 @@ pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> 
 /// The first property that is wrong.
 ///
 /// # Safety
-/// As for [`hyperelastic`]; no pointer that is needed is null.
+/// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(always)]
 unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
     // SAFETY: the caller's promise.

@@ -2,7 +2,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | library | `libtoron_mgis.so` with the behaviours `ToronHyperelastic` and `ToronLinearElastic` |
+//! | library | `libtoron_mgis.so` with the behaviours `ToronHyperelastic` and `ToronLinearElastic`; any other law has its own name |
 //! | hypotheses | `Tridimensional`; `PlaneStrain` and `Axisymmetrical`, whose fibre lies in the plane or normal to it |
 //! | gradients | F at both ends of the step: 11 22 33 12 21 13 31 23 32; in the plane 11 22 33 12 21 |
 //! | stress | K\[1\]: 0 Cauchy σ, 1 second Piola–Kirchhoff S: 11 22 33 √2·12 √2·13 √2·23; 2 first Piola–Kirchhoff P, ordered as F |
@@ -10,11 +10,11 @@
 //! | request | K\[0\]: 0 none, 1 to 4 the consistent tangent, −1 to −3 that at the start of the step alone; 100 more: the speed of sound |
 //! | properties | all of the law's table, by name; those of the end of the step |
 //! | internal state variables | all of the law's table, scalars |
-//! | stored energy | per reference volume; for the linear elastic law the work |
+//! | stored energy | per reference volume, the sum of the law's energies; for the linear elastic law the work |
 //! | failure | stress and tangent 0, `failed` 1, `alive` 0, the energies kept |
 //! | F inverted, not finite, … | −1 and a message, nothing written, rdt ≤ ¼ |
 //!
-//! Everything is global: both behaviours are isotropic to MGIS, and the fibre direction is one of their properties. The elastic, the
+//! Everything is global: the behaviours are isotropic to MGIS, and the fibre direction is one of their properties. The elastic, the
 //! secant and the tangent operator are the same: the derivative of the stress that is returned. Temperature and time step are not
 //! read. The linear elastic law has axes that follow the fibre, and fails by its largest principal stress.
 
@@ -26,7 +26,7 @@ pub mod symbols;
 mod view;
 
 pub use hyperelastic::{hyperelastic, hyperelastic_in_plane};
-pub use step::{linear_elastic, linear_elastic_in_plane};
+pub use step::{MgisLaw, linear_elastic, linear_elastic_in_plane};
 pub use view::{BehaviourDataView, StateView};
 
 /// What an entry returns: the point is integrated, or it is not and there is a message.

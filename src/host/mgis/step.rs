@@ -12,29 +12,79 @@ use crate::law::response::nan_unless_finite;
 use crate::law::status;
 use crate::law::stress::second_piola_kirchhoff;
 use crate::law::tangent::Measure;
+use crate::law::user::{User, UserMaterial};
 
 use super::operator::{cauchy_by_gradient, kirchhoff_by_increment, material, nominal};
 use super::results::{Results, Stress};
 use super::view::{BehaviourDataView, Operator, Options, columns, integrate};
 
+/// A law as a behaviour of MFront's generic interface.
+pub trait MgisLaw: Law<f64> {
+    /// The function of the hypothesis `Tridimensional`.
+    ///
+    /// # Safety
+    /// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+    #[inline(never)]
+    unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { of_law::<Self>(view, false) }
+    }
+
+    /// That of the hypotheses `PlaneStrain` and `Axisymmetrical`.
+    ///
+    /// # Safety
+    /// As for [`integrate`](Self::integrate).
+    #[inline(never)]
+    unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { of_law::<Self>(view, true) }
+    }
+}
+
+impl<M: UserMaterial> MgisLaw for User<M, f64> {}
+
+impl MgisLaw for LinearElastic<f64> {
+    #[inline(always)]
+    unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { linear_elastic(view) }
+    }
+
+    #[inline(always)]
+    unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
+        // SAFETY: the caller's promise.
+        unsafe { linear_elastic_in_plane(view) }
+    }
+}
+
 /// `ToronLinearElastic_Tridimensional`.
 ///
 /// # Safety
-/// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+/// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { integrate(view, |view, options| evaluate::<LinearElastic>(view, options, false)) }
+    unsafe { of_law::<LinearElastic>(view, false) }
 }
 
 /// `ToronLinearElastic_PlaneStrain` and `ToronLinearElastic_Axisymmetrical`.
 ///
 /// # Safety
-/// As for [`linear_elastic`].
+/// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -> i32 {
     // SAFETY: the caller's promise.
-    unsafe { integrate(view, |view, options| evaluate::<LinearElastic>(view, options, true)) }
+    unsafe { of_law::<LinearElastic>(view, true) }
+}
+
+/// A call of a law, in the plane or in three dimensions.
+///
+/// # Safety
+/// As for [`MgisLaw::integrate`].
+#[inline(always)]
+unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 {
+    // SAFETY: the caller's promise.
+    unsafe { integrate(view, |view, options| evaluate::<L>(view, options, plane)) }
 }
 
 /// Evaluates the law and writes what is requested. Returns the status of the point.
@@ -43,7 +93,7 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 /// The first property that is wrong.
 ///
 /// # Safety
-/// As for [`linear_elastic`]; no pointer that is needed is null.
+/// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(never)]
 unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
     // SAFETY: the caller's promise; the state may be replaced in place.

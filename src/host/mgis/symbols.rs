@@ -1,4 +1,4 @@
-//! The values of a behaviour's data symbols, from the law's tables at compile time. The package `toron-mgis` gives them their names.
+//! The values of a behaviour's data symbols, from the law's tables at compile time. The package `toron-solvers` gives them their names.
 
 use core::ffi::{CStr, c_char};
 
@@ -23,7 +23,7 @@ impl Text {
 }
 
 /// The room for a name, with the terminating null.
-pub const NAME: usize = 16;
+pub const NAME: usize = 64;
 
 const fn terminated(name: &str) -> [u8; NAME] {
     let (mut text, mut i) = ([0; NAME], 0);

@@ -18,19 +18,19 @@ impl Instructions for Avx512 {
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
     unsafe fn run<T: Registers, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `run` requires of its caller what `sweep` requires.
         unsafe { sweep::<T, T::Avx512, WANT>(law, block) }
     }
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
     unsafe fn run_padded<T: Registers>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `run_padded` requires what `padded` requires.
         unsafe { padded::<T, T::Avx512>(block, run) }
     }
 
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
     unsafe fn run_linear<T: Registers>(law: &LinearElastic<T>, block: &LinearPointers<T>, points: Range<usize>) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `run_linear` requires what `sweep_linear` requires.
         unsafe { sweep_linear::<T, T::Avx512>(law, block, points) }
     }
 }

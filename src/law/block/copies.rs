@@ -58,7 +58,7 @@ impl<const COUNT: usize> Group<COUNT> {
     /// Copies `components` components from the block; nothing if it has none.
     ///
     /// # Safety
-    /// `from` is null or an array of the block with these components, `to` one of [`Buffer::array`].
+    /// `from` is null or an array with these components at every offset, `to` an array of COUNT points with these components.
     #[inline(always)]
     unsafe fn copy_in<T: Copy>(&self, from: *const T, to: *mut T, components: usize) {
         if from.is_null() {
@@ -66,7 +66,7 @@ impl<const COUNT: usize> Group<COUNT> {
         }
         for c in 0..components {
             for (lane, &offset) in self.offsets.iter().enumerate() {
-                // SAFETY: the caller's promise.
+                // SAFETY: c < `components` and lane < COUNT by the loops.
                 unsafe { *to.add(c * COUNT + lane) = *from.add(c * self.leading_dimension + offset) };
             }
         }
@@ -83,7 +83,7 @@ impl<const COUNT: usize> Group<COUNT> {
         }
         for c in 0..components {
             for (lane, &offset) in self.offsets.iter().enumerate() {
-                // SAFETY: the caller's promise.
+                // SAFETY: c < `components` and lane < COUNT by the loops.
                 unsafe { *to.add(c * self.leading_dimension + offset) = *from.add(c * COUNT + lane) };
             }
         }
@@ -109,10 +109,10 @@ impl<T: Scalar> Buffer<T> {
     }
 }
 
-/// A block of `count` points in a room for all components, with the arrays that the block `like` has.
+/// A block of `count` points in memory for all components, with the arrays that the block `like` has.
 #[inline(always)]
-fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Pointers<T>) -> Pointers<T> {
-    let array = |present: bool, first: usize| if present { room.wrapping_add(first * count) } else { null_mut() };
+fn block_in<T: Scalar>(memory: *mut T, count: usize, codes: *mut i32, like: &Pointers<T>) -> Pointers<T> {
+    let array = |present: bool, first: usize| if present { memory.wrapping_add(first * count) } else { null_mut() };
     let energies = array(!like.energies.is_null(), ENERGIES);
     let invariants = array(!like.invariants.is_null(), INVARIANTS);
     // The latch is read even if failure is not requested.
@@ -123,7 +123,7 @@ fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Point
         modes_leading_dimension: count,
         tangent_leading_dimension: count,
         strides: Strides::UNIT,
-        deformation_gradient: components(room.wrapping_add(F * count), count),
+        deformation_gradient: components(memory.wrapping_add(F * count), count),
         fibre: components(array(!like.fibre[0].is_null(), FIBRE), count),
         energies_old: energies,
         invariants_old: invariants,
@@ -147,23 +147,24 @@ fn block_in<T: Scalar>(room: *mut T, count: usize, codes: *mut i32, like: &Point
 /// Returns the kernel's result.
 ///
 /// # Safety
-/// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for these points of the block.
+/// The block is valid, see [`Pointers`], and has these points.
 pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
     block: &Pointers<T>,
     points: Range<usize>,
     run: impl FnOnce(&Pointers<T>) -> i32,
 ) -> i32 {
-    let mut room = [[const { MaybeUninit::<T>::uninit() }; COUNT]; COMPONENTS];
+    let mut memory = [[const { MaybeUninit::<T>::uninit() }; COUNT]; COMPONENTS];
     let mut codes = [status::OK; COUNT];
     let copies = Copies::<COUNT>::new(points);
-    let of_copies = block_in(room.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), block);
+    let of_copies = block_in(memory.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), block);
     let (energies, invariants) = (of_copies.energies, of_copies.invariants);
     let (failure, latch) = (of_copies.failure_old.cast_mut(), !block.failure_old.is_null());
     let Strides { deformation_gradient, fibre: of_fibre, state, stress: of_stress, modes, tangent } = block.strides;
     let state = copies.group(state, block.leading_dimension);
     let single = copies.group(1, 0);
-    // SAFETY: the arrays here have room for COUNT points, those of the block are the caller's promise. A number whose bytes are all 0
-    // is 0.
+    // SAFETY: each array of `of_copies` begins in `memory` at its first component, with space for COUNT points of all its components;
+    // it is there if the block has an array that takes its results; the offsets are those of points of the block. A number whose bytes
+    // are all 0 is 0.
     unsafe {
         let of_f = copies.group(deformation_gradient, 0);
         for (from, to) in block.deformation_gradient.into_iter().zip(of_copies.deformation_gradient) {
@@ -214,16 +215,17 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
 /// rest. Returns the kernel's result.
 ///
 /// # Safety
-/// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block), for a block with points next to each other and its state
-/// in place, on a processor that has the instructions of `R`.
+/// The block is valid, see [`Pointers`], with points next to each other and its state in place; the processor has the instructions of
+/// `R`.
 #[inline(always)]
 pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, run: impl FnOnce(&Pointers<T>) -> i32) -> i32 {
-    let mut room = [const { MaybeUninit::<R>::uninit() }; COMPONENTS];
+    let mut memory = [const { MaybeUninit::<R>::uninit() }; COMPONENTS];
     let mut codes = [status::OK; WIDEST];
-    let copies = block_in(room.as_mut_ptr().cast(), R::COUNT, codes.as_mut_ptr(), block);
+    let copies = block_in(memory.as_mut_ptr().cast(), R::COUNT, codes.as_mut_ptr(), block);
     let (zero, one, state, count) = (R::splat(0.0), R::splat(1.0), block.leading_dimension, block.n);
     // Loops and no closures, which would be called, without the processor's instructions.
-    // SAFETY: the caller's promise; the room has a register for each component.
+    // SAFETY: `memory` has a register for each component, at which the arrays of `copies` begin; `count` values of each component of
+    // the valid block are read and written, of the arrays that are not null.
     unsafe {
         for c in 0..9 {
             let fill = if c % 4 == 0 { one } else { zero };
@@ -280,7 +282,7 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, run: im
 /// Copies the first `count` lanes of `columns` registers, one after the other from `from` on, to columns that are `next` apart.
 ///
 /// # Safety
-/// There are as many registers, and each column has room for `count` values, fewer than COUNT.
+/// There are as many registers, and each column has space for `count` values, fewer than COUNT.
 #[inline(always)]
 unsafe fn columns_out<T, R: Lanes<T>>(from: *const T, to: *mut T, next: usize, columns: usize, count: usize) {
     // The binary digits of the count: a loop over so few values would be compiled to a call.
@@ -288,7 +290,7 @@ unsafe fn columns_out<T, R: Lanes<T>>(from: *const T, to: *mut T, next: usize, c
     for digit in [4, 2, 1] {
         if digit < R::COUNT && count & digit != 0 {
             for c in 0..columns {
-                // SAFETY: the caller's promise: the digits add up to `count`.
+                // SAFETY: the digits add up to `count`, so that lane + digit ≤ count; c < `columns`.
                 unsafe { to.add(c * next + lane).copy_from_nonoverlapping(from.add(c * R::COUNT + lane), digit) };
             }
             lane += digit;
@@ -299,7 +301,7 @@ unsafe fn columns_out<T, R: Lanes<T>>(from: *const T, to: *mut T, next: usize, c
 /// Runs a kernel of the linear elastic law on `points`, fewer than a register `R` holds; returns its result.
 ///
 /// # Safety
-/// As for [`LinearElastic::raw_block`](crate::law::linear_elastic::LinearElastic::raw_block), for these points of the block.
+/// The block is valid, see [`LinearPointers`], and has these points.
 pub(super) unsafe fn padded_linear<T: Scalar, R: Lanes<T>>(
     block: &LinearPointers<T>,
     points: Range<usize>,
@@ -308,7 +310,7 @@ pub(super) unsafe fn padded_linear<T: Scalar, R: Lanes<T>>(
     if points.is_empty() {
         return status::OK;
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: there are fewer points than COUNT, which is the number of copies, and one at least.
     unsafe {
         match R::COUNT {
             2 => copied_linear::<T, 2>(block, points, run),
@@ -327,10 +329,10 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
     points: Range<usize>,
     run: impl FnOnce(&LinearPointers<T>) -> i32,
 ) -> i32 {
-    let mut room = [[const { MaybeUninit::<T>::uninit() }; COUNT]; LINEAR_COMPONENTS];
+    let mut memory = [[const { MaybeUninit::<T>::uninit() }; COUNT]; LINEAR_COMPONENTS];
     let mut codes = [status::OK; COUNT];
     let copies = Copies::<COUNT>::new(points);
-    let mut buffer = Buffer { next: room.as_mut_ptr().cast(), count: COUNT };
+    let mut buffer = Buffer { next: memory.as_mut_ptr().cast(), count: COUNT };
     let (f_old, f_new) = (buffer.array(true, 9), buffer.array(true, 9));
     let fibre = buffer.array(!block.fibre[0].is_null(), 3);
     let second_axis = buffer.array(!block.second_axis[0].is_null(), 3);
@@ -364,7 +366,8 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
     let (of_stress, single) = (copies.group(of_stress, 0), copies.group(1, 0));
     let of_axes = copies.group(axes, block.axes_leading_dimension);
     let of_state = copies.group(state, block.leading_dimension);
-    // SAFETY: the arrays here have room for COUNT points, those of the block are the caller's promise.
+    // SAFETY: each array of `of_copies` has been taken from `memory`, with space for COUNT points of all its components; it is there if
+    // the block has that array; the offsets are those of points of the block.
     unsafe {
         for c in 0..9 {
             of_f.copy_in(block.f_old[c], of_copies.f_old[c].cast_mut(), 1);

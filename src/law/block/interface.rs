@@ -136,7 +136,7 @@ impl<'a, T: Precision> Block<'a, T> {
 
 /// What a host passes with every block.
 #[derive(Clone, Copy)]
-pub enum Law<'a, T> {
+pub(crate) enum Law<'a, T> {
     Properties(&'a [T]),
     Prepared(&'a PreparedHyperelastic<T>),
 }
@@ -155,8 +155,8 @@ impl<T: Precision> Hyperelastic<T> {
     /// # Errors
     /// A density that is not positive if the wave speed is requested.
     pub fn checked_block(&self, block: Block<'_, T>) -> Result<i32, Error> {
-        // SAFETY: `Block::new` has checked the lengths of the arrays; only the state is both read and written, through one
-        // pointer.
+        // SAFETY: the block is valid: `Block::new` has checked the lengths of the arrays, which are slices and do not overlap; only
+        // the state is both read and written, through one pointer.
         unsafe { self.raw_block(&block.pointers) }
     }
 
@@ -167,10 +167,7 @@ impl<T: Precision> Hyperelastic<T> {
     /// the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and the table of
-    /// [`block`](super) say, valid for reading or writing; with these, different entries are at different places; `stress` and
-    /// `fibre` are null in all their components or in none; outputs overlap nothing but, exactly, the old state that they
-    /// replace.
+    /// The block is valid, see [`Pointers`].
     pub unsafe fn raw_block(&self, block: &Pointers<T>) -> Result<i32, Error> {
         let request = block.check()?;
         if block.n == 0 {
@@ -181,9 +178,9 @@ impl<T: Precision> Hyperelastic<T> {
             let mut worst = status::OK;
             for first in (0..block.n).step_by(COPIED_APART) {
                 let points = first..block.n.min(first + COPIED_APART);
-                // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+                // SAFETY: `copied` passes a valid block of copies, next to each other; `level` is one that the processor has.
                 let run = |points: &Pointers<T>| unsafe { T::dispatch(level, self, points, request) };
-                // SAFETY: the caller answers for the arrays.
+                // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
                 let code = unsafe {
                     match points.len() {
                         0..=FEW_APART => copied::<T, FEW_APART>(block, points, run),
@@ -195,7 +192,8 @@ impl<T: Precision> Hyperelastic<T> {
             return Ok(worst);
         }
         if block.in_place() {
-            // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+            // SAFETY: the block is valid, with points next to each other and its state in place; `level` is one that the processor
+            // has.
             return Ok(unsafe { T::dispatch(level, self, block, request) });
         }
         // An old state in other arrays is copied part by part, so that the copy is still in the first-level cache when it is
@@ -204,7 +202,7 @@ impl<T: Precision> Hyperelastic<T> {
         for first in (0..block.n).step_by(COPIED) {
             let mut points = block.from(first);
             points.n = points.n.min(COPIED);
-            // SAFETY: as above.
+            // SAFETY: a part of a valid block is valid, and its state is in place once the old one has been copied.
             unsafe {
                 points.copy_old_state();
                 worst = worst.min(T::dispatch(level, self, &points, request));
@@ -240,7 +238,7 @@ impl<T: Precision> Hyperelastic<T> {
                 level: points.level,
                 ..Pointers::without_arrays(0, points.leading_dimension)
             };
-            // SAFETY: the caller's promise.
+            // SAFETY: the points from `first` on of a valid block, with some of its inputs and a code for each of the points.
             if unsafe { self.raw_block(&points) } == Ok(code) {
                 return codes.iter().position(|&found| found == code).map(|i| first + i);
             }
@@ -256,13 +254,13 @@ impl<T: Precision> Hyperelastic<T> {
 ///
 /// # Safety
 /// As for [`Hyperelastic::raw_block`].
-pub unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
+pub(crate) unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointers<T>) -> Result<i32, Error> {
     // Errors of the properties are reported before errors of the block.
     let law = match law {
         Law::Properties(properties) => Hyperelastic::new(properties)?,
         Law::Prepared(prepared) => prepared.law(),
     };
-    // SAFETY: the caller answers for the arrays.
+    // SAFETY: the block is valid, as `raw_block` requires.
     unsafe { law.raw_block(block) }
 }
 
@@ -305,7 +303,7 @@ impl<T: Precision> LinearElastic<T> {
                 level: block.level,
                 ..LinearPointers::without_arrays(0, block.leading_dimension)
             };
-            // SAFETY: the caller's promise.
+            // SAFETY: the points from `first` on of a valid block, with some of its inputs and a code for each of the points.
             if unsafe { self.raw_block(&points) } == Ok(code) {
                 return codes.iter().position(|&found| found == code).map(|i| first + i);
             }
@@ -320,9 +318,7 @@ impl<T: Precision> LinearElastic<T> {
     /// density that is not positive if the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and the table of
-    /// [`linear`](super::linear) say, valid for reading or writing; with these, different entries are at different places; arrays
-    /// of components are null in all of them or in none; outputs overlap nothing but, exactly, the old state that they replace.
+    /// The block is valid, see [`LinearPointers`].
     pub unsafe fn raw_block(&self, block: &LinearPointers<T>) -> Result<i32, Error> {
         block.check()?;
         if block.n == 0 {
@@ -335,20 +331,20 @@ impl<T: Precision> LinearElastic<T> {
             Rotation::Fibre | Rotation::Polar => block.axes = null_mut(),
         }
         if !block.tangent.is_null() {
-            // SAFETY: the caller answers for the arrays.
+            // SAFETY: the block is valid, less the arrays that the frame does not need, and has a tangent.
             return Ok(unsafe { with_tangents(self, &block) });
         }
         let level = block.level.unwrap_or_else(Level::best).min(Level::best());
         if block.strides == LinearStrides::UNIT {
-            // SAFETY: the caller answers for the arrays, and the processor has the level's instructions.
+            // SAFETY: the block is valid, with points next to each other; `level` is one that the processor has.
             return Ok(unsafe { T::dispatch_linear(level, self, &block) });
         }
         let mut worst = status::OK;
         for first in (0..block.n).step_by(COPIED_APART) {
             let points = first..block.n.min(first + COPIED_APART);
-            // SAFETY: as above.
+            // SAFETY: `copied_linear` passes a valid block of copies, next to each other.
             let run = |points: &LinearPointers<T>| unsafe { T::dispatch_linear(level, self, points) };
-            // SAFETY: the caller answers for the arrays.
+            // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
             let code = unsafe {
                 match points.len() {
                     0..=FEW_APART => copied_linear::<T, FEW_APART>(&block, points, run),

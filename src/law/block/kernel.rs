@@ -3,7 +3,7 @@
 use core::mem::MaybeUninit;
 
 use super::pointers::Pointers;
-use crate::law::hyperelastic::{Hyperelastic, Kirchhoff};
+use crate::law::hyperelastic::{Deformed, Hyperelastic};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use crate::law::number::elementary::{Power, Reduced};
 use crate::law::number::real::{Lanes, Real, Scalar, WIDEST};
@@ -38,8 +38,10 @@ pub(super) const WAVE: u8 = 32;
 /// store the same.
 ///
 /// # Safety
-/// As for [`Hyperelastic::raw_block`], on a processor that has the lanes' instructions, for a block of at least COUNT points next to
-/// each other, with its state in place; `WANT` requests nothing that the block has no array for.
+/// The block is valid, see [`Pointers`], with at least COUNT points next to each other and its state in place; `WANT` requests nothing
+/// that the block has no array for; the processor has the lanes' instructions. The other functions of this file are called for such a
+/// block, and for the lanes from a point i on with i + COUNT ≤ n, as [`place`] gives them: the components of every array that is not
+/// null, and of every one that WANT requests, have COUNT values from i on.
 #[inline(always)]
 pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperelastic<T>, block: &Pointers<T>) -> i32 {
     let lanes = law.lanes::<R>();
@@ -53,7 +55,8 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
             _ if left <= 2 * STAGED => left.div_ceil(2),
             _ => STAGED,
         };
-        // SAFETY: the caller's promise; a group has two registers at least, unless it is the whole block.
+        // SAFETY: count ≤ STAGED, and (first + count − 1) COUNT < n, `registers` being n/COUNT rounded up; a group has two registers at
+        // least, unless it is the whole block.
         unsafe { evaluate::<T, R, WANT>(&lanes, block, first * R::COUNT, count, &mut worst) };
         first += count;
     }
@@ -64,7 +67,7 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
 #[inline(always)]
 pub(crate) fn least_code<T, R: Lanes<T>>(codes: R) -> i32 {
     let mut stored = [0; WIDEST];
-    // SAFETY: there is room for the widest lanes.
+    // SAFETY: no register has more than WIDEST lanes.
     unsafe { codes.store_integers(stored.as_mut_ptr()) };
     let mut code = status::OK;
     for &one in stored.iter().take(R::COUNT) {
@@ -91,7 +94,7 @@ impl<X> Stage<X> {
     /// k < STAGED. This is not checked, so that the loop of a stage has a single exit.
     #[inline(always)]
     unsafe fn put(&mut self, k: usize, x: X) {
-        // SAFETY: the caller's promise.
+        // SAFETY: k < STAGED, the length of the array.
         unsafe { self.0.get_unchecked_mut(k) }.write(x);
     }
 
@@ -99,7 +102,7 @@ impl<X> Stage<X> {
     /// [`put`](Self::put) has been called for k.
     #[inline(always)]
     unsafe fn get(&self, k: usize) -> &X {
-        // SAFETY: the caller's promise.
+        // SAFETY: `put` has written entry k, which is below STAGED for it.
         unsafe { self.0.get_unchecked(k).assume_init_ref() }
     }
 }
@@ -127,7 +130,7 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>, const WANT: u8>(
     worst: &mut R,
 ) {
     let mut frames = Stage::new();
-    // SAFETY: the caller's promise; each stage reads what the one before has put.
+    // SAFETY: `staged` has the same requirements, and calls `fibre` with k < count ≤ STAGED, for which a frame has been put.
     unsafe {
         if WANT & ALIGNED != 0 {
             staged::<T, R, FirstAxis, WANT>(law, block, i, count, |_| (FirstAxis, None), worst);
@@ -157,7 +160,7 @@ fn place<T, R: Lanes<T>>(block: &Pointers<T>, i: usize, k: usize) -> usize {
 /// usable, `None` for everywhere.
 ///
 /// # Safety
-/// As for [`evaluate`].
+/// As for [`evaluate`]; `axes` may be called with k < count.
 #[inline(always)]
 unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     law: &Hyperelastic<R>,
@@ -176,7 +179,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         // SAFETY: k < count ≤ STAGED.
         unsafe { places.put(k, place::<T, R>(block, i, k)) };
     }
-    // SAFETY: it is called with k < count.
+    // SAFETY: it is called with k < count, for which a place has been put.
     let at = |k: usize| unsafe { *places.get(k) };
     // If the block has no array for the status codes or the active points, these are stored to a scratch array, which costs less
     // than a test at every store.
@@ -185,8 +188,8 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         if block.status.is_null() { no_status.as_mut_ptr().cast::<i32>().wrapping_sub(i) } else { block.status };
     let mut no_active = [const { MaybeUninit::<T>::uninit() }; STAGED * WIDEST];
     let active = if block.active.is_null() { no_active.as_mut_ptr().cast::<T>().wrapping_sub(i) } else { block.active };
-    // SAFETY: the pointers that the block has are valid for the lanes from i on; k < count ≤ STAGED, and each stage reads
-    // what the ones before have put.
+    // SAFETY: k < count ≤ STAGED in every loop, each stage reads what the ones before have put, and at(k) + COUNT ≤ n. The scratch
+    // arrays have WIDEST ≥ COUNT values for each k, and i ≤ at(k) ≤ i + k COUNT, so that i may be subtracted from their addresses.
     unsafe {
         for k in 0..count {
             let n = axes(k).0;
@@ -279,7 +282,7 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
 #[inline(always)]
 unsafe fn gradient<T, R: Lanes<T>>(block: &Pointers<T>, i: usize) -> [[R; 3]; 3] {
     let f = &block.deformation_gradient;
-    // SAFETY: the caller's promise.
+    // SAFETY: F is never null, and has n ≥ i + COUNT values for each component.
     unsafe {
         [
             [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],
@@ -304,7 +307,7 @@ unsafe fn frame<T, R: Lanes<T>, const WANT: u8>(
         let zero = R::splat(0.0);
         return (law.frame, zero.le(zero));
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: the kernel is built for fibres, or the pointers are not null: n ≥ i + COUNT values for each component.
     let direction = unsafe { [R::load(m[0].add(i)), R::load(m[1].add(i)), R::load(m[2].add(i))] };
     FibreFrame::new(direction)
 }
@@ -357,20 +360,17 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let request = request::<T, WANT>(block);
     let stride = block.modes_leading_dimension;
 
-    // SAFETY: the pointers and components that the block has are valid for the lanes from i on.
+    // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         let latch = latch::<T, R, WANT>(block, i);
         // Only the modes and the tangent need the frame again.
         let tangent = wants_tangent::<T, WANT>(block);
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
-        let shear = shears::<R, WANT>(law);
-        let nan_if_invalid = if tangent {
-            nan_if_invalid + store_tangent(law, block, i, kinematics, &k, &frame, shear)
-        } else {
-            nan_if_invalid
-        };
-        let r = law.respond(kinematics, &k, &frame, nan_if_invalid, latch, request, shear);
+        let point = Deformed { law, kinematics, k: &k, shear: shears::<R, WANT>(law) };
+        let nan_if_invalid =
+            if tangent { nan_if_invalid + store_tangent(point, block, i, &frame) } else { nan_if_invalid };
+        let r = point.respond(&frame, nan_if_invalid, latch, request);
 
         if request.stress {
             for c in 0..6 {
@@ -402,7 +402,7 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
     if absent {
         return R::splat(0.0);
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: `failure_old` is not null; its second component has n ≥ i + COUNT values.
     unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
 }
 
@@ -418,30 +418,25 @@ fn wants_tangent<T, const WANT: u8>(block: &Pointers<T>) -> bool {
 /// As for [`sweep`], for the lanes from i on of a block that requests the tangent.
 #[inline(always)]
 unsafe fn store_tangent<T: Scalar, R: Lanes<T>>(
-    law: &Hyperelastic<R>,
+    point: Deformed<'_, R>,
     block: &Pointers<T>,
     i: usize,
-    kinematics: Kinematics<'_, R>,
-    k: &Kirchhoff<R>,
     frame: &FibreFrame<R>,
-    shear: bool,
 ) -> R {
     let store = |entries: &[R]| {
         for (c, entry) in entries.iter().enumerate() {
-            // SAFETY: the array has a component for each entry of the measure, and the lanes from i on.
+            // SAFETY: the tangent has a component for each entry of the measure, with n ≥ i + COUNT values.
             unsafe { entry.store(block.tangent.add(c * block.tangent_leading_dimension + i)) };
         }
     };
     if block.measure == Measure::Nominal {
-        let zero = R::splat(0.0);
-        let stress = law.cauchy(kinematics, k, zero.le(zero), shear);
-        let nominal = law.nominal_tangent(kinematics, k, frame, &stress, shear);
+        let nominal = point.nominal_tangent(frame);
         store(&nominal);
         nan_unless_finite(&nominal)
     } else {
-        let moduli = law.moduli(kinematics, k, frame, false, block.measure, shear);
+        let moduli = point.moduli(frame, false, block.measure, None);
         store(moduli.matrix().as_flattened());
-        if may_overflow::<R>(block.measure, shear) { nan_unless_finite(&moduli.0) } else { R::splat(0.0) }
+        if may_overflow::<R>(block.measure, point.shear) { nan_unless_finite(&moduli.0) } else { R::splat(0.0) }
     }
 }
 
@@ -456,7 +451,7 @@ unsafe fn clear_tangent<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, i: usize, o
         return;
     }
     for c in 0..block.measure.components() {
-        // SAFETY: the array has the component, and the lanes from i on.
+        // SAFETY: the tangent has the component c, with n ≥ i + COUNT values.
         unsafe {
             let place = block.tangent.add(c * block.tangent_leading_dimension + i);
             R::select(outcome.updated, R::load(place), zero).store(place);
@@ -477,7 +472,7 @@ unsafe fn add_to_check<T: Scalar, R: Lanes<T>, const WANT: u8>(
     check: R,
 ) -> R {
     let request = request::<T, WANT>(block);
-    // SAFETY: the arrays have the component, and the lanes from i on.
+    // SAFETY: it is called for arrays that are requested and components that they have, with n ≥ i + COUNT values.
     let old = |array: *mut T, c: usize| unsafe { R::load(array.add(c * block.leading_dimension + i)) };
     let mut sum = if request.failure { latch_or_nan + old(block.failure, 0) } else { latch_or_nan };
     for c in 0..4 {
@@ -507,7 +502,7 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
 ) -> R {
     let request = request::<T, WANT>(block);
     let stride = block.leading_dimension;
-    // SAFETY: the arrays have the components, and the lanes from i on.
+    // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         let (k, shear) = (law.kirchhoff(d, strain, power), shears::<R, WANT>(law));
         let r = law.history(strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
@@ -567,11 +562,11 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     let mut finite = zero.le(zero);
     for (requested, entry) in old_entries::<T, WANT>(block, i) {
         if requested {
-            // SAFETY: the caller's promise.
+            // SAFETY: an entry that is requested has n ≥ i + COUNT values in its component, from `entry` on those of the lanes.
             finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
         }
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: F has the lanes from i on.
     let code = unsafe { law.status_code(&gradient(block, i), d, usable, outcome.latch) };
     let code = R::select(!finite & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
     R::select(outcome.updated, zero, code)
@@ -585,7 +580,7 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
 #[inline(always)]
 unsafe fn reset_invalid<T: Scalar, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize, outcome: &Outcome<R>) {
     let zero = R::splat(0.0);
-    // SAFETY: the caller's promise: the arrays have the components, and the lanes from i on.
+    // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         for (requested, entry) in old_entries::<T, WANT>(block, i) {
             if requested {

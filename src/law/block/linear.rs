@@ -29,6 +29,12 @@ use crate::law::wave_speed;
 
 /// A block as a host passes it. A null array is absent: a null old state stands for a fresh one (all 0), and an output that is
 /// null is not computed.
+///
+/// # Safety
+/// A block is **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and
+/// the table of [`linear`](self) say, valid for reading or writing; if with these, different entries are at different places; if
+/// arrays of components are null in all of them or in none; and if outputs overlap nothing but, exactly, the old state that they
+/// replace. The functions that evaluate a block are unsafe, since only its caller can know this.
 #[derive(Clone, Copy, Debug)]
 pub struct LinearPointers<T> {
     /// The number of points.
@@ -154,8 +160,8 @@ impl<T: Scalar> LinearPointers<T> {
 /// The kernel, for points that fill whole registers. Returns the worst status code.
 ///
 /// # Safety
-/// As for [`LinearElastic::raw_block`], on a processor that has the lanes' instructions, for points of the block whose number is
-/// a multiple of COUNT.
+/// The block is valid, see [`LinearPointers`], and its points are next to each other; `points` are points of it, their number a
+/// multiple of COUNT; the processor has the lanes' instructions.
 #[inline(always)]
 pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     law: &LinearElastic<T>,
@@ -166,7 +172,7 @@ pub(super) unsafe fn sweep_linear<T: Scalar, R: Lanes<T>>(
     let mut worst = R::splat(0.0);
     let mut i = points.start;
     while i < points.end {
-        // SAFETY: i + COUNT ≤ the end, and the caller's promise.
+        // SAFETY: `points` has a multiple of COUNT points, so that i + COUNT ≤ its end ≤ n.
         worst = worst.min(unsafe { evaluate(&lanes, block, i) });
         i += R::COUNT;
     }
@@ -186,7 +192,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
         state: !block.state_new.is_null(),
         wave_modulus: !block.wave_speed.is_null(),
     };
-    // SAFETY: the arrays that the block has are valid for the lanes from i on.
+    // SAFETY: i + COUNT ≤ n, and every pointer that is read or written here has been found not to be null, F apart, which
+    // `check` requires: in a valid block each of its components has n values.
     unsafe {
         let (f0, f1) = (gradient(&block.f_old, i), gradient(&block.f_new, i));
         let axes = if block.axes.is_null() { f0 } else { columns(block.axes, block.axes_leading_dimension, i) };
@@ -231,10 +238,10 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
 /// Loads a vector, or the columns of F, from the pointers to their components.
 ///
 /// # Safety
-/// The pointers are valid for the lanes from i on.
+/// Each pointer points to i + COUNT values.
 #[inline(always)]
 unsafe fn vector<T, R: Lanes<T>>(v: &[*const T; 3], i: usize) -> [R; 3] {
-    // SAFETY: the caller's promise.
+    // SAFETY: COUNT of the values behind each pointer are from i on.
     unsafe { [R::load(v[0].add(i)), R::load(v[1].add(i)), R::load(v[2].add(i))] }
 }
 
@@ -242,17 +249,17 @@ unsafe fn vector<T, R: Lanes<T>>(v: &[*const T; 3], i: usize) -> [R; 3] {
 /// As for [`vector`].
 #[inline(always)]
 unsafe fn gradient<T, R: Lanes<T>>(&[a, b, c, d, e, f, g, h, k]: &[*const T; 9], i: usize) -> Matrix<R> {
-    // SAFETY: the caller's promise.
+    // SAFETY: the nine pointers are those of three vectors.
     unsafe { [vector(&[a, b, c], i), vector(&[d, e, f], i), vector(&[g, h, k], i)] }
 }
 
 /// Loads a matrix by columns.
 ///
 /// # Safety
-/// `array` is valid for nine components of the lanes from i on.
+/// `array` has nine components, each of i + COUNT values.
 #[inline(always)]
 unsafe fn columns<T, R: Lanes<T>>(array: *const T, stride: usize, i: usize) -> Matrix<R> {
-    // SAFETY: the caller's promise.
+    // SAFETY: it is called with c < 9.
     let entry = |c: usize| unsafe { R::load(array.add(c * stride + i)) };
     [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
 }
@@ -260,12 +267,12 @@ unsafe fn columns<T, R: Lanes<T>>(array: *const T, stride: usize, i: usize) -> M
 /// Stores the components of an array that is requested.
 ///
 /// # Safety
-/// `array` is null, or valid for a component for each value, in the lanes from i on.
+/// `array` is null, or has a component for each value, each of i + COUNT values.
 #[inline(always)]
 unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: usize) {
     if !array.is_null() {
         for (c, value) in values.iter().enumerate() {
-            // SAFETY: the caller's promise.
+            // SAFETY: `array` is not null, and c counts the values.
             unsafe { value.store(array.add(c * stride + i)) };
         }
     }
@@ -277,12 +284,12 @@ unsafe fn store<T, R: Lanes<T>>(values: &[R], array: *mut T, stride: usize, i: u
 /// Everything is computed in double precision. Results that do not fit T are an overflow.
 ///
 /// # Safety
-/// As for [`LinearElastic::raw_block`].
+/// The block is valid, see [`LinearPointers`], and has a tangent.
 pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
     let law = law.lanes::<f64>();
     let mut worst = status::OK;
     for i in 0..block.n {
-        // SAFETY: the caller's promise, for point i.
+        // SAFETY: i < n by the loop.
         worst = worst.min(unsafe { point_with_tangent(&law, block, i) });
     }
     worst
@@ -292,7 +299,7 @@ pub(super) unsafe fn with_tangents<T: Scalar>(law: &LinearElastic<T>, block: &Li
 /// As for [`with_tangents`], with i < n.
 unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPointers<T>, i: usize) -> i32 {
     let strides = &block.strides;
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: it is called with arrays of the block that are not null, and with the place of a component that they have at point i.
     let load = |array: *const T, at: usize| -> f64 { unsafe { *array.add(at) }.into() };
     let at = i * strides.deformation_gradient;
     let all = |[a, b, c, d, e, f, g, h, k]: [*const T; 9]| -> Matrix<f64> {
@@ -336,7 +343,7 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
     if !answer.taken {
         entries = [0.0; 81]; // a tangent of 0 that is converted with an F which is not finite is not 0
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: as for `load`.
     let store = |x: f64, array: *mut T, at: usize| unsafe { *array.add(at) = T::splat(x) };
     if !block.stress[0].is_null() {
         for (x, component) in answer.stress.into_iter().zip(block.stress) {
@@ -364,7 +371,7 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
     }
     let code = answer.status as i32;
     if !block.status.is_null() {
-        // SAFETY: the caller's promise.
+        // SAFETY: `status` is not null and has n values, i < n.
         unsafe { *block.status.add(i) = code };
     }
     code

@@ -16,6 +16,12 @@ use crate::law::wave_speed;
 /// components in separate arrays; the other arrays are component-major with the leading dimension. `energies_old`,
 /// `invariants_old` and `failure_old` are the old state, which is fresh (all 0) if they are null; they may be the same arrays
 /// as the new ones. The components of each array are listed in [`block`](super).
+///
+/// # Safety
+/// A block is **valid** if every pointer that is not null points to as many values as `n`, the leading dimensions, the strides and
+/// the table of [`block`](super) say, valid for reading or writing; if with these, different entries are at different places; if
+/// `stress` and `fibre` are null in all their components or in none; and if outputs overlap nothing but, exactly, the old state that
+/// they replace. The functions that evaluate a block are unsafe, since only its caller can know this.
 #[derive(Clone, Copy, Debug)]
 pub struct Pointers<T> {
     /// The number of points.
@@ -273,7 +279,7 @@ impl<T: Scalar> Pointers<T> {
     /// Copies the old state, or zeros where there is none, to the arrays of the new one: the kernel works in place.
     ///
     /// # Safety
-    /// As for [`raw_block`](crate::law::hyperelastic::Hyperelastic::raw_block).
+    /// The block is valid, see [`Pointers`], with points next to each other.
     pub(super) unsafe fn copy_old_state(&mut self) {
         let (n, stride) = (self.n, self.leading_dimension);
         let groups = [
@@ -286,7 +292,8 @@ impl<T: Scalar> Pointers<T> {
                 continue;
             }
             for c in 0..components {
-                // SAFETY: the caller's promise: arrays that are not the same do not overlap. A number whose bytes are all 0 is 0.
+                // SAFETY: in a valid block both arrays have the component c, n values from `c * stride` on, and do not overlap if
+                // they are not the same. A number whose bytes are all 0 is 0.
                 unsafe {
                     match old.is_null() {
                         true => new.add(c * stride).write_bytes(0, n),

@@ -100,8 +100,8 @@ pub fn ln<R: Real>(x: R) -> R {
     let (zero, least, infinity) = (R::splat(0.0), R::splat(R::MIN_POSITIVE), R::splat(f64::INFINITY));
     let logarithm = Logarithm::new(x);
     let normal = logarithm.k.mul_add(R::splat(LN_2), logarithm.of_mantissa());
-    let special = R::select(x.lt(zero), R::splat(f64::NAN), R::select(x.lt(least), -infinity, x));
-    R::select(least.le(x) & x.lt(infinity), normal, special)
+    let value = R::select(x.lt(infinity), normal, x);
+    R::select(x.lt(least), R::select(x.lt(zero), R::splat(f64::NAN), -infinity), value)
 }
 
 /// ln(1 + x), x > −1.

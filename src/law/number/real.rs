@@ -8,7 +8,8 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::elementary;
 
-/// A real number, or several of them side by side.
+/// A real number, or several of them side by side; what a law's formulas are written over. Documented is what formulas need; the rest is
+/// what the library's own are made of.
 ///
 /// `mul_add` may be fused where the processor does so; every other operation is the correctly rounded one of IEEE 754.
 pub trait Real:
@@ -21,18 +22,25 @@ pub trait Real:
     const MIN_POSITIVE: f64;
     /// The distance from 1 to the next number.
     const EPSILON: f64;
+    #[doc(hidden)]
     /// The least and the greatest exponent of two, with a margin of 20 to the ends of the range.
     const EXPONENTS: (f64, f64);
+    #[doc(hidden)]
     /// The least and the greatest square of a stretch or of an area ratio for which the law is evaluated: no intermediate
     /// result overflows or underflows.
     const SQUARES: (f64, f64);
+    #[doc(hidden)]
     /// Whether the range is so wide that no stress except that of the longitudinal shear can overflow.
     const HEADROOM: bool;
+    #[doc(hidden)]
     /// Whether there is room for a second number, see [`pair`](Self::pair).
     const PAIRS: bool = false;
+    #[doc(hidden)]
     /// Coefficients of the polynomials for ½ artanh, the logarithm and the exponential.
     const HALF_ARTANH: &'static [f64];
+    #[doc(hidden)]
     const LN: &'static [f64];
+    #[doc(hidden)]
     const EXP: &'static [f64];
 
     /// A mask that holds nowhere.
@@ -57,10 +65,13 @@ pub trait Real:
     fn le(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, `b` elsewhere; the value that is not selected has no influence, even if it is NaN.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    #[doc(hidden)]
     /// `(z, k)` with `self = z · 2^k`, z in [¾, 1½), for positive normal numbers; unspecified for others.
     fn split_exponent(self) -> (Self, Self);
+    #[doc(hidden)]
     /// The nearest integer, for |self| up to 2^20.
     fn round(self) -> Self;
+    #[doc(hidden)]
     /// `self · 2^k` for an integer k and self in [½, 2], both within the range of normal numbers.
     fn times_power_of_two(self, k: Self) -> Self;
     /// `1/self` to within 1 ulp, for normal numbers that are neither very small nor very large; unspecified for others.
@@ -68,16 +79,19 @@ pub trait Real:
     fn reciprocal(self) -> Self {
         Self::splat(1.0) / self
     }
+    #[doc(hidden)]
     /// Two numbers in one, to compute with at the cost of one; `self` in a type without room for a second (`PAIRS` is false).
     #[inline(always)]
     fn pair(self, _other: Self) -> Self {
         self
     }
+    #[doc(hidden)]
     /// The two numbers of a [`pair`](Self::pair).
     #[inline(always)]
     fn apart(self) -> [Self; 2] {
         [self; 2]
     }
+    #[doc(hidden)]
     /// `self/divisor`, correctly rounded, given the divisor's correctly rounded reciprocal; none of them very small or large.
     #[inline(always)]
     fn quotient(self, divisor: Self, _reciprocal: Self) -> Self {

@@ -111,17 +111,17 @@ macro_rules! scalar {
             const COUNT: usize = 1;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
-                // SAFETY: the caller's promise.
+                // SAFETY: `from` points to COUNT = 1 values.
                 unsafe { *from }
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
-                // SAFETY: the caller's promise.
+                // SAFETY: `to` has space for COUNT = 1 values.
                 unsafe { *to = self }
             }
             #[inline(always)]
             unsafe fn store_integers(self, to: *mut i32) {
-                // SAFETY: the caller's promise.
+                // SAFETY: `to` has space for COUNT = 1 values.
                 unsafe { *to = self as i32 }
             }
             #[inline(always)]

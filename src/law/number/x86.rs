@@ -248,19 +248,19 @@ macro_rules! register {
             const COUNT: usize = $count;
             #[inline(always)]
             unsafe fn load(from: *const $t) -> Self {
-                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions; `from` points to COUNT values, which this instruction loads.
                 $name(unsafe { $load(from) })
             }
             #[inline(always)]
             unsafe fn store(self, to: *mut $t) {
-                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT values, which this instruction stores.
                 unsafe { $store(to, self.0) }
             }
             $(
                 #[inline(always)]
                 unsafe fn store_where(self, $wm: $mask, $wto: *mut $t) {
                     let $wx = self.0;
-                    // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                    // SAFETY: the dispatch has checked for the instructions; `to` points to COUNT values, and no others are stored.
                     unsafe { $store_where }
                 }
             )?
@@ -268,14 +268,14 @@ macro_rules! register {
                 #[inline(always)]
                 unsafe fn load_first($ffrom: *const $t, $fcount: usize, fill: Self) -> Self {
                     let $fill = fill.0;
-                    // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                    // SAFETY: the dispatch has checked for the instructions; `from` points to `count` values, and no others are loaded.
                     $name(unsafe { $load_first })
                 }
             )?
             #[inline(always)]
             unsafe fn store_integers(self, $to_int: *mut i32) {
                 let $x = self.0;
-                // SAFETY: the dispatch has checked for the instructions, and the pointer is the caller's promise.
+                // SAFETY: the dispatch has checked for the instructions; `to` has space for COUNT integers, and no more are stored.
                 unsafe { $store_integers }
             }
             #[inline(always)]

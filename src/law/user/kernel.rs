@@ -29,9 +29,20 @@ pub(super) struct Outcome<R, S> {
     pub active: R,
 }
 
+impl<R: Real, S: Array<R>> Outcome<R, S> {
+    /// The results where the step is taken.
+    #[inline(always)]
+    pub fn of(response: &Response<R, S>, wave_modulus: R) -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let failed = R::select(response.failed, one, zero);
+        let (stress, own, alive) = (response.stress, response.state, one - failed);
+        Outcome { stress, own, failed, alive, wave_modulus, status: zero, active: alive }
+    }
+}
+
 /// F, fibre and old state of the points in the lanes.
 #[derive(Clone, Copy)]
-pub(super) struct Given<R: Real, S> {
+pub(super) struct Input<R: Real, S> {
     pub f_old: Matrix<R>,
     pub f: Matrix<R>,
     pub fibre: [R; 3],
@@ -41,7 +52,7 @@ pub(super) struct Given<R: Real, S> {
     pub failed: R,
 }
 
-impl<R: Real, S: Array<R>> Given<R, S> {
+impl<R: Real, S: Array<R>> Input<R, S> {
     /// A point at rest, with the fibre direction of the properties.
     #[inline(always)]
     pub fn at_rest<M: UserMaterial, T: Precision>(law: &User<M, T>) -> Self {
@@ -49,7 +60,7 @@ impl<R: Real, S: Array<R>> Given<R, S> {
         let identity = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
         let [x, y, z] = law.fibre;
         let fibre = [R::splat(x.into()), R::splat(y.into()), R::splat(z.into())];
-        Given { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
+        Input { f_old: identity, f: identity, fibre, usable: zero.le(zero), own: S::filled(zero), failed: zero }
     }
 
     /// What the law is evaluated from.
@@ -58,24 +69,17 @@ impl<R: Real, S: Array<R>> Given<R, S> {
         Step { f_old: self.f_old, f: self.f, jacobian: determinant(&self.f), fibre: self.fibre, state: self.own }
     }
 
-    /// The results, from what the law has answered: those of points that have failed before, or that cannot be evaluated, are
-    /// replaced.
-    ///
-    /// An entry of F that is not finite makes det F not finite.
+    /// Where the step is taken, since the point has not failed before and can be evaluated; and where det F is positive. An entry of F
+    /// that is not finite makes det F not finite.
     #[inline(always)]
-    pub fn finish<T>(
+    pub fn taken(
         &self,
         step: &Step<R, S>,
         response: &Response<R, S>,
         wave_modulus: R,
-        at_rest: R,
         reads_old_gradient: bool,
-    ) -> Outcome<R, S>
-    where
-        R: Lanes<T>,
-    {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let intact = Failure::intact(self.failed);
+    ) -> (R::Mask, R::Mask) {
+        let zero = R::splat(0.0);
         // A number times zero is zero unless it is NaN or infinite.
         let mut check = step.jacobian.mul_add(zero, wave_modulus * zero);
         check = check + (nan_unless_finite(&response.stress) + nan_unless_finite(response.state.as_ref()));
@@ -87,22 +91,20 @@ impl<R: Real, S: Array<R>> Given<R, S> {
             check = jacobian.mul_add(zero, check);
             upright = upright & zero.lt(jacobian);
         }
-        let taken = check.le(zero) & upright & self.usable & intact;
-        let failed = R::select(response.failed, one, zero);
-        let alive = one - failed;
-        let (stress, own, status) = (response.stress, response.state, zero);
-        let mut outcome = Outcome { stress, own, failed, alive, wave_modulus, status, active: alive };
-        if R::any(!taken) {
-            self.restore(&mut outcome, taken, upright, reads_old_gradient);
-            outcome.wave_modulus = R::select(taken, wave_modulus, at_rest);
-        }
-        outcome
+        (check.le(zero) & upright & self.usable & Failure::intact(self.failed), upright)
     }
 
-    /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress to 0, and the
-    /// status to the reason: 0 for a point that has failed before.
+    /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress to 0, the wave
+    /// modulus to that at rest, and the status to the reason: 0 for a point that has failed before.
     #[inline(always)]
-    fn restore(&self, outcome: &mut Outcome<R, S>, taken: R::Mask, upright: R::Mask, reads_old_gradient: bool) {
+    pub fn restore(
+        &self,
+        outcome: &mut Outcome<R, S>,
+        taken: R::Mask,
+        upright: R::Mask,
+        at_rest: R,
+        reads_old_gradient: bool,
+    ) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let code = |status: i32| R::splat(f64::from(status));
         let intact = Failure::intact(self.failed);
@@ -119,6 +121,7 @@ impl<R: Real, S: Array<R>> Given<R, S> {
         outcome.failed = R::select(taken, outcome.failed, latched);
         outcome.alive = one - outcome.failed;
         outcome.active = R::select(taken, outcome.alive, zero);
+        outcome.wave_modulus = R::select(taken, outcome.wave_modulus, at_rest);
         let mut finite = is_finite(&self.f);
         if reads_old_gradient {
             finite = finite & is_finite(&self.f_old);
@@ -183,7 +186,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     pub(super) fn bounds_waves(&self) -> bool {
         let law = self.doubled();
         let constants = law.constants::<f64>();
-        let rest = Given::at_rest(&law);
+        let rest = Input::at_rest(&law);
         let step = rest.step();
         M::wave_modulus(&constants, &step, &M::respond(&constants, &step)).is_some()
     }
@@ -254,7 +257,7 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     range: Range<usize>,
 ) -> i32 {
     let constants = law.constants::<R>();
-    let rest = Given::<R, M::State<R>>::at_rest(law);
+    let rest = Input::<R, M::State<R>>::at_rest(law);
     let zero = R::splat(0.0);
     let at_rest = if points.wave_speed.is_null() { zero } else { wave_modulus::<M, R>(&constants, &rest) };
     let (mut worst, mut i) = (zero, range.start);
@@ -262,14 +265,14 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
     let usual = states && !points.stress[0].is_null() && points.fibre[0].is_null() && points.wave_speed.is_null();
     // SAFETY: the points from i on fill a register.
     unsafe {
-        if usual {
-            while i < range.end {
-                worst = worst.min(register::<M, T, R, true>(&constants, points, &rest, i, at_rest));
+        while i < range.end {
+            // Most registers have no such point: a loop without what such points need keeps more numbers in registers.
+            while usual && i < range.end && register::<M, T, R, true>(&constants, points, &rest, i, at_rest).is_some() {
                 i += R::COUNT;
             }
-        } else {
-            while i < range.end {
-                worst = worst.min(register::<M, T, R, false>(&constants, points, &rest, i, at_rest));
+            if i < range.end {
+                let codes = register::<M, T, R, false>(&constants, points, &rest, i, at_rest);
+                worst = worst.min(codes.unwrap_or(zero));
                 i += R::COUNT;
             }
         }
@@ -279,13 +282,14 @@ unsafe fn sweep<M: UserMaterial, T: Precision, R: Lanes<T>>(
 
 /// The bound of the law's wave modulus at a point; 0 for a law that has none.
 #[inline(always)]
-pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>, given: &Given<R, M::State<R>>) -> R {
-    let step = given.step();
+pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>, input: &Input<R, M::State<R>>) -> R {
+    let step = input.step();
     M::wave_modulus(constants, &step, &M::respond(constants, &step)).unwrap_or(R::splat(0.0))
 }
 
 /// Evaluates the points of a register from `i` on. Returns their status codes. `USUAL`: the block has stress and both states, and
-/// neither fibres nor wave speeds.
+/// neither fibres nor wave speeds; if one of the points has failed before or cannot be evaluated, nothing is stored, and the answer is
+/// `None`.
 ///
 /// # Safety
 /// As for [`sweep`], for these points.
@@ -293,39 +297,46 @@ pub(super) fn wave_modulus<M: UserMaterial, R: Real>(constants: &M::Constants<R>
 unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool>(
     constants: &M::Constants<R>,
     points: &Points<T>,
-    rest: &Given<R, M::State<R>>,
+    rest: &Input<R, M::State<R>>,
     i: usize,
     at_rest: R,
-) -> R {
+) -> Option<R> {
     let (law, zero) = (M::DESCRIPTION, R::splat(0.0));
     let next_row = |row: *mut T| row.wrapping_add(points.leading_dimension);
     // SAFETY: the arrays that the block has are valid for these points: the state for a row of each variable.
     unsafe {
-        let mut given = *rest;
-        given.f = gradient(&points.f_new, i);
-        given.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { given.f };
+        let mut input = *rest;
+        input.f = gradient(&points.f_new, i);
+        input.f_old = if law.reads_old_gradient { gradient(&points.f_old, i) } else { input.f };
         if !USUAL && !points.fibre[0].is_null() {
             let [x, y, z] = points.fibre;
             let (frame, usable) = FibreFrame::new([R::load(x.add(i)), R::load(y.add(i)), R::load(z.add(i))]);
-            given.fibre = frame.m;
-            given.usable = usable;
+            input.fibre = frame.m;
+            input.usable = usable;
         }
         if USUAL || !points.state_old.is_null() {
             let mut row = points.state_old.wrapping_add(i);
-            for x in given.own.as_mut() {
+            for x in input.own.as_mut() {
                 *x = R::load(row);
                 row = next_row(row.cast_mut());
             }
-            given.failed = R::load(row);
+            input.failed = R::load(row);
         }
-        let step = given.step();
+        let step = input.step();
         let response = M::respond(constants, &step);
         let modulus = if USUAL || points.wave_speed.is_null() {
             zero
         } else {
             M::wave_modulus(constants, &step, &response).unwrap_or(zero)
         };
-        let outcome = given.finish(&step, &response, modulus, at_rest, law.reads_old_gradient);
+        let (taken, upright) = input.taken(&step, &response, modulus, law.reads_old_gradient);
+        let mut outcome = Outcome::of(&response, modulus);
+        if R::any(!taken) {
+            if USUAL {
+                return None;
+            }
+            input.restore(&mut outcome, taken, upright, at_rest, law.reads_old_gradient);
+        }
         if USUAL || !points.stress[0].is_null() {
             let mut c = 0;
             while c < 6 {
@@ -352,7 +363,7 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         if !points.status.is_null() {
             outcome.status.store_integers(points.status.add(i));
         }
-        outcome.status
+        Some(outcome.status)
     }
 }
 

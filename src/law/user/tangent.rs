@@ -4,8 +4,8 @@
 //! One point at a time: each lane of a register moves F in another direction, F + ε L F, so that two registers of four numbers hold
 //! the six strains.
 
-use super::kernel::{Given, Outcome, wave_modulus};
-use super::{Array, Response, User, UserMaterial};
+use super::kernel::{Input, Outcome, wave_modulus};
+use super::{Array, Response, Step, User, UserMaterial};
 use crate::law::block::Precision;
 use crate::law::interface::Points;
 use crate::law::kinematics::FibreFrame;
@@ -73,7 +73,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
 impl<M: UserMaterial> User<M, f64> {
     /// ρ0 c² of a bound of the wave speed at rest.
     pub(super) fn wave_modulus_at_rest(&self) -> f64 {
-        let rest = Given::at_rest(self);
+        let rest = Input::at_rest(self);
         if self.bounds_waves() {
             return wave_modulus::<M, f64>(&self.constants(), &rest);
         }
@@ -93,33 +93,33 @@ impl<M: UserMaterial> User<M, f64> {
             [[a, b, c], [d, e, f], [g, h, k]].map(|column| column.map(load))
         };
         let row = |c: usize| c.wrapping_mul(points.leading_dimension);
-        let mut given = Given::<f64, M::State<f64>>::at_rest(self);
-        given.f = matrix(points.f_new);
-        given.f_old = if law.reads_old_gradient { matrix(points.f_old) } else { given.f };
+        let mut input = Input::<f64, M::State<f64>>::at_rest(self);
+        input.f = matrix(points.f_new);
+        input.f_old = if law.reads_old_gradient { matrix(points.f_old) } else { input.f };
         if !points.fibre[0].is_null() {
             let (frame, usable) = FibreFrame::new(points.fibre.map(load));
-            (given.fibre, given.usable) = (frame.m, usable);
+            (input.fibre, input.usable) = (frame.m, usable);
         }
         if !points.state_old.is_null() {
-            for (c, x) in given.own.as_mut().iter_mut().enumerate() {
+            for (c, x) in input.own.as_mut().iter_mut().enumerate() {
                 *x = load(points.state_old.wrapping_add(row(c)));
             }
-            given.failed = load(points.state_old.wrapping_add(row(law.failed)));
+            input.failed = load(points.state_old.wrapping_add(row(law.failed)));
         }
-        let Answer { mut outcome, tangent } = self.answer(&given, points.measure, at_rest, level);
-        let (entries, size) = by_rows(&tangent, points.measure, &given.f.into(), &outcome.stress);
+        let Answer { mut outcome, tangent } = self.answer(&input, points.measure, at_rest, level);
+        let (entries, size) = by_rows(&tangent, points.measure, &input.f.into(), &outcome.stress);
         let entries = if points.tangent.is_null() { &[][..] } else { entries.get(..size * size).unwrap_or_default() };
         // Rounded to T, a number that does not fit is not finite. A tangent of 0 that is converted with an F which is not finite is
         // not 0.
         let fits = |x: f64| (T::splat(x).into() * 0.0) == 0.0;
-        let taken = outcome.active == 1.0 || (outcome.status == 0.0 && given.failed < 0.5);
+        let taken = outcome.active == 1.0 || (outcome.status == 0.0 && input.failed < 0.5);
         let results = outcome.stress.iter().chain(outcome.own.as_ref()).chain(entries);
         let speed = |modulus: f64| wave_speed(modulus, points.density.into());
         let waves = points.wave_speed.is_null() || fits(speed(outcome.wave_modulus));
         if taken && !(results.into_iter().all(|&x| fits(x)) && waves) {
-            outcome = given.finish(&given.step(), &overflowed::<M>(), 0.0, at_rest, law.reads_old_gradient);
+            outcome = finish::<M>(&input, &input.step(), &overflowed::<M>(), 0.0, at_rest);
         }
-        let has_tangent = outcome.status == 0.0 && given.failed < 0.5;
+        let has_tangent = outcome.status == 0.0 && input.failed < 0.5;
         // SAFETY: as above.
         let store = |x: f64, array: *mut T| unsafe { *array.add(i) = T::splat(x) };
         if !points.stress[0].is_null() {
@@ -152,7 +152,7 @@ impl<M: UserMaterial> User<M, f64> {
     /// The results of a point and its tangent: for [`Measure::Nominal`] by nine motions, else by six strains.
     fn answer(
         &self,
-        given: &Given<f64, M::State<f64>>,
+        input: &Input<f64, M::State<f64>>,
         measure: Measure,
         at_rest: f64,
         level: Level,
@@ -163,10 +163,10 @@ impl<M: UserMaterial> User<M, f64> {
         let response = match level {
             // SAFETY: the processor has the level's instructions.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => unsafe { avx2(self, given, directions, &mut rates) },
-            _ => differentiated::<M, <f64 as Registers>::Baseline>(self, given, directions, &mut rates),
+            Level::Avx2 | Level::Avx512 => unsafe { avx2(self, input, directions, &mut rates) },
+            _ => differentiated::<M, <f64 as Registers>::Baseline>(self, input, directions, &mut rates),
         };
-        let step = given.step();
+        let step = input.step();
         let mut tangent = LinearTangent::default();
         for (c, entry) in rates.iter_mut().zip(directions).enumerate().take(if nominal { 9 } else { 6 }) {
             let (rate, direction) = entry;
@@ -187,7 +187,7 @@ impl<M: UserMaterial> User<M, f64> {
         } else {
             (step.jacobian * acoustic_bound(&tangent, &response.stress)).max(at_rest)
         };
-        let outcome = given.finish(&step, &response, bound, at_rest, M::DESCRIPTION.reads_old_gradient);
+        let outcome = finish::<M>(input, &step, &response, bound, at_rest);
         Answer { outcome, tangent }
     }
 }
@@ -198,11 +198,11 @@ impl<M: UserMaterial> User<M, f64> {
 #[target_feature(enable = "avx2,fma")]
 unsafe fn avx2<M: UserMaterial>(
     law: &User<M, f64>,
-    given: &Given<f64, M::State<f64>>,
+    input: &Input<f64, M::State<f64>>,
     directions: &[Matrix<f64>],
     rates: &mut [[f64; 6]; 16],
 ) -> Response<f64, M::State<f64>> {
-    differentiated::<M, <f64 as Registers>::Avx2>(law, given, directions, rates)
+    differentiated::<M, <f64 as Registers>::Avx2>(law, input, directions, rates)
 }
 
 /// Evaluates the law with derivatives along these motions, as many at a time as there are lanes. Returns the values; the derivatives
@@ -210,18 +210,18 @@ unsafe fn avx2<M: UserMaterial>(
 #[inline(always)]
 fn differentiated<M: UserMaterial, R: Lanes<f64>>(
     law: &User<M, f64>,
-    given: &Given<f64, M::State<f64>>,
+    input: &Input<f64, M::State<f64>>,
     directions: &[Matrix<f64>],
     rates: &mut [[f64; 6]; 16],
 ) -> Response<f64, M::State<f64>> {
     let constants = law.constants::<Dual<R>>();
     let constant = |x: f64| Dual::new(R::splat(x), R::splat(0.0));
-    let mut moved = Given::<Dual<R>, M::State<Dual<R>>>::at_rest(law);
-    moved.fibre = [constant(given.fibre[0]), constant(given.fibre[1]), constant(given.fibre[2])];
-    for (to, &from) in moved.own.as_mut().iter_mut().zip(given.own.as_ref()) {
+    let mut moved = Input::<Dual<R>, M::State<Dual<R>>>::at_rest(law);
+    moved.fibre = [constant(input.fibre[0]), constant(input.fibre[1]), constant(input.fibre[2])];
+    for (to, &from) in moved.own.as_mut().iter_mut().zip(input.own.as_ref()) {
         *to = constant(from);
     }
-    for (to, &from) in moved.f_old.as_flattened_mut().iter_mut().zip(given.f_old.as_flattened()) {
+    for (to, &from) in moved.f_old.as_flattened_mut().iter_mut().zip(input.f_old.as_flattened()) {
         *to = constant(from);
     }
     let mut values = [0.0; WIDEST];
@@ -230,13 +230,13 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
         // The motions L F, one in each lane.
         let mut slopes = [[0.0; WIDEST]; 9];
         for (lane, l) in directions.iter().enumerate() {
-            for (column, f) in given.f.iter().enumerate() {
+            for (column, f) in input.f.iter().enumerate() {
                 for (row, x) in image(l, *f).into_iter().enumerate() {
                     slopes[3 * column + row][lane] = x;
                 }
             }
         }
-        for ((to, &from), slope) in moved.f.as_flattened_mut().iter_mut().zip(given.f.as_flattened()).zip(&slopes) {
+        for ((to, &from), slope) in moved.f.as_flattened_mut().iter_mut().zip(input.f.as_flattened()).zip(&slopes) {
             // SAFETY: the widest register fits.
             *to = Dual::new(R::splat(from), unsafe { R::load(slope.as_ptr()) });
         }
@@ -265,6 +265,23 @@ fn differentiated<M: UserMaterial, R: Lanes<f64>>(
         }
     }
     answer
+}
+
+/// The results of a point, from what the law has answered.
+fn finish<M: UserMaterial>(
+    input: &Input<f64, M::State<f64>>,
+    step: &Step<f64, M::State<f64>>,
+    response: &Response<f64, M::State<f64>>,
+    wave_modulus: f64,
+    at_rest: f64,
+) -> Outcome<f64, M::State<f64>> {
+    let old = M::DESCRIPTION.reads_old_gradient;
+    let (taken, upright) = input.taken(step, response, wave_modulus, old);
+    let mut outcome = Outcome::of(response, wave_modulus);
+    if !taken {
+        input.restore(&mut outcome, taken, upright, at_rest, old);
+    }
+    outcome
 }
 
 /// A response that is not finite: the point cannot be evaluated.

@@ -78,8 +78,22 @@ impl UserMaterial for ReinforcedSolid {
             w[1].mul_add(a[2], solid * dot(y, z)),
             w[2].mul_add(a[0], solid * dot(z, x)),
         ];
-        let first = half * c.mu * ((b_11 - one) + (b_22 - one) + (b_33 - one)) - c.mu * logarithm;
-        let energy = first + half * (c.lambda * logarithm * logarithm + c.k * elongation * elongation);
+        let first = half * ((b_11 - one) + (b_22 - one) + (b_33 - one)) - logarithm;
+        let second = (c.lambda * logarithm).mul_add(logarithm, c.k * elongation * elongation);
+        let energy = c.mu.mul_add(first, half * second);
         Response { stress, state: [energy, square.sqrt()], failed: c.limit.le(square) }
+    }
+
+    /// For a direction n and a polarisation u, unit vectors, ρ0 c² is at most (Λ (1 − ln J) + μ)(n·u)² + μ n·bn + 4k (a·n)²(a·u)² +
+    /// 2k (I4 − 1)(a·n)²; no eigenvalue of b exceeds the largest sum of a row.
+    #[inline(always)]
+    fn wave_modulus<R: Real>(c: &Constants<R>, step: &Step<R, [R; 2]>, _: &Response<R, [R; 2]>) -> Option<R> {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let ([x, y, z], a) = (transposed(&step.f), image(&step.f, step.fibre));
+        let (xy, yz, zx) = (dot(x, y).abs(), dot(y, z).abs(), dot(z, x).abs());
+        let largest = (dot(x, x) + xy + zx).max(dot(y, y) + xy + yz).max(dot(z, z) + yz + zx);
+        let (square, volume) = (dot(a, a), c.lambda * (one - step.jacobian.ln()) + c.mu);
+        let fibres = c.k * square * (R::splat(4.0) * square + R::splat(2.0) * (square - one).max(zero));
+        Some(volume.max(zero) + c.mu * largest + fibres)
     }
 }

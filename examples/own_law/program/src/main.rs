@@ -1,0 +1,5 @@
+//! A program for the reinforced solid: `reinforced run`, `params`, `deck` and `eval`.
+
+fn main() -> std::process::ExitCode {
+    toron_program::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
+}

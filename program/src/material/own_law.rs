@@ -1,0 +1,207 @@
+//! A law of one's own, as a program of its own has it: its names in files and solvers, and its evaluation behind one interface.
+
+use std::fmt;
+use std::sync::Arc;
+
+use nalgebra::Matrix3;
+use toron::host::Material;
+use toron::law::description::Description;
+use toron::law::interface::{Law, Points};
+use toron::{Error, Measure};
+
+/// A law that is none of the library's.
+pub struct OwnLaw {
+    /// What its symbols in the solvers' libraries begin with, in capitals.
+    pub symbol: &'static str,
+    /// As files have it: the symbol in small letters.
+    pub name: String,
+    /// OpenRadioss's nn of `/MAT/USERnn`.
+    pub number: i32,
+    pub description: Description,
+    prepare: fn(&[f64]) -> Result<Arc<dyn Prepared>, Error>,
+}
+
+impl OwnLaw {
+    /// # Errors
+    /// The name is not made of capitals, digits and underscores with a capital first, or the number is not from 1 to 99.
+    pub fn new<M: Material<f64>>(symbol: &'static str, number: i32) -> Result<OwnLaw, String>
+    where
+        M::Law: Send + Sync + 'static,
+    {
+        let rest = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
+        if !symbol.starts_with(|c: char| c.is_ascii_uppercase()) || !symbol.chars().all(rest) {
+            let allowed = "capitals, digits and underscores, a capital first";
+            return Err(format!("the law's name is \"{symbol}\"; allowed: {allowed}"));
+        }
+        if !(1..=99).contains(&number) {
+            return Err(format!("the law's number in OpenRadioss is {number}; allowed: 1 to 99"));
+        }
+        Ok(OwnLaw {
+            symbol,
+            name: symbol.to_ascii_lowercase(),
+            number,
+            description: M::Law::DESCRIPTION,
+            prepare: |values| Ok(Arc::new(M::Law::new(values)?)),
+        })
+    }
+
+    /// # Errors
+    /// The first property that is wrong.
+    pub fn prepared(&'static self, values: &[f64]) -> Result<Own, Error> {
+        Ok(Own { law: self, values: values.to_vec(), prepared: (self.prepare)(values)? })
+    }
+}
+
+/// Laws are told apart by their names.
+impl PartialEq for OwnLaw {
+    fn eq(&self, other: &OwnLaw) -> bool {
+        self.symbol == other.symbol
+    }
+}
+
+impl Eq for OwnLaw {}
+
+impl fmt::Debug for OwnLaw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.symbol)
+    }
+}
+
+/// A law of one's own, prepared, and the properties that it was prepared from.
+#[derive(Clone)]
+pub struct Own {
+    pub law: &'static OwnLaw,
+    pub values: Vec<f64>,
+    prepared: Arc<dyn Prepared>,
+}
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {:?}", self.law.symbol, self.values)
+    }
+}
+
+/// Points of a call: component `c` of point `i` is number `c · stride + i` of an array.
+pub struct PointArrays {
+    pub n: usize,
+    pub stride: usize,
+    /// F at the start and at the end of the step, by columns.
+    pub f_old: Vec<f64>,
+    pub f: Vec<f64>,
+    /// The fibre direction of each point; empty for that of the properties.
+    pub fibre: Vec<f64>,
+    /// The state before the call, and after it.
+    pub state: Vec<f64>,
+    /// Cauchy stress 11 22 33 12 23 31.
+    pub stress: Vec<f64>,
+    /// ρ0 c² for a bound c of the wave speed.
+    pub wave_modulus: Vec<f64>,
+    /// The tangent of this measure by rows, where one is wanted.
+    pub measure: Option<Measure>,
+    pub tangent: Vec<f64>,
+    pub status: Vec<i32>,
+}
+
+impl Own {
+    /// Material axes in the reference placement, the fibre first.
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        self.prepared.axes()
+    }
+
+    pub fn bulk_and_shear(&self) -> [f64; 2] {
+        self.prepared.bulk_and_shear()
+    }
+
+    /// The state of a point that nothing has happened to.
+    pub fn fresh(&self) -> Vec<f64> {
+        self.prepared.fresh()
+    }
+
+    /// `n` points at rest with fresh states.
+    pub fn at_rest(&self, n: usize, stride: usize, measure: Option<Measure>) -> PointArrays {
+        let filled = |values: &[f64]| values.iter().flat_map(|&value| vec![value; stride]).collect::<Vec<f64>>();
+        let f = filled(Matrix3::<f64>::identity().as_slice());
+        let size = measure.map_or(0, |measure| if measure == Measure::Nominal { 9 } else { 6 });
+        PointArrays {
+            n,
+            stride,
+            f_old: f.clone(),
+            f,
+            fibre: Vec::new(),
+            state: filled(&self.fresh()),
+            stress: vec![0.0; 6 * stride],
+            wave_modulus: vec![0.0; stride],
+            measure,
+            tangent: vec![0.0; size * size * stride],
+            status: vec![0; n],
+        }
+    }
+
+    /// Evaluates the points. A call that is refused as a whole gives each its code.
+    pub fn step(&self, points: &mut PointArrays) {
+        if let Err(error) = self.prepared.step(points) {
+            points.status.fill(error.code());
+        }
+    }
+
+    /// One point: a step from one deformation gradient to another.
+    pub fn point(&self, old: &Matrix3<f64>, f: &Matrix3<f64>, state: &[f64], measure: Option<Measure>) -> PointArrays {
+        let mut point = self.at_rest(1, 1, measure);
+        point.f_old.copy_from_slice(old.as_slice());
+        point.f.copy_from_slice(f.as_slice());
+        point.state.copy_from_slice(state);
+        self.step(&mut point);
+        point
+    }
+}
+
+/// What a program asks of a law without knowing its type.
+trait Prepared: Send + Sync {
+    fn axes(&self) -> [[f64; 3]; 3];
+    fn bulk_and_shear(&self) -> [f64; 2];
+    fn fresh(&self) -> Vec<f64>;
+    fn step(&self, points: &mut PointArrays) -> Result<i32, Error>;
+}
+
+impl<L: Law<f64> + Send + Sync> Prepared for L {
+    fn axes(&self) -> [[f64; 3]; 3] {
+        Law::axes(self)
+    }
+
+    fn bulk_and_shear(&self) -> [f64; 2] {
+        Law::bulk_and_shear(self)
+    }
+
+    fn fresh(&self) -> Vec<f64> {
+        L::fresh().as_ref().to_vec()
+    }
+
+    fn step(&self, points: &mut PointArrays) -> Result<i32, Error> {
+        let PointArrays { n, stride, f_old, f, fibre, state, stress, wave_modulus, measure, tangent, status } = points;
+        let components = |array: &[f64]| std::array::from_fn(|c| array[c * *stride..].as_ptr());
+        let own = Points {
+            f_old: components(f_old),
+            f_new: components(f),
+            state_old: state.as_ptr(),
+            state_new: state.as_mut_ptr(),
+            // With the density 1 the square of the speed is the modulus.
+            density: 1.0,
+            stress: std::array::from_fn(|c| stress[c * *stride..].as_mut_ptr()),
+            wave_speed: wave_modulus.as_mut_ptr(),
+            status: status.as_mut_ptr(),
+            ..Points::without_arrays(*n, *stride)
+        };
+        let fibred = match fibre.is_empty() {
+            true => own,
+            false => Points { fibre: std::array::from_fn(|c| fibre[c * *stride..].as_ptr()), ..own },
+        };
+        let call = match measure {
+            None => fibred,
+            Some(measure) => Points { tangent: tangent.as_mut_ptr(), measure: *measure, ..fibred },
+        };
+        // SAFETY: `at_rest` has made the arrays with so many components of `stride` numbers each, and none overlaps another one.
+        let worst = unsafe { Law::step(self, &call) };
+        wave_modulus.iter_mut().for_each(|speed| *speed *= *speed);
+        worst
+    }
+}

@@ -1,0 +1,108 @@
+//! LS-DYNA: the functions that the shims in `fortran-shim/` call. For a law of name NAME and precision T, f64 or f32, they are
+//! `NAME_lsdyna_umat_T`, `NAME_lsdyna_umat_vector_T`, `NAME_lsdyna_utan_T`, `NAME_lsdyna_utan_vector_T` and
+//! `NAME_lsdyna_bulk_and_shear_T`, with the arguments of the functions of package `toron-c` that have `toron` for NAME.
+
+#[doc(hidden)]
+#[macro_export]
+macro_rules! lsdyna {
+    (f64; $($law:ty as $name:literal, user $number:literal;)+) => {
+        $($crate::lsdyna! { "_f64", f64, $law as $name })+
+    };
+    (f32; $($law:ty as $name:literal, user $number:literal;)+) => {
+        $($crate::lsdyna! { "_f32", f32, $law as $name })+
+    };
+    ($suffix:literal, $t:ident, $law:ty as $name:literal) => {
+        const _: () = {
+            use ::core::ffi::{c_char, c_int};
+
+            use $crate::toron::host::{Material, lsdyna::UserRoutines};
+
+            type Law = <$law as Material<$t>>::Law;
+
+            #[unsafe(export_name = concat!($name, "_lsdyna_umat", $suffix))]
+            unsafe extern "C" fn umat(
+                cm: *const $t,
+                sig: *mut $t,
+                hsv: *mut $t,
+                nhv: i32,
+                failel: *mut c_int,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { <Law as UserRoutines<$t>>::umat(cm, sig, hsv, nhv, failel, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_lsdyna_umat_vector", $suffix))]
+            #[allow(clippy::too_many_arguments)]
+            unsafe extern "C" fn umat_vector(
+                cm: *const $t,
+                sig1: *mut $t,
+                sig2: *mut $t,
+                sig3: *mut $t,
+                sig4: *mut $t,
+                sig5: *mut $t,
+                sig6: *mut $t,
+                hsvs: *mut $t,
+                nhv: i32,
+                lft: i32,
+                llt: i32,
+                nlq: i32,
+                failels: *mut c_int,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                let (stress, range) = ([sig1, sig2, sig3, sig4, sig5, sig6], [lft, llt, nlq]);
+                // SAFETY: the caller's promise.
+                unsafe {
+                    <Law as UserRoutines<$t>>::umat_vector(cm, stress, hsvs, nhv, range, failels, message, capacity)
+                }
+            }
+
+            #[unsafe(export_name = concat!($name, "_lsdyna_utan", $suffix))]
+            unsafe extern "C" fn utan(
+                cm: *const $t,
+                hsv: *const $t,
+                nhv: i32,
+                es: *mut $t,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { <Law as UserRoutines<$t>>::utan(cm, hsv, nhv, es, message, capacity) }
+            }
+
+            #[unsafe(export_name = concat!($name, "_lsdyna_utan_vector", $suffix))]
+            #[allow(clippy::too_many_arguments)]
+            unsafe extern "C" fn utan_vector(
+                cm: *const $t,
+                hsvs: *const $t,
+                nhv: i32,
+                lft: i32,
+                llt: i32,
+                nlq: i32,
+                dsave: *mut $t,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe {
+                    <Law as UserRoutines<$t>>::utan_vector(cm, hsvs, nhv, [lft, llt, nlq], dsave, message, capacity)
+                }
+            }
+
+            #[unsafe(export_name = concat!($name, "_lsdyna_bulk_and_shear", $suffix))]
+            unsafe extern "C" fn bulk_and_shear(
+                values: *const $t,
+                count: usize,
+                bulk: *mut $t,
+                shear: *mut $t,
+                message: *mut c_char,
+                capacity: usize,
+            ) -> i32 {
+                // SAFETY: the caller's promise.
+                unsafe { <Law as UserRoutines<$t>>::card_moduli(values, count, bulk, shear, message, capacity) }
+            }
+        };
+    };
+}

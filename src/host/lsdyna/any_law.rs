@@ -1,0 +1,168 @@
+//! Any law as a user material of LS-DYNA, by its step.
+
+use core::ffi::c_int;
+
+use super::message::History;
+use super::{Elements, element_range, law};
+use crate::host::border::{check_pointers, from_entry, start_at_rest};
+use crate::law::block::{Precision, components, components_mut};
+use crate::law::error::Error;
+use crate::law::interface::Points;
+use crate::law::status;
+use crate::law::tangent::Measure;
+
+/// The elements that a vectorised routine evaluates at once.
+const CHUNK: usize = 64;
+
+/// Evaluates the law at the elements in place, and marks those as failed that have failed or could not be evaluated.
+///
+/// # Safety
+/// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their history.
+unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
+    let Elements { leading_dimension: stride, first, count, .. } = *elements;
+    // SAFETY: the caller's promise, here and below.
+    let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
+    let (mut worst, mut done) = (status::OK, 0);
+    while done < count {
+        let (start, n) = (first + done, CHUNK.min(count - done));
+        let row = |variable: usize| elements.variable(variable, start);
+        let (f, mut codes) = (row(L::DESCRIPTION.history()), [status::OK; CHUNK]);
+        // Of a law that does not depend on F at the start of a step, this is F at its end, which is not written.
+        let f_old = components_mut(row(L::DESCRIPTION.state.len()), stride);
+        if L::DESCRIPTION.reads_old_gradient {
+            unsafe { start_at_rest(f_old, n) };
+        }
+        let points = Points {
+            f_old: components(row(L::DESCRIPTION.state.len()).cast_const(), stride),
+            f_new: components(f.cast_const(), stride),
+            state_old: row(0),
+            state_new: row(0),
+            stress: from_entry(elements.stress, start),
+            status: codes.as_mut_ptr(),
+            ..Points::without_arrays(n, stride)
+        };
+        worst = worst.min(unsafe { law.step(&points) }?);
+        let codes = codes.get(..n).unwrap_or(&codes);
+        if L::DESCRIPTION.reads_old_gradient {
+            for (i, _) in codes.iter().enumerate().filter(|(_, code)| **code == status::OK) {
+                for (old, new) in f_old.into_iter().zip(points.f_new) {
+                    unsafe { *old.add(i) = *new.add(i) };
+                }
+            }
+        }
+        // SAFETY: the elements are those of the block.
+        unsafe { elements.mark_failed(&L::DESCRIPTION, start, codes) };
+        done += n;
+    }
+    Ok(worst)
+}
+
+/// The vectorised material routine: the elements `range` of a block.
+///
+/// # Safety
+/// As for [`evaluate`], for arrays that are not null.
+pub(super) unsafe fn vector<T: Precision, L: History<T>>(
+    cm: *const T,
+    stress: [*mut T; 6],
+    hsvs: *mut T,
+    nhv: i32,
+    range: [i32; 3],
+    failels: *mut c_int,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm")])?;
+    let elements = Elements::new(stress, hsvs, range, failels)?;
+    // SAFETY: the caller's promise.
+    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
+}
+
+/// The material routine of one element.
+///
+/// # Safety
+/// As for [`evaluate`], for arrays that are not null.
+pub(super) unsafe fn scalar<T: Precision, L: History<T>>(
+    cm: *const T,
+    sig: *mut T,
+    hsv: *mut T,
+    nhv: i32,
+    failel: *mut c_int,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
+    check_pointers(&[(failel.cast_const(), "failel")])?;
+    let stress = components_mut(sig, 1);
+    let elements = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
+    // SAFETY: the caller's promise.
+    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
+}
+
+/// The tangents of `count` elements from `first` on: of a step to F from the state that the material routine has written, and where
+/// the law depends on F at the start, of a further, infinitesimal step. The symmetric part, which LS-DYNA wants.
+///
+/// # Safety
+/// `cm` has the law's properties, `hsvs` the histories and F of the elements; `dsave` may be written.
+unsafe fn tangents<T: Precision, L: History<T>>(
+    cm: *const T,
+    hsvs: *const T,
+    nhv: i32,
+    [first, count, stride]: [usize; 3],
+    dsave: *mut T,
+) -> Result<i32, Error> {
+    let row = |variable: usize, start: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
+    // SAFETY: the caller's promise, here and below.
+    let law: L = unsafe { law(cm, nhv, count, |j| *row(j, first)) }?;
+    let mut worst = status::OK;
+    for i in first..first + count {
+        let f = components(row(L::DESCRIPTION.history(), i), stride);
+        let (mut state, mut stress, mut entries) = (L::fresh(), [T::splat(0.0); 6], [[T::splat(0.0); 6]; 6]);
+        for (j, variable) in state.as_mut().iter_mut().enumerate() {
+            *variable = unsafe { *row(j, i) };
+        }
+        let state = state.as_mut().as_mut_ptr();
+        let point = Points {
+            f_old: f,
+            f_new: f,
+            state_old: state,
+            state_new: state,
+            stress: components_mut(stress.as_mut_ptr(), 1),
+            tangent: entries.as_mut_ptr().cast(),
+            measure: Measure::Truesdell,
+            ..Points::without_arrays(1, 1)
+        };
+        worst = worst.min(unsafe { law.step(&point) }?);
+        for (r, row) in entries.iter().enumerate() {
+            for (c, &entry) in row.iter().enumerate() {
+                let mirrored = entries.get(c).and_then(|row| row.get(r)).copied().unwrap_or(entry);
+                // Halved first: the sum might overflow.
+                let mean = entry * T::splat(0.5) + mirrored * T::splat(0.5);
+                unsafe { *dsave.wrapping_add((6 * c + r).wrapping_mul(stride).wrapping_add(i)) = mean };
+            }
+        }
+    }
+    Ok(worst)
+}
+
+/// # Safety
+/// As for [`tangents`], for arrays that are not null.
+pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(
+    cm: *const T,
+    hsv: *const T,
+    nhv: i32,
+    es: *mut T,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
+    // SAFETY: the caller's promise.
+    unsafe { tangents::<T, L>(cm, hsv, nhv, [0, 1, 1], es) }
+}
+
+/// # Safety
+/// As for [`tangents`], for arrays that are not null.
+pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(
+    cm: *const T,
+    hsvs: *const T,
+    nhv: i32,
+    range: [i32; 3],
+    dsave: *mut T,
+) -> Result<i32, Error> {
+    check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
+    // SAFETY: the caller's promise.
+    unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range(range)?, dsave) }
+}
