@@ -182,7 +182,7 @@ fn cards_have_the_law_s_names_and_counts() {
             &["--host", "abaqus"][..],
             &[
                 "*MATERIAL, NAME=REINFORCED-MY-SOLID\n",
-                "** mu, lambda, k, stretch_lim, m_1, m_2, m_3\n*USER MATERIAL, CONSTANTS=7\n2.0, 3.0, 50.0, 1.1, 1.0, 0.0, 0.0\n",
+                "** mu, lambda, k, stretch_lim, m_1, m_2, m_3\n*USER MATERIAL, CONSTANTS=7\n2.0, 3.0, 5e1, 1.1, 1.0, 0.0, 0.0\n",
                 "*DEPVAR, DELETE=4\n4,\n1, ENERGY,",
                 "MATERIAL=REINFORCED-MY-SOLID, CONTROLS",
             ][..],
@@ -193,10 +193,7 @@ fn cards_have_the_law_s_names_and_counts() {
             &["--host", "mtest"],
             &["@Behaviour<generic> 'libOWN.so' 'REINFORCED';\n", "@MaterialProperty<constant> 'mu' 2.0;"],
         ),
-        (
-            &["--host", "ls-dyna"],
-            &["standard reinforcing model, in mm, tonne, s\n", "m_2       m_3      bulk     shear"],
-        ),
+        (&["--host", "ls-dyna"], &["standard reinforcing model, in mm, tonne, s\n", "       m_3      bulk\n"]),
     ] {
         let card = card(&folder, arguments).expect("the card");
         for part in parts {
