@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
+use crate::material::laws::LawName;
 use crate::material::model::NominalTangent;
 use toron::law::status;
 
@@ -57,19 +58,19 @@ pub enum Failure {
     NotConverged { component: usize, residual: f64 },
 }
 
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Failure {
+    /// In words, with what is known of directions without stiffness in the library's laws.
+    pub fn message(&self, law: LawName) -> String {
+        let hint = if let LawName::Own(_) = law { String::new() } else { format!(" ({HINT})") };
         match *self {
-            Failure::Law(code) => f.write_str(status::meaning(code).unwrap_or("the law refuses this deformation")),
-            Failure::NoStiffness { component, residual } => write!(
-                f,
-                "P{name} is off its prescribed value by {residual:.6e} and F{name} has no stiffness here ({HINT}): \
+            Failure::Law(code) => status::meaning(code).unwrap_or("the law refuses this deformation").to_string(),
+            Failure::NoStiffness { component, residual } => format!(
+                "P{name} is off its prescribed value by {residual:.6e} and F{name} has no stiffness here{hint}: \
                  prescribe F{name} instead",
                 name = COMPONENT_NAMES[component]
             ),
-            Failure::NotConverged { component, residual } => write!(
-                f,
-                "Newton's method does not converge: P{} is off its prescribed value by {residual:.6e} ({HINT})",
+            Failure::NotConverged { component, residual } => format!(
+                "Newton's method does not converge: P{} is off its prescribed value by {residual:.6e}{hint}",
                 COMPONENT_NAMES[component]
             ),
         }

@@ -79,10 +79,11 @@ pub fn run<'a>(path: &'a LoadPath, progress: &(dyn Fn() + Sync)) -> Vec<History<
 /// Runs one point.
 pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) -> History<'a> {
     let mut history = History { point, increments: Vec::new(), failure: None, end: End::Completed };
+    let said = |failure: newton::Failure| failure.message(point.material.law.name());
     let mut state = match PointState::at_rest(&point.material, path.element) {
         Ok(state) => state,
         Err(failure) => {
-            history.end = End::Failed(format!("at the start: {failure}"));
+            history.end = End::Failed(format!("at the start: {}", said(failure)));
             return history;
         }
     };
@@ -99,7 +100,7 @@ pub fn run_point<'a>(path: &'a LoadPath, point: &'a Point, progress: &dyn Fn()) 
                 return history;
             }
             if let Err(failure) = state.advance(&ramp, from, to, HALVINGS) {
-                history.end = End::Failed(format!("{}: {failure}", place()));
+                history.end = End::Failed(format!("{}: {}", place(), said(failure)));
                 return history;
             }
             if history.failure.is_none() && state.failed() {

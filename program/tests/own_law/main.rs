@@ -93,7 +93,8 @@ fn tension_to_failure_is_the_closed_form() {
         near("energy", energy, 1e-9);
         near("stored_energy", energy, 1e-9);
         near("stretch", stretch, 1e-14);
-        assert!(value("wave_speed") >= ((MU + LAMBDA + 8.0 * K * 0.5) / 1.1e-9_f64).sqrt() * 0.999);
+        // A wave along the fibre at rest, and faster ones beyond.
+        assert!(value("wave_speed") >= ((2.0 * MU + LAMBDA + 4.0 * K) / 1.1e-9).sqrt());
     }
 }
 
@@ -150,11 +151,10 @@ fn the_tables_are_the_law_s() {
     assert!(!text.contains("k_el") && !text.contains("Preset"), "{text}");
 }
 
-/// A folder with the file of a solid.
+/// A folder of this test.
 fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("own-law-{name}"));
     std::fs::create_dir_all(&folder).expect("a folder can be made");
-    std::fs::write(folder.join("my-solid.toml"), SOLID).expect("a file can be written");
     folder
 }
 
@@ -164,8 +164,11 @@ struct Deck {
     arguments: deck::command::Arguments,
 }
 
-fn card(arguments: &[&str]) -> Result<String, String> {
-    let file = folder("deck").join("my-solid.toml").display().to_string();
+/// The card of a solid, whose file is in this folder.
+fn card(folder: &Path, arguments: &[&str]) -> Result<String, String> {
+    let file = folder.join("my-solid.toml");
+    std::fs::write(&file, SOLID).expect("a file can be written");
+    let file = file.display().to_string();
     let given = ["deck", "--preset", &file].into_iter().chain(arguments.iter().copied());
     let deck = Deck::try_parse_from(given).map_err(|error| error.to_string())?;
     deck::command::card(laws(), &deck.arguments).map(|(card, _)| card).map_err(|error| error.to_string())
@@ -173,12 +176,13 @@ fn card(arguments: &[&str]) -> Result<String, String> {
 
 #[test]
 fn cards_have_the_law_s_names_and_counts() {
+    let folder = folder("cards");
     for (arguments, parts) in [
         (
             &["--host", "abaqus"][..],
             &[
                 "*MATERIAL, NAME=REINFORCED-MY-SOLID\n",
-                "** mu, lambda, k, stretch_lim, m_1, m_2, m_3\n*USER MATERIAL, CONSTANTS=7\n2.0, 3.0, 50.0, 1.1, 1.0, 0.0, 0.0\n",
+                "** mu, lambda, k, stretch_lim, m_1, m_2, m_3\n*USER MATERIAL, CONSTANTS=7\n2.0, 3.0, 5e1, 1.1, 1.0, 0.0, 0.0\n",
                 "*DEPVAR, DELETE=4\n4,\n1, ENERGY,",
                 "MATERIAL=REINFORCED-MY-SOLID, CONTROLS",
             ][..],
@@ -189,18 +193,15 @@ fn cards_have_the_law_s_names_and_counts() {
             &["--host", "mtest"],
             &["@Behaviour<generic> 'libOWN.so' 'REINFORCED';\n", "@MaterialProperty<constant> 'mu' 2.0;"],
         ),
-        (
-            &["--host", "ls-dyna"],
-            &["standard reinforcing model, in mm, tonne, s\n", "m_2       m_3      bulk     shear"],
-        ),
+        (&["--host", "ls-dyna"], &["standard reinforcing model, in mm, tonne, s\n", "       m_3      bulk\n"]),
     ] {
-        let card = card(arguments).expect("the card");
+        let card = card(&folder, arguments).expect("the card");
         for part in parts {
             assert!(card.contains(part), "{part}\n{card}");
         }
     }
     // mid ro mt lmc nhv iortho ibulk ig: nine constants, four state variables, the moduli behind the properties.
-    let card = card(&["--host", "ls-dyna", "--axes"]).expect("the card");
+    let card = card(&folder, &["--host", "ls-dyna", "--axes"]).expect("the card");
     let numbers: Vec<&str> =
         card.lines().find(|line| line.starts_with("         1")).expect("it").split_whitespace().collect();
     assert_eq!(
@@ -211,11 +212,12 @@ fn cards_have_the_law_s_names_and_counts() {
 
 #[test]
 fn a_card_s_law_is_the_program_s() {
+    let folder = folder("law-of-a-card");
     assert_eq!(
-        card(&["--host", "abaqus", "--law", "hyperelastic"]),
+        card(&folder, &["--host", "abaqus", "--law", "hyperelastic"]),
         Err("--law hyperelastic; allowed: reinforced".into())
     );
-    assert!(card(&["--host", "abaqus", "--law", "reinforced"]).is_ok());
+    assert!(card(&folder, &["--host", "abaqus", "--law", "reinforced"]).is_ok());
 }
 
 fn answers(entry: Entry, tangent: bool, input: &str) -> Vec<Value> {
