@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 use libloading::Library;
 
 use crate::c_programs::CASES;
-use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
+use crate::library::{LIBRARY, OWN_LAW, ROOT, SYSTEM, folder, run};
 use toron::host::mgis::{BehaviourDataView, INTEGRATED, StateView};
 
 /// A program of `ffi-tests/mgis`; libtoron gives it the tables.
@@ -58,14 +58,56 @@ fn every_symbol_is_required() {
     }
 }
 
+/// The symbols that a library defines.
+fn symbols(library: PathBuf, options: &[&str]) -> BTreeSet<String> {
+    let output = run(Command::new("nm").args(options).arg("--defined-only").arg(library), "binutils");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    text.lines().filter_map(|line| Some(line.split_whitespace().nth(2)?.to_string())).collect()
+}
+
+/// A library of a law of one's own has what MGIS and MTest require of a behaviour, under the law's name, its names from its table, and
+/// returns the law's stress.
+#[test]
+fn a_law_of_ones_own() {
+    let path = OWN_LAW.join("libown_law_double.so");
+    let exported = symbols(path.clone(), &["-D"]);
+    for symbol in required("mtest").iter().filter_map(|symbol| symbol.strip_prefix("ToronHyperelastic_")) {
+        assert!(exported.contains(&format!("REINFORCED_{symbol}")), "{symbol}");
+    }
+    // SAFETY: the library runs nothing when it is loaded.
+    let library = unsafe { Library::new(path) }.expect("the library");
+    let properties = ["mu", "lambda", "k", "stretch_lim", "m_1", "m_2", "m_3"];
+    assert_eq!(names(&library, "REINFORCED", "MaterialProperties"), properties);
+    assert_eq!(names(&library, "REINFORCED", "InternalStateVariables"), ["energy", "stretch", "failed", "alive"]);
+    let (mu, lambda, k, stretch) = (0.8, 1.2, 20.0, 1.1_f64);
+    for hypothesis in ["Tridimensional", "PlaneStrain", "Axisymmetrical"] {
+        // SAFETY: the symbol is such a function.
+        let function = *unsafe { library.get::<Integrate>(format!("REINFORCED_{hypothesis}").as_bytes()) }.expect("it");
+        let f = [stretch, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let (stress, state) = integrate(function, &[mu, lambda, k, 0.0, 2.0, 0.0, 0.0], &f, 4);
+        let (elongation, volume) = (stretch * stretch - 1.0, lambda * stretch.ln());
+        let along = (mu * elongation + volume + 2.0 * k * elongation * stretch * stretch) / stretch;
+        let wanted = [along, volume / stretch, volume / stretch, 0.0, 0.0, 0.0];
+        for (found, wanted) in stress.into_iter().zip(wanted) {
+            assert!((found - wanted).abs() <= 1e-14 * along, "{hypothesis}: {found}, not {wanted}");
+        }
+        assert_eq!(state[1..], [stretch, 0.0, 1.0], "{hypothesis}");
+    }
+}
+
+/// The names of one of a behaviour's lists.
+fn names(library: &Library, behaviour: &str, list: &str) -> Vec<String> {
+    // SAFETY: the symbols have these types, and the names are C strings.
+    unsafe {
+        let count = library.get::<*const u16>(format!("{behaviour}_n{list}").as_bytes()).expect("a count");
+        let texts = library.get::<*const *const c_char>(format!("{behaviour}_{list}").as_bytes()).expect("names");
+        (0..usize::from(**count)).map(|i| CStr::from_ptr(*texts.add(i)).to_string_lossy().into_owned()).collect()
+    }
+}
+
 /// What the library gives to the outside: what hosts require, the bounds, and two texts; and libtoron has nothing of it.
 #[test]
 fn nothing_else_is_exported() {
-    let symbols = |library: PathBuf, options: &[&str]| -> BTreeSet<String> {
-        let output = run(Command::new("nm").args(options).arg("--defined-only").arg(library), "binutils");
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        text.lines().filter_map(|line| Some(line.split_whitespace().nth(2)?.to_string())).collect()
-    };
     let exported = symbols(shared(), &["-D"]);
     let required = required("mtest");
     let optional = |symbol: &&String| {
@@ -120,14 +162,7 @@ fn the_deck_for_mtest_says_what_the_behaviour_returns() {
     };
     // SAFETY: the library runs nothing when it is loaded.
     let library = unsafe { Library::new(shared()) }.expect("the library");
-    let names = |list: &str| -> Vec<String> {
-        // SAFETY: the symbols have these types, and the names are C strings.
-        unsafe {
-            let count = library.get::<*const u16>(format!("{behaviour}_n{list}").as_bytes()).expect("a count");
-            let texts = library.get::<*const *const c_char>(format!("{behaviour}_{list}").as_bytes()).expect("names");
-            (0..usize::from(**count)).map(|i| CStr::from_ptr(*texts.add(i)).to_string_lossy().into_owned()).collect()
-        }
-    };
+    let names = |list| names(&library, behaviour, list);
     // SAFETY: the symbol is such a function.
     let function = *unsafe { library.get::<Integrate>(format!("{behaviour}_Tridimensional").as_bytes()) }.expect("it");
     let given = rows("@MaterialProperty<constant> ");

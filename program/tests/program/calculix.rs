@@ -5,7 +5,9 @@
 //! CalculiX prints seven digits, hence the tolerances: 1e-6 of the largest value where one printed number stands against
 //! a closed form, 5e-6 where printed displacements go through differences over an element and the fibre's stiffness.
 
-use crate::calculix_decks::{Job, Results, Tangent, both_tangents as run, control, properties, vectors};
+use crate::calculix_decks::{
+    Job, Results, Tangent, assert_quadratic, both_tangents as run, control, properties, vectors,
+};
 use crate::hexahedra::Mesh;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE, INVARIANTS};
@@ -58,9 +60,26 @@ fn assert_uniform(results: &Results, expected: &Point<f64>) {
     assert!(worst < PRINTED && worst_state < PRINTED, "{worst:e}, {worst_state:e}");
 }
 
-/// The nodal forces of the library's stress at the printed displacements.
-fn forces(mesh: &Mesh, law: &Hyperelastic<f64>, displacements: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
-    mesh.forces(displacements, |f| first_piola_kirchhoff(&point(law, f).stress, f))
+/// Every integration point's Cauchy stress, and equilibrium, against a law's Cauchy stress at the printed displacements.
+fn assert_equilibrium(mesh: &Mesh, results: &Results, cauchy: impl Fn(&Matrix3<f64>) -> [f64; 6]) {
+    let displacements = vectors(results.last("displacements"));
+    // Stress, point by point.
+    let stresses = &results.last("stresses").rows;
+    let size = stresses.iter().flat_map(|row| &row[2..]).fold(0.0, |size: f64, s| size.max(s.abs()));
+    let points = (0..mesh.elements.len()).flat_map(|element| mesh.gauss_points(element, &displacements));
+    let mut worst = 0.0_f64;
+    for (row, gauss) in stresses.iter().zip(points) {
+        let expected = printed_order(cauchy(&gauss.f));
+        worst = row[2..].iter().zip(expected).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / size));
+    }
+    // Equilibrium: no force at a free node, the printed reaction at a held one.
+    let own = mesh.forces(&displacements, |f| first_piola_kirchhoff(&cauchy(f), f));
+    let reactions = vectors(results.last("forces"));
+    let largest = reactions.iter().fold(0.0, |size: f64, force| size.max(force.norm()));
+    let off = own.iter().zip(&reactions).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).norm())) / largest;
+    println!("  deviation of the stress {worst:.1e}, of the forces {off:.1e}");
+    assert_eq!(stresses.len(), 8 * mesh.elements.len());
+    assert!(worst < DIFFERENCED && off < DIFFERENCED, "{worst:e}, {off:e}");
 }
 
 fn edges(x: &Vector3<f64>) -> bool {
@@ -174,9 +193,9 @@ fn an_inverted_point_cuts_the_increment() {
     assert!(log.contains("requested by a material user routine (through pnewdt)"), "{log}");
 }
 
-#[test]
-fn twist_and_stretch() {
-    let mesh = Mesh::block([4; 3], [EDGE; 3]);
+/// The files of `twist.inp`, for a cube of so many elements along each axis.
+fn twist(elements: usize) -> (Mesh, [(&'static str, String); 3]) {
+    let mesh = Mesh::block([elements; 3], [EDGE; 3]);
     let axis = Vector3::new(0.5 * EDGE, 0.5 * EDGE, 0.0);
     let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), 30_f64.to_radians());
     let lifted = Vector3::new(0.0, 0.0, 0.02 * EDGE);
@@ -190,74 +209,139 @@ fn twist_and_stretch() {
         ("boundary.inp", boundary),
         ("control.inp", control(1e-9, 1e-7)),
     ];
-    let results = run("twist.inp", &includes);
-
-    let law = law("twist.inp");
-    let displacements = vectors(results.last("displacements"));
-    // Stress, point by point.
-    let stresses = &results.last("stresses").rows;
-    let size = stresses.iter().flat_map(|row| &row[2..]).fold(0.0, |size: f64, s| size.max(s.abs()));
-    let points = (0..mesh.elements.len()).flat_map(|element| mesh.gauss_points(element, &displacements));
-    let mut worst = 0.0_f64;
-    for (row, gauss) in stresses.iter().zip(points) {
-        let expected = printed_order(point(&law, &gauss.f).stress);
-        worst = row[2..].iter().zip(expected).fold(worst, |worst, (a, b)| worst.max((a - b).abs() / size));
-    }
-    // Equilibrium: no force at a free node, the printed reaction at a held one.
-    let own = forces(&mesh, &law, &displacements);
-    let reactions = vectors(results.last("forces"));
-    let largest = reactions.iter().fold(0.0, |size: f64, force| size.max(force.norm()));
-    let off = own.iter().zip(&reactions).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).norm())) / largest;
-    println!("  deviation of the stress {worst:.1e}, of the forces {off:.1e}");
-    assert_eq!(stresses.len(), 8 * mesh.elements.len());
-    assert!(worst < DIFFERENCED && off < DIFFERENCED, "{worst:e}, {off:e}");
+    (mesh, includes)
 }
 
-/// Below the limit k_el ln λ/λ, beyond it nothing; the increment that breaks still carries.
 #[test]
-fn fibre_pull_to_failure() {
-    const LENGTH: f64 = 3.0 * EDGE;
-    const PULL: f64 = 0.06;
-    let mut mesh = Mesh::block([3, 1, 1], [LENGTH, EDGE, EDGE]);
+fn twist_and_stretch() {
+    let (mesh, includes) = twist(4);
+    let results = run("twist.inp", &includes);
+    let law = law("twist.inp");
+    assert_equilibrium(&mesh, &results, |f| point(&law, f).stress);
+}
+
+/// The files of `pull.inp`: a bar of irregular elements and of section EDGE².
+fn bar(length: f64, pull: f64) -> (Mesh, [(&'static str, String); 3]) {
+    let mut mesh = Mesh::block([3, 1, 1], [length, EDGE, EDGE]);
     for x in &mut mesh.nodes {
-        if x.x != 0.0 && x.x != LENGTH {
+        if x.x != 0.0 && x.x != length {
             x.x += 0.1 * (x.y - x.z) + 0.05 * x.x;
         }
     }
-    let pulled = |x: &Vector3<f64>| if x.x == 0.0 { Some(0.0) } else { (x.x == LENGTH).then_some(PULL * LENGTH) };
+    let pulled = |x: &Vector3<f64>| if x.x == 0.0 { Some(0.0) } else { (x.x == length).then_some(pull * length) };
     let ends: Vec<_> =
-        (0..mesh.nodes.len()).filter(|&i| mesh.nodes[i].x == LENGTH).map(|i| (i + 1).to_string()).collect();
+        (0..mesh.nodes.len()).filter(|&i| mesh.nodes[i].x == length).map(|i| (i + 1).to_string()).collect();
     let set = format!("*NSET, NSET=PULLED\n{}\n", ends.join(", "));
     let includes = [
         ("mesh.inp", mesh.cards("NODES", "YARN", [1, 1]) + &set),
         ("boundary.inp", mesh.boundary(|x| [pulled(x), None, None])),
         ("control.inp", control(1e-9, 1e-7)),
     ];
-    let results = run("pull.inp", &includes);
+    (mesh, includes)
+}
 
-    let props = properties("pull.inp");
-    let (k_el, eps_lim) = (props[0], props[5]);
-    let limit = k_el * (1.0 + eps_lim).ln() / (1.0 + eps_lim) * EDGE * EDGE;
+/// The reaction of a bar that is drawn along its fibre is this stress until it has come to this stretch, beyond it nothing; the
+/// increment that breaks still carries. The latch is the state variable `failed`.
+fn assert_breaks(results: &Results, pull: f64, stress: impl Fn(f64) -> f64, stretch: f64, failed: usize) {
+    let limit = stress(stretch) * EDGE * EDGE;
     let reactions = results.all("total force");
     let states = results.all("internal state");
     let mut broken = false;
     let mut worst = 0.0_f64;
     for (reaction, state) in reactions.iter().zip(&states) {
-        let lambda = 1.0 + PULL * reaction.time;
-        let intact = k_el * lambda.ln() / lambda * EDGE * EDGE;
-        let expected = if broken { 0.0 } else { intact };
+        let lambda = 1.0 + pull * reaction.time;
+        let expected = if broken { 0.0 } else { stress(lambda) * EDGE * EDGE };
         worst = worst.max((reaction.rows[0][0] - expected).abs() / limit);
-        broken |= lambda.ln() >= (1.0 + eps_lim).ln();
+        broken |= lambda.ln() >= stretch.ln();
         for row in &state.rows {
-            assert_eq!(row[2 + FAILED], f64::from(u8::from(broken)), "at {lambda}");
+            assert_eq!(row[2 + failed], f64::from(u8::from(broken)), "at {lambda}");
         }
     }
     println!("  deviation of the force {worst:.1e}, of {} increments", reactions.len());
     assert!(broken && reactions.len() >= 20);
     assert!(worst < PRINTED, "{worst:e}");
+}
+
+/// Below the limit k_el ln λ/λ.
+#[test]
+fn fibre_pull_to_failure() {
+    const LENGTH: f64 = 3.0 * EDGE;
+    const PULL: f64 = 0.06;
+    let (mesh, includes) = bar(LENGTH, PULL);
+    let results = run("pull.inp", &includes);
+
+    let props = properties("pull.inp");
+    let (k_el, eps_lim) = (props[0], props[5]);
+    assert_breaks(&results, PULL, |lambda| k_el * lambda.ln() / lambda, 1.0 + eps_lim, FAILED);
     // Nothing holds the broken bar but the remaining stiffness, which keeps its nodes in line.
     for (x, u) in mesh.nodes.iter().zip(vectors(results.last("displacements"))) {
         assert!(u.x.abs() <= 1.001 * PULL * LENGTH && u.x >= -1e-3, "{x} moves by {u}");
+    }
+}
+
+/// A law of one's own in place of the library's, in the same decks: `examples/own_law` from its own library.
+fn with_own_law(deck: &str, from: &str, properties: &str) -> String {
+    let own = deck.replace("@TORON_HYPERELASTIC", "@OWN_REINFORCED").replace("*DEPVAR\n11", "*DEPVAR\n4");
+    let own = own.replace("CONSTANTS=11", "CONSTANTS=7").replace(from, properties);
+    assert!(own.contains(properties), "{own}");
+    own
+}
+
+const PULLED_YARN: &str = "82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.0\n1.0, 0.0, 0.0\n";
+
+/// With the fibre along the first of rectangular axes: the residuals are squared, and the stress is that of the law with the fibre in
+/// global axes.
+#[test]
+fn a_law_of_ones_own_converges_quadratically() {
+    let (mesh, includes) = twist(3);
+    let job = Job { deck: "twist.inp", includes: &includes, tangent: Tangent::Analytic };
+    let results = job.run_edited("own-twist", |deck| {
+        let yarn = "82341.0, 1055.0, 2.2, 649.74, 1000.0, 0.0, 0.0, 0.0\n0.0, 0.0, 1.0\n";
+        let axes = "*ORIENTATION, NAME=AXES, SYSTEM=RECTANGULAR\n0.6, 0.48, 0.64, 1.0, 0.0, 0.0\n";
+        with_own_law(&deck, yarn, "800.0, 1200.0, 5000.0, 0.0, 1.0, 0.0, 0.0\n")
+            .replace("*SOLID SECTION,", &format!("{axes}*SOLID SECTION, ORIENTATION=AXES,"))
+            .replace("*EL PRINT,", "*EL PRINT, GLOBAL=YES,")
+    });
+    assert_quadratic("own-twist", &results);
+    assert_equilibrium(&mesh, &results, |f| reinforced(f, [800.0, 1200.0, 5000.0], Vector3::new(0.6, 0.48, 0.64)));
+}
+
+/// σ = (μ (b − 1) + Λ ln J 1 + 2k (I4 − 1) a⊗a)/J, 11 22 33 12 23 31.
+fn reinforced(f: &Matrix3<f64>, [mu, lambda, k]: [f64; 3], fibre: Vector3<f64>) -> [f64; 6] {
+    let (j, a, one) = (f.determinant(), f * fibre, Matrix3::identity());
+    let solid = mu * (f * f.transpose() - one) + lambda * j.ln() * one;
+    let s = (solid + 2.0 * k * (a.norm_squared() - 1.0) * a * a.transpose()) / j;
+    [s.m11, s.m22, s.m33, s.m12, s.m23, s.m31]
+}
+
+#[test]
+fn a_law_of_ones_own_breaks() {
+    const PULL: f64 = 0.06;
+    let (_, includes) = bar(3.0 * EDGE, PULL);
+    let job = Job { deck: "pull.inp", includes: &includes, tangent: Tangent::Analytic };
+    let own = |deck: String| with_own_law(&deck, PULLED_YARN, "800.0, 1200.0, 20000.0, 1.0458, 1.0, 0.0, 0.0\n");
+    let results = job.run_edited("own-pull", own);
+    let stress = |stretch: f64| {
+        let f = Matrix3::from_diagonal(&Vector3::new(stretch, 1.0, 1.0));
+        reinforced(&f, [800.0, 1200.0, 20000.0], Vector3::x())[0]
+    };
+    assert_breaks(&results, PULL, stress, 1.0458, 2);
+    // A wrong constant is refused by its name in the law's own table.
+    let wrong = [
+        (
+            "800.0, 1200.0",
+            "-800.0, 1200.0",
+            "property 1 (mu, shear modulus of the solid) is -800.0; allowed: a number > 0",
+        ),
+        ("1.0, 0.0, 0.0\n*DEPVAR", "0.0, 0.0, 0.0\n*DEPVAR", "properties 5 to 7 (fibre direction) are 0.0, 0.0, 0.0"),
+        ("*DEPVAR\n4", "*DEPVAR\n3", "number of state variables (*DEPVAR): 3 given, 4 needed"),
+    ];
+    for (i, (from, to, message)) in wrong.into_iter().enumerate() {
+        let (output, _) = job.attempt(&format!("own-wrong-{i}"), |deck| own(deck).replace(from, to));
+        let log = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(201), "{to}: {log}");
+        assert!(log.contains("*ERROR: toron, material @OWN_REINFORCED: "), "{to}: {log}");
+        assert!(log.contains(message), "{to}: {log}");
     }
 }
 
