@@ -18,8 +18,11 @@ pub struct OwnLaw {
     /// OpenRadioss's nn of `/MAT/USERnn`.
     pub number: i32,
     pub description: Description,
-    prepare: fn(&[f64]) -> Result<Arc<dyn Prepared>, Error>,
+    prepare: Prepare,
 }
+
+/// From properties to the law.
+type Prepare = fn(&[f64]) -> Result<Arc<dyn Prepared>, Error>;
 
 impl OwnLaw {
     /// # Errors
