@@ -516,9 +516,8 @@ fn points_that_cannot_be_evaluated_keep_their_state_and_say_why() {
                 assert_eq!(answer.stress[i], [0.0; 6], "{at}");
                 assert!(answer.tangent[i].iter().all(|&x| x == 0.0), "{at}");
                 assert_eq!(answer.active[i], 0.0, "{at}");
-                for c in 0..3 {
-                    let kept = if old[c].is_finite() { old[c] } else { 0.0 };
-                    assert_eq!(answer.state[i][c], kept, "{at}");
+                for (&found, &old) in answer.state[i].iter().zip(old).take(3) {
+                    assert_eq!(found, if old.is_finite() { old } else { 0.0 }, "{at}");
                 }
             }
         }
@@ -640,7 +639,8 @@ fn wrong_properties_are_named() {
 /// The dual numbers' own rules, against differences.
 #[test]
 fn dual_numbers_differentiate_every_function() {
-    let functions: [(&str, fn(Dual<f64>) -> Dual<f64>); 12] = [
+    type Function = fn(Dual<f64>) -> Dual<f64>;
+    let functions: [(&str, Function); 12] = [
         ("ln", |x| x.ln()),
         ("exp", |x| x.exp()),
         ("sqrt", |x| x.sqrt()),

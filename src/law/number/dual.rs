@@ -163,6 +163,10 @@ impl<R: Real> Real for Dual<R> {
         Dual::new(elementary::ln(self.value), self.slope / self.value)
     }
     #[inline(always)]
+    fn ln_of_normal(self) -> Self {
+        Dual::new(elementary::ln_of_normal(self.value), self.slope / self.value)
+    }
+    #[inline(always)]
     fn exp(self) -> Self {
         let value = elementary::exp(self.value);
         self.by(value, value)

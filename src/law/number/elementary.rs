@@ -94,12 +94,18 @@ pub fn ln_sum<R: Real>(y: R, c: R) -> R {
     Logarithm::new(y).finish(c, y.reciprocal())
 }
 
+/// ln x of a positive normal number.
+#[inline(always)]
+pub fn ln_of_normal<R: Real>(x: R) -> R {
+    let logarithm = Logarithm::new(x);
+    logarithm.k.mul_add(R::splat(LN_2), logarithm.of_mantissa())
+}
+
 /// ln x: −∞ at 0 and for subnormal numbers, NaN below.
 #[inline(always)]
 pub fn ln<R: Real>(x: R) -> R {
     let (zero, least, infinity) = (R::splat(0.0), R::splat(R::MIN_POSITIVE), R::splat(f64::INFINITY));
-    let logarithm = Logarithm::new(x);
-    let normal = logarithm.k.mul_add(R::splat(LN_2), logarithm.of_mantissa());
+    let normal = ln_of_normal(x);
     let value = R::select(x.lt(infinity), normal, x);
     R::select(x.lt(least), R::select(x.lt(zero), R::splat(f64::NAN), -infinity), value)
 }

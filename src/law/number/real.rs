@@ -102,6 +102,12 @@ pub trait Real:
     fn ln(self) -> Self {
         elementary::ln(self)
     }
+    /// ln x of a positive normal number; unspecified for others.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn ln_of_normal(self) -> Self {
+        elementary::ln_of_normal(self)
+    }
     /// eˣ to within 1.5 ulp; 0 where it is below the normal numbers, ∞ above them.
     #[inline(always)]
     fn exp(self) -> Self {

@@ -12,7 +12,6 @@ use crate::law::number::level::Level;
 use crate::law::number::real::{Lanes, Real};
 use crate::law::number::twice::Twice;
 use crate::law::number::vector::{Matrix, accurate_cross, dot, is_finite};
-use crate::law::response::nan_unless_finite;
 use crate::law::status;
 use crate::law::wave_speed::{self, wave_speed};
 
@@ -80,11 +79,18 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         reads_old_gradient: bool,
     ) -> (R::Mask, R::Mask) {
         let zero = R::splat(0.0);
-        // A number times zero is zero unless it is NaN or infinite.
-        let mut check = step.jacobian.mul_add(zero, wave_modulus * zero);
-        check = check + (nan_unless_finite(&response.stress) + nan_unless_finite(response.state.as_ref()));
+        // A number times zero is zero unless it is NaN or infinite. Two sums: half as long a chain of operations.
+        let [s_11, s_22, s_33, s_12, s_23, s_31] = response.stress;
+        let mut check = s_33.mul_add(zero, s_22.mul_add(zero, s_11 * zero));
+        let mut other = s_31.mul_add(zero, s_23.mul_add(zero, s_12 * zero));
+        for &x in response.state.as_ref() {
+            check = x.mul_add(zero, check);
+        }
         // A law may choose between an old value that is no number and another one.
-        check = check + nan_unless_finite(self.own.as_ref());
+        for &x in self.own.as_ref() {
+            other = x.mul_add(zero, other);
+        }
+        check = step.jacobian.mul_add(zero, wave_modulus.mul_add(zero, check)) + other;
         let mut upright = zero.lt(step.jacobian);
         if reads_old_gradient {
             let jacobian = determinant(&self.f_old);

@@ -82,10 +82,15 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     }
 }
 
-/// An array of numbers `[R; N]`, as a type without its length.
-pub trait Array<R>: Copy + AsRef<[R]> + AsMut<[R]> {
+/// An array of numbers `[R; N]`, as a type without its length. Sealed: the hosts copy a state as the numbers that it is made of.
+pub trait Array<R>: Copy + AsRef<[R]> + AsMut<[R]> + sealed::Sealed {
     const LENGTH: usize;
     fn filled(value: R) -> Self;
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl<R, const N: usize> Sealed for [R; N] {}
 }
 
 impl<R: Copy, const N: usize> Array<R> for [R; N] {
@@ -109,6 +114,14 @@ pub struct Step<R, S> {
     pub fibre: [R; 3],
     /// The old state variables, without `failed` and `alive`; all 0 at the start.
     pub state: S,
+}
+
+impl<R: Real, S> Step<R, S> {
+    /// ln det F, faster than `jacobian.ln()`: without meaning at points whose results do not count.
+    #[inline(always)]
+    pub fn log_jacobian(&self) -> R {
+        self.jacobian.ln_of_normal()
+    }
 }
 
 /// What a law answers.

@@ -64,7 +64,7 @@ impl UserMaterial for ReinforcedSolid {
     fn respond<R: Real>(c: &Constants<R>, step: &Step<R, [R; 2]>) -> Response<R, [R; 2]> {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
         let ([x, y, z], a) = (transposed(&step.f), image(&step.f, step.fibre));
-        let (inverse, logarithm, square) = (step.jacobian.reciprocal(), step.jacobian.ln(), dot(a, a));
+        let (inverse, logarithm, square) = (step.jacobian.reciprocal(), step.log_jacobian(), dot(a, a));
         let elongation = square - one;
         // σ = (μ (b − 1) + Λ ln J 1 + 2k (I4 − 1) a⊗a)/J, where b = FFᵀ has the products of the rows of F.
         let (solid, volume) = (c.mu * inverse, c.lambda * logarithm * inverse);
@@ -92,7 +92,7 @@ impl UserMaterial for ReinforcedSolid {
         let ([x, y, z], a) = (transposed(&step.f), image(&step.f, step.fibre));
         let (xy, yz, zx) = (dot(x, y).abs(), dot(y, z).abs(), dot(z, x).abs());
         let largest = (dot(x, x) + xy + zx).max(dot(y, y) + xy + yz).max(dot(z, z) + yz + zx);
-        let (square, volume) = (dot(a, a), c.lambda * (one - step.jacobian.ln()) + c.mu);
+        let (square, volume) = (dot(a, a), c.lambda * (one - step.log_jacobian()) + c.mu);
         let fibres = c.k * square * (R::splat(4.0) * square + R::splat(2.0) * (square - one).max(zero));
         Some(volume.max(zero) + c.mu * largest + fibres)
     }
