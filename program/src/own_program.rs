@@ -39,7 +39,7 @@ enum Command {
     },
     /// Print a material's card, ready to be pasted into a solver's deck.
     Deck(deck::command::Arguments),
-    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {NAME: value}}; "m", the fibre
+    /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [1, 0, 0], "params": {NAME: value}}; "m", the fibre
     /// direction, may be left out.
     Eval {
         /// How the law is called.

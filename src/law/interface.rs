@@ -51,8 +51,9 @@ pub unsafe trait Law<T: Precision>: Copy {
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error>;
 }
 
-/// Points of a host in component-major arrays, `n` values next to each other in each component. Of these arrays `fibre` and the
-/// outputs behind the stress may be null: they are absent, and what is absent is not computed.
+/// Points of a host in component-major arrays, `n` values next to each other in each component. Arrays that are null
+/// are absent: an old state is 0 then, and an output is not computed. F at the end must be there, and F at the start for a law that reads
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<T> {
     pub n: usize,
@@ -140,8 +141,15 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     #[inline(always)]
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
         let row = |first: usize| first.wrapping_mul(points.leading_dimension);
-        let old = |first: usize| points.state_old.wrapping_add(row(first));
-        let new = |first: usize| points.state_new.wrapping_add(row(first));
+        // A state that is absent is so in all its parts.
+        let old = |first: usize| match points.state_old.is_null() {
+            true => null(),
+            false => points.state_old.wrapping_add(row(first)),
+        };
+        let new = |first: usize| match points.state_new.is_null() {
+            true => null_mut(),
+            false => points.state_new.wrapping_add(row(first)),
+        };
         let pointers = Pointers {
             deformation_gradient: points.f_new,
             fibre: points.fibre,

@@ -667,3 +667,50 @@ fn dual_numbers_differentiate_every_function() {
         }
     }
 }
+
+/// At 0 a power has the slope of a root, so that an invariant that is even there has a tangent at rest.
+#[test]
+fn powers_of_nothing_have_a_slope() {
+    for (exponent, wanted) in [(0.0, 0.0), (0.5, 0.0), (1.0, 3.0), (2.0, 0.0)] {
+        for slope in [0.0, 3.0] {
+            let found = Dual::new(0.0, slope).powf(Dual::splat(exponent)).slope;
+            assert_eq!(found, if slope == 0.0 { 0.0 } else { wanted }, "0^{exponent}, slope {slope}");
+        }
+    }
+}
+
+/// The computed bound of the wave speed does not depend on the tangent that is asked for beside it.
+#[test]
+fn the_wave_speed_is_that_of_every_measure() {
+    let law = User::<Damaged, f64>::new(&[2.0, 0.3]).expect("properties that are right");
+    let points = deformations(40, 0.4);
+    let ask = |measure| run(&law, &Given { measure, waves: true, ..fresh::<Damaged>(&points) }, &[]).speed;
+    let alone = ask(None);
+    for measure in [Measure::Jaumann, Measure::Truesdell, Measure::Material, Measure::Nominal] {
+        for (found, wanted) in ask(Some(measure)).into_iter().zip(&alone) {
+            assert!((found - wanted).abs() <= 1e-14 * wanted, "{measure:?}: {found} {wanted}");
+        }
+    }
+}
+
+/// A state that is not there is one of rest, and none is written.
+#[test]
+fn the_yarn_law_takes_points_without_state() {
+    let law = toron::Hyperelastic::new(&[80e3, 1e3, 2.2, 600.0, 5.0, 0.05, 1.8, 0.0, 1.0, 0.0, 0.0]).expect("a yarn");
+    let f = [1.02, 0.1, 0.0, -0.2, 0.9, 0.05, 0.0, 0.1, 0.8];
+    let mut stress = [0.0; 6];
+    let mut points = Points::without_arrays(1, 1);
+    points.f_new = array::from_fn(|c| &raw const f[c]);
+    points.stress = stress.each_mut().map(|s| &raw mut *s);
+    // SAFETY: one point's arrays.
+    assert_eq!(unsafe { Law::step(&law, &points) }, Ok(status::OK));
+    let wanted = law.point_along(
+        &array::from_fn(|j| array::from_fn(|i| f[3 * j + i])),
+        None,
+        &[0.0; 11],
+        toron::Request::STRESS_AND_STATE,
+    );
+    for (found, wanted) in stress.iter().zip(wanted.stress) {
+        assert!((found - wanted).abs() <= 1e-12 * 80e3, "{stress:?} {wanted:?}");
+    }
+}

@@ -6,12 +6,20 @@
 
 #![no_std]
 
+// The libraries of CalculiX and MGIS are uses of macros of `toron-solvers`, whose other modules need the standard library.
+extern crate self as toron_solvers;
+pub use toron;
+#[path = "../../../solvers/src/calculix.rs"]
+pub mod calculix;
+#[path = "../../../solvers/src/mgis.rs"]
+pub mod mgis;
+
 #[path = "../../../c/src/abaqus.rs"]
 pub mod abaqus;
 #[path = "../../../c/src/about.rs"]
 pub mod about;
 #[path = "../../../calculix/src/lib.rs"]
-pub mod calculix;
+pub mod calculix_library;
 #[path = "../../../c/src/hyperelastic.rs"]
 pub mod hyperelastic;
 #[path = "../../../c/src/linear_elastic.rs"]
@@ -19,7 +27,7 @@ pub mod linear_elastic;
 #[path = "../../../c/src/lsdyna.rs"]
 pub mod lsdyna;
 #[path = "../../../mgis/src/lib.rs"]
-pub mod mgis;
+pub mod mgis_library;
 #[path = "../../../c/src/openradioss.rs"]
 pub mod openradioss;
 #[path = "../../../c/src/tables.rs"]

@@ -121,7 +121,7 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
 }
 
 /// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
-/// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the hyperelastic law has no
+/// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the yarn law has no
 /// transverse stiffness at rest. A point whose numbers are not finite is deleted, as in a step. Returns the worst status.
 ///
 /// # Safety
@@ -237,9 +237,13 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
         let u = |c: usize| if c < 3 + block.nshr as usize { middle(c) } else { zero };
         let volume = u(0) * (u(1) * u(2) - u(4) * u(4)) - u(3) * (u(3) * u(2) - u(4) * u(5))
             + u(5) * (u(3) * u(4) - u(1) * u(5));
-        let first = L::DESCRIPTION.energies.start;
-        let mut energy = at!(block.state_new, block, first, i);
-        for c in first + 1..L::DESCRIPTION.energies.end {
+        let mut energies = L::DESCRIPTION.energies;
+        // A law need not have any.
+        let mut energy = match energies.next() {
+            Some(first) => at!(block.state_new, block, first, i),
+            None => zero,
+        };
+        for c in energies {
             energy = energy + at!(block.state_new, block, c, i);
         }
         let specific = energy / (*block.density.add(i) * volume);

@@ -175,8 +175,8 @@ impl<R: Real> Real for Dual<R> {
     fn powf(self, exponent: Self) -> Self {
         let (zero, one, x, q) = (R::splat(0.0), R::splat(1.0), self.value, exponent.value);
         let value = elementary::powf(x, q);
-        // At 0: that of x^q for q > 1, q = 1 and q < 1.
-        let at_zero = R::select(one.lt(q), zero, R::select(one.le(q), one, R::splat(f64::INFINITY)));
+        // At 0 it is 1 for q = 1, else 0: for q < 1 as for the root.
+        let at_zero = R::select(one.le(q) & q.le(one), one, zero);
         let derivative = R::select(zero.lt(x), q * value / x, at_zero);
         let constant = exponent.slope.le(zero) & zero.le(exponent.slope);
         let by_exponent = R::select(constant, zero, value * elementary::ln(x) * exponent.slope);

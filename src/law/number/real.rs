@@ -114,7 +114,7 @@ pub trait Real:
         elementary::exp(self)
     }
     /// x^q to within 1.5 + 2 |q| ulp, for |q| up to 1000; 0 where it is nearly as small as the least normal number (below 2^−1001, in
-    /// single precision 2^−105), ∞ above them. NaN for x < 0; a subnormal x counts as 0.
+    /// single precision 2^−105), ∞ above them. NaN for x < 0 and for infinite x; a subnormal x counts as 0.
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {
         elementary::powf(self, exponent)

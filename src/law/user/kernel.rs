@@ -118,7 +118,9 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             *x = R::select(taken, *x, zero);
         }
         let mut known = (self.failed * zero).le(zero);
-        for (x, &old) in outcome.own.as_mut().iter_mut().zip(self.own.as_ref()) {
+        let mut olds = self.own.as_ref().iter();
+        for x in outcome.own.as_mut() {
+            let Some(&old) = olds.next() else { break };
             let finite = (old * zero).le(zero);
             known = known & finite;
             *x = R::select(taken, *x, R::select(finite, old, zero));

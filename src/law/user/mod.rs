@@ -44,7 +44,9 @@ use super::status;
 
 /// A law in formulas: implemented by a type without content, which stands for the law.
 ///
-/// The stress must be that of an objective law: F → QF with a rotation Q turns it to QσQᵀ. Conversions between tangents rely on it.
+/// The stress must be that of an objective law: F → QF with a rotation Q turns it to QσQᵀ. Conversions between tangents rely on it, and
+/// Abaqus/Explicit, which passes the right stretches in place of F. So directions and tensors in the state are those of the reference
+/// placement, and a law that reads F at the start must not depend on a rotation of that F alone.
 pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     const DESCRIPTION: Description;
     /// `[R; N]`, N the number of properties.
@@ -185,7 +187,13 @@ const fn check_tables<M: UserMaterial>() {
     assert!(state.len() == own + 2, "a row of the table for each state variable, and for `failed` and `alive`");
     assert!(failed == own && same(state[own].name, "failed"), "`failed` is the last row but one of the state");
     assert!(alive == own + 1 && same(state[own + 1].name, "alive"), "`alive` is the last row of the state");
-    assert!(energies.end <= own, "the energies are among the law's own state variables");
+    assert!(
+        energies.start <= energies.end && energies.end <= own,
+        "the energies are among the law's own state variables"
+    );
+    assert!(M::DESCRIPTION.fibre_components().end <= properties.len(), "the fibre's three components are properties");
+    assert!(M::DESCRIPTION.second_axis.is_none(), "a law of one's own has one direction, that of the fibre");
+    assert!(!properties.is_empty(), "a law has properties");
 }
 
 impl<M: UserMaterial, T: Precision> User<M, T> {
@@ -235,7 +243,9 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     #[inline(always)]
     fn constants<R: Real>(&self) -> M::Constants<R> {
         let mut properties = M::Properties::<R>::filled(R::splat(0.0));
-        for (to, &from) in properties.as_mut().iter_mut().zip(self.properties.as_ref()) {
+        let mut values = self.properties.as_ref().iter();
+        for to in properties.as_mut() {
+            let Some(&from) = values.next() else { break };
             *to = R::splat(from.into());
         }
         M::constants(&properties)

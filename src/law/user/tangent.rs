@@ -77,7 +77,7 @@ impl<M: UserMaterial> User<M, f64> {
         if self.bounds_waves() {
             return wave_modulus::<M, f64>(&self.constants(), &rest);
         }
-        let Answer { outcome, tangent } = self.answer(&rest, Measure::Jaumann, 0.0, Level::best());
+        let Answer { outcome, tangent } = self.answer(&rest, Measure::Jaumann, 0.0, true, Level::best());
         acoustic_bound(&tangent, &outcome.stress)
     }
 
@@ -106,7 +106,8 @@ impl<M: UserMaterial> User<M, f64> {
             }
             input.failed = load(points.state_old.wrapping_add(row(law.failed)));
         }
-        let Answer { mut outcome, tangent } = self.answer(&input, points.measure, at_rest, level);
+        let Answer { mut outcome, tangent } =
+            self.answer(&input, points.measure, at_rest, !points.wave_speed.is_null(), level);
         let (entries, size) = by_rows(&tangent, points.measure, &input.f.into(), &outcome.stress);
         let entries = if points.tangent.is_null() { &[][..] } else { entries.get(..size * size).unwrap_or_default() };
         // Rounded to T, a number that does not fit is not finite. A tangent of 0 that is converted with an F which is not finite is
@@ -155,6 +156,7 @@ impl<M: UserMaterial> User<M, f64> {
         input: &Input<f64, M::State<f64>>,
         measure: Measure,
         at_rest: f64,
+        waves: bool,
         level: Level,
     ) -> Answer<M::State<f64>> {
         let mut rates = [[0.0; 6]; 16];
@@ -182,10 +184,14 @@ impl<M: UserMaterial> User<M, f64> {
                 (tangent.0[k + 3 * l], tangent.0[l + 3 * k]) = (*rate, *rate);
             }
         }
-        let bound = if M::wave_modulus(&self.constants::<f64>(), &step, &response).is_some() {
-            M::wave_modulus(&self.constants::<f64>(), &step, &response).unwrap_or_default()
-        } else {
-            (step.jacobian * acoustic_bound(&tangent, &response.stress)).max(at_rest)
+        let bound = match M::wave_modulus(&self.constants::<f64>(), &step, &response) {
+            _ if !waves => 0.0,
+            Some(bound) => bound,
+            None => {
+                let bound = step.jacobian * acoustic_bound(&tangent, &response.stress);
+                // What is no number stays so.
+                if bound < at_rest { at_rest } else { bound }
+            }
         };
         let outcome = finish::<M>(input, &step, &response, bound, at_rest);
         Answer { outcome, tangent }
@@ -291,15 +297,16 @@ fn overflowed<M: UserMaterial>() -> Response<f64, M::State<f64>> {
 
 /// A bound of ρ c² for waves in the current placement, from ∂τ/∂L over J for the six strains and the Cauchy stress.
 ///
-/// For a direction n and a polarisation u, unit vectors, ρ c² = u·(c : D + Wσ − σW) n with D and W the symmetric and the skew part of
-/// u⊗n. Neither is longer than 1: the first part is at most the norm of c on symmetric tensors, the second twice the largest
-/// principal stress by its size.
+/// For a direction n and a polarisation u, unit vectors, ρ c² = u·(c : D + Wσ − σW) n − (u·σn)(u·n) with D and W the symmetric and the
+/// skew part of u⊗n. Neither is longer than 1: the first part is at most the norm of c on symmetric tensors, and the others are at most
+/// the largest principal stress by its size, each.
 fn acoustic_bound(tangent: &LinearTangent, &[s_11, s_22, s_33, s_12, s_23, s_31]: &[f64; 6]) -> f64 {
     let weight = |c: usize| if c < 3 { 1.0 } else { core::f64::consts::SQRT_2 };
     let (mut rows, mut columns) = ([0.0_f64; 6], [0.0_f64; 6]);
     for (column, (k, l)) in PAIRS.into_iter().enumerate() {
-        for (row, entry) in tangent.0[k + 3 * l].iter().enumerate() {
-            let size = (weight(row) * weight(column) * entry).abs();
+        for (row, (x, y)) in tangent.0[k + 3 * l].iter().zip(&tangent.0[l + 3 * k]).enumerate() {
+            // A strain is half of each of two motions.
+            let size = (weight(row) * weight(column) * (0.5 * x + 0.5 * y)).abs();
             rows[row] += size;
             columns[column] += size;
         }
@@ -307,5 +314,7 @@ fn acoustic_bound(tangent: &LinearTangent, &[s_11, s_22, s_33, s_12, s_23, s_31]
     let largest = |sums: [f64; 6]| sums.into_iter().fold(0.0, f64::max);
     let row = |a: f64, b: f64, c: f64| a.abs() + b.abs() + c.abs();
     let size = row(s_11, s_12, s_31).max(row(s_12, s_22, s_23)).max(row(s_31, s_23, s_33));
-    libm::sqrt(largest(rows)) * libm::sqrt(largest(columns)) + 2.0 * size
+    let bound = libm::sqrt(largest(rows)) * libm::sqrt(largest(columns)) + 2.0 * size;
+    // A maximum passes over what is no number.
+    0.0 * rows.iter().sum::<f64>() + bound
 }
