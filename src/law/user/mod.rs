@@ -73,8 +73,8 @@ pub trait UserMaterial: Copy + Default + Send + Sync + 'static {
     fn respond<R: Real>(constants: &Self::Constants<R>, step: &Step<R, Self::State<R>>) -> Response<R, Self::State<R>>;
 
     /// ρ0 c² for an upper bound c of the speed of every wave at the end of a step, from which explicit solvers compute their time
-    /// step. `None`: the bound is computed from the tangent, which takes about as long as ten evaluations, and may be √3 times as large
-    /// as the fastest wave.
+    /// step. `None`: the bound is computed from the tangent of every point, without vector registers, and the speed may be √3 times that
+    /// of the fastest wave.
     fn wave_modulus<R: Real>(
         _constants: &Self::Constants<R>,
         _step: &Step<R, Self::State<R>>,

@@ -184,8 +184,8 @@ impl<M: UserMaterial> User<M, f64> {
                 (tangent.0[k + 3 * l], tangent.0[l + 3 * k]) = (*rate, *rate);
             }
         }
-        let bound = match M::wave_modulus(&self.constants::<f64>(), &step, &response) {
-            _ if !waves => 0.0,
+        let own = if waves { M::wave_modulus(&self.constants::<f64>(), &step, &response) } else { Some(0.0) };
+        let bound = match own {
             Some(bound) => bound,
             None => {
                 let bound = step.jacobian * acoustic_bound(&tangent, &response.stress);
