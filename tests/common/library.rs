@@ -14,7 +14,7 @@ pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 /// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that solvers load
 /// by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
-    let (build, installed) = (Path::new(BUILD).join("library"), Path::new(BUILD).join("installed"));
+    let installed = Path::new(BUILD).join("installed");
     // Names that tell what a kernel is built for.
     let environment = |command: &mut Command| {
         command.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
@@ -37,7 +37,8 @@ pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     run(cargo.args(packages.map(|package| format!("--package={package}"))), "cargo");
     for package in packages {
         let library = format!("lib{}.so", package.replace('-', "_"));
-        std::fs::copy(build.join("release").join(&library), installed.join("lib").join(&library)).expect("a copy");
+        std::fs::copy(Path::new(BUILD).join("release").join(&library), installed.join("lib").join(&library))
+            .expect("a copy");
     }
     installed
 });

@@ -14,8 +14,7 @@ fn build(options: &[&str]) -> Output {
     Command::new(env!("CARGO"))
         .args(["rustc", "--release", "--offline", "--crate-type=cdylib", "--manifest-path"])
         .arg(package.join("Cargo.toml"))
-        .arg("--target-dir")
-        .arg(Path::new(BUILD).join("library"))
+        .args(["--target-dir", BUILD])
         .args(options)
         // The standard library's part of unwinding, which is never called.
         .args(["--", "-C", "link-arg=-Wl,--no-undefined", "-C", "link-arg=-Wl,--defsym=rust_eh_personality=0"])
