@@ -6,9 +6,9 @@ use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
-use toron::host::abaqus::{Vumat, linear_umat_f64, linear_vumat_f32, linear_vumat_f64, vumat_f64};
+use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::calculix::{self, Behaviour};
-use toron::host::lsdyna;
+use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
 use toron::law::status;
 use toron::law::stress::{components, matrix};
 use toron::state::{LINEAR_ALIVE, LINEAR_ELASTIC_STATE, LINEAR_FAILED, LINEAR_WORK};
@@ -119,26 +119,23 @@ impl Umat {
 
     fn call(&mut self, properties: &[f64], f: [&Matrix3<f64>; 2], [ndi, nshr, nlgeom]: [i32; 3]) -> i32 {
         let mut message = [0; ROOM];
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        let code = unsafe {
-            linear_umat_f64(
-                self.stress.as_mut_ptr(),
-                self.statev.as_mut_ptr(),
-                self.ddsdde.as_mut_ptr(),
-                &mut self.sse,
-                &mut self.pnewdt,
-                f[0].as_ptr(),
-                f[1].as_ptr(),
-                properties.as_ptr(),
-                properties.len() as i32,
-                self.statev.len() as i32,
-                ndi,
-                nshr,
-                nlgeom,
-                message.as_mut_ptr(),
-                ROOM,
-            )
+        let call = abaqus::Umat {
+            stress: self.stress.as_mut_ptr(),
+            statev: self.statev.as_mut_ptr(),
+            ddsdde: self.ddsdde.as_mut_ptr(),
+            sse: &mut self.sse,
+            pnewdt: &mut self.pnewdt,
+            dfgrd0: f[0].as_ptr(),
+            dfgrd1: f[1].as_ptr(),
+            props: properties.as_ptr(),
+            nprops: properties.len() as i32,
+            nstatv: self.statev.len() as i32,
+            ndi,
+            nshr,
+            nlgeom,
         };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        let code = unsafe { <LinearElastic as StandardLaw>::umat(&call, message.as_mut_ptr(), ROOM) };
         self.message = text(&message);
         code
     }
@@ -249,7 +246,7 @@ struct Job {
     message: String,
 }
 
-type Entry = unsafe extern "C" fn(*const Vumat<f64>, *mut c_char, usize) -> i32;
+type Entry = unsafe fn(*const Vumat<f64>, *mut c_char, usize) -> i32;
 
 impl Job {
     fn new(n: usize, shear: usize, properties: &[f64], state: usize) -> Self {
@@ -326,7 +323,7 @@ fn vumat() {
     job.state[70 * S..].fill(7.0);
     for (ends, truth) in path.windows(2).zip(truth(&law, &path)) {
         let [(_, old), (r, new)] = [polar(&ends[0]), polar(&ends[1])];
-        assert_eq!(job.step(linear_vumat_f64, [&old, &new], 1.0, &[0.0; 6]), status::OK);
+        assert_eq!(job.step(LinearElastic::vumat, [&old, &new], 1.0, &[0.0; 6]), status::OK);
         let corotational = components(&(r.transpose() * matrix(&truth.stress) * r));
         for point in [0, 63, 64, 69] {
             assert_near(&job.of(&job.stress, point), &corotational, 1e-12, "stress");
@@ -343,7 +340,7 @@ fn the_data_check_of_a_vumat() {
     let rest = Matrix3::identity();
     let mut job = Job::new(3, 3, &ALONG_X, S);
     let strain = [1e-3, 2e-3, -1e-3, 5e-4, 0.0, 1e-4];
-    assert_eq!(job.step(linear_vumat_f64, [&rest, &rest], 0.0, &strain), status::OK);
+    assert_eq!(job.step(LinearElastic::vumat, [&rest, &rest], 0.0, &strain), status::OK);
     let (bulk, shear) = (0.5 * 79.414, 0.375 * 79.414);
     let (volumetric, two_g) = ((bulk - 2.0 / 3.0 * shear) * 2e-3, 2.0 * shear);
     let wanted: [f64; 6] = std::array::from_fn(|c| two_g * strain[c] + if c < 3 { volumetric } else { 0.0 });
@@ -352,7 +349,7 @@ fn the_data_check_of_a_vumat() {
     assert!(state[..LINEAR_ALIVE].iter().all(|&x| x == 0.0) && state[LINEAR_ALIVE] == 1.0);
     // An old energy that is no number deletes its point.
     job.energy[1] = f64::NAN;
-    assert_eq!(job.step(linear_vumat_f64, [&rest, &rest], 0.0, &strain), status::STATE_NOT_FINITE);
+    assert_eq!(job.step(LinearElastic::vumat, [&rest, &rest], 0.0, &strain), status::STATE_NOT_FINITE);
     assert_eq!((job.of(&job.state, 1)[LINEAR_FAILED..].to_vec(), job.energy[1]), (vec![1.0, 0.0], 0.0));
     assert_eq!(job.of(&job.state, 0)[LINEAR_FAILED..], [0.0, 1.0]);
 }
@@ -369,7 +366,9 @@ fn vumats_in_the_plane() {
     for (ends, truth) in path.windows(2).zip(truth(&law, &path)) {
         let [(_, old), (r, new)] = [polar(&ends[0]), polar(&ends[1])];
         let stresses = [truth.stress, hyperelastic.point(&ends[1], &[0.0; 11], Request::ALL).stress];
-        for ((job, entry), stress) in jobs.iter_mut().zip([linear_vumat_f64 as Entry, vumat_f64]).zip(stresses) {
+        for ((job, entry), stress) in
+            jobs.iter_mut().zip([LinearElastic::vumat as Entry, Hyperelastic::vumat]).zip(stresses)
+        {
             assert_eq!(job.step(entry, [&old, &new], 1.0, &[0.0; 6]), status::OK, "{}", job.message);
             let corotational = components(&(r.transpose() * matrix(&stress) * r));
             for point in [0, 66] {
@@ -384,7 +383,7 @@ fn vumats_in_the_plane() {
 fn what_a_vumat_refuses() {
     let rest = Matrix3::identity();
     let mut oblique = Job::new(1, 1, &OBLIQUE, S);
-    assert_eq!(oblique.step(linear_vumat_f64, [&rest, &rest], 1.0, &[0.0; 6]), status::FIBRE_OUT_OF_PLANE);
+    assert_eq!(oblique.step(LinearElastic::vumat, [&rest, &rest], 1.0, &[0.0; 6]), status::FIBRE_OUT_OF_PLANE);
     assert!(
         oblique.message.starts_with("properties 5 to 7 (fibre direction) are 0.3, -0.5, 0.8"),
         "{}",
@@ -392,13 +391,13 @@ fn what_a_vumat_refuses() {
     );
     let yarn = [82.341, 1.055, 2.2, 0.64974, 0.1, 0.0, 1.8, 0.3, 0.6, -0.3, 0.5];
     let mut oblique = Job::new(1, 1, &yarn, 11);
-    assert_eq!(oblique.step(vumat_f64, [&rest, &rest], 1.0, &[0.0; 6]), status::FIBRE_OUT_OF_PLANE);
+    assert_eq!(oblique.step(Hyperelastic::vumat, [&rest, &rest], 1.0, &[0.0; 6]), status::FIBRE_OUT_OF_PLANE);
     let mut few = Job::new(1, 3, &ALONG_X, S - 1);
-    assert_eq!(few.step(linear_vumat_f64, [&rest, &rest], 1.0, &[0.0; 6]), -211);
+    assert_eq!(few.step(LinearElastic::vumat, [&rest, &rest], 1.0, &[0.0; 6]), -211);
     assert_eq!(few.message, "number of state variables (*DEPVAR): 9 given, 10 needed");
     let inverted = Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0, 1.0));
     let mut bad = Job::new(2, 3, &ALONG_X, S);
-    assert_eq!(bad.step(linear_vumat_f64, [&rest, &inverted], 1.0, &[0.0; 6]), status::INVERTED);
+    assert_eq!(bad.step(LinearElastic::vumat, [&rest, &inverted], 1.0, &[0.0; 6]), status::INVERTED);
     assert_eq!(bad.of(&bad.state, 0)[LINEAR_FAILED..], [1.0, 0.0]);
     assert!(bad.stress.iter().all(|&s| s == 0.0));
 }
@@ -439,11 +438,21 @@ fn a_vumat_in_single_precision() {
             ..Vumat::empty()
         };
         // SAFETY: the arrays have the sizes that the structure tells.
-        assert_eq!(unsafe { linear_vumat_f32(&job, null_mut(), 0) }, status::OK);
-        assert_eq!(double.step(linear_vumat_f64, [&old, &new], 1.0, &[0.0; 6]), status::OK);
+        assert_eq!(unsafe { <LinearElastic<f32>>::vumat(&job, null_mut(), 0) }, status::OK);
+        assert_eq!(double.step(LinearElastic::vumat, [&old, &new], 1.0, &[0.0; 6]), status::OK);
         assert_near(&stress.map(f64::from), &double.of(&double.stress, 0), 2e-5, "stress");
         old_state = state;
     }
+}
+
+/// LS-DYNA's scalar routine: its status and message.
+fn element(cm: &[f64; 10], sig: &mut [f64; 6], hsv: &mut [f64], nhv: i32, failel: &mut i32) -> (i32, String) {
+    assert!(hsv.len() == nhv as usize + 9);
+    let (cm, sig, hsv, mut message) = (cm.as_ptr(), sig.as_mut_ptr(), hsv.as_mut_ptr(), [0; ROOM]);
+    let call = lsdyna::Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    let code = unsafe { <LinearElastic as UserRoutines<f64>>::umat(&call, message.as_mut_ptr(), ROOM) };
+    (code, text(&message))
 }
 
 /// An element of LS-DYNA in both of its routines, and its tangents.
@@ -461,32 +470,23 @@ fn lsdyna_routines() {
         }
         let (mut sig, mut failed, mut es) = ([f64::NAN; 6], 7, [f64::NAN; 36]);
         let (mut sigs, mut failels, mut dsave) = (vec![f64::NAN; 6 * NLQ], [7; NLQ], vec![f64::NAN; 36 * NLQ]);
-        // SAFETY: the arrays have the sizes that the entries ask for; elements 2 to nlq.
+        let (cm, nlq) = (OBLIQUE.as_ptr(), NLQ as i32);
+        let sig1 = sigs.as_mut_ptr();
+        let rows = [0, 1, 2, 3, 4, 5].map(|c| sig1.wrapping_add(c * NLQ));
+        let (hsv_, hsvs_, dsave_) = (hsv.as_mut_ptr(), hsvs.as_mut_ptr(), dsave.as_mut_ptr());
+        let element = lsdyna::Umat { cm, sig: sig.as_mut_ptr(), hsv: hsv_, nhv: NHV, failel: &mut failed };
+        let tangent = lsdyna::Utan { cm, hsv: hsv_, nhv: NHV, es: es.as_mut_ptr() };
+        let failels_ = failels.as_mut_ptr();
+        let (lft, llt) = (2, nlq);
+        let elements = UmatVector { cm, sig: rows, hsvs: hsvs_, nhv: NHV, lft, llt, nlq, failels: failels_ };
+        let tangents = UtanVector { cm, hsvs: hsvs_, nhv: NHV, lft, llt, nlq, dsave: dsave_ };
+        // SAFETY: the arrays have the sizes that the structures tell; elements 2 to nlq.
         let codes = unsafe {
-            let row = |c: usize| sigs.as_mut_ptr().wrapping_add(c * NLQ);
-            let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(row);
-            let (cm, n, h) = (OBLIQUE.as_ptr(), NLQ as i32, hsvs.as_mut_ptr());
             [
-                lsdyna::linear_umat_f64(cm, sig.as_mut_ptr(), hsv.as_mut_ptr(), NHV, &mut failed, null_mut(), 0),
-                lsdyna::linear_utan_f64(cm, hsv.as_ptr(), NHV, es.as_mut_ptr(), null_mut(), 0),
-                lsdyna::linear_umat_vector_f64(
-                    cm,
-                    s1,
-                    s2,
-                    s3,
-                    s4,
-                    s5,
-                    s6,
-                    h,
-                    NHV,
-                    2,
-                    n,
-                    n,
-                    failels.as_mut_ptr(),
-                    null_mut(),
-                    0,
-                ),
-                lsdyna::linear_utan_vector_f64(cm, h, NHV, 2, n, n, dsave.as_mut_ptr(), null_mut(), 0),
+                <LinearElastic as UserRoutines<f64>>::umat(&element, null_mut(), 0),
+                LinearElastic::utan(&tangent, null_mut(), 0),
+                LinearElastic::umat_vector(&elements, null_mut(), 0),
+                LinearElastic::utan_vector(&tangents, null_mut(), 0),
             ]
         };
         assert_eq!((codes, failed), ([status::OK; 4], 0));
@@ -523,11 +523,7 @@ fn lsdyna_with_material_axes() {
     for (f, truth) in path[1..].iter().zip(truth(&law, &path)) {
         let mut sig = [f64::NAN; 6];
         hsv[19..].copy_from_slice((f * axes).as_slice());
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        let code = unsafe {
-            let (cm, s, h) = (along_axes.as_ptr(), sig.as_mut_ptr(), hsv.as_mut_ptr());
-            lsdyna::linear_umat_f64(cm, s, h, 19, &mut failed, null_mut(), 0)
-        };
+        let code = element(&along_axes, &mut sig, &mut hsv, 19, &mut failed).0;
         assert_eq!(code, status::OK);
         assert_near(&sig, &truth.stress, 1e-13, "stress");
     }
@@ -537,15 +533,12 @@ fn lsdyna_with_material_axes() {
 fn what_lsdyna_is_refused() {
     let rest = Matrix3::identity();
     let call = |properties: &[f64; 10], nhv: usize, f: &Matrix3<f64>| {
-        let (mut sig, mut failed, mut message) = ([f64::NAN; 6], 7, [0; ROOM]);
+        let (mut sig, mut failed) = ([f64::NAN; 6], 7);
         let hsv = [vec![0.0; nhv], f.as_slice().to_vec()].concat();
         let mut new = hsv.clone();
-        let (s, h, text_of) = (sig.as_mut_ptr(), new.as_mut_ptr(), message.as_mut_ptr());
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        let code =
-            unsafe { lsdyna::linear_umat_f64(properties.as_ptr(), s, h, nhv as i32, &mut failed, text_of, ROOM) };
+        let answer = element(properties, &mut sig, &mut new, nhv as i32, &mut failed);
         assert!(sig[0].is_nan() && new == hsv && failed == 7, "nothing is written");
-        (code, text(&message))
+        answer
     };
     let (code, message) = call(&ALONG_X, 11, &rest);
     assert_eq!(code, status::STATE_COUNT);
@@ -564,17 +557,15 @@ fn lsdyna_elements_that_fail() {
         let (mut hsv, mut sig, mut failed, mut es) = ([0.0; 28], [f64::NAN; 6], 7, [f64::NAN; 36]);
         hsv[19..].copy_from_slice(f.as_slice());
         for call in 0..2 {
-            let (cm, s, h) = (ALONG_X.as_ptr(), sig.as_mut_ptr(), hsv.as_mut_ptr());
-            // SAFETY: the arrays have the sizes that the entries ask for.
-            let found = unsafe { lsdyna::linear_umat_f64(cm, s, h, 19, &mut failed, null_mut(), 0) };
+            let found = element(&ALONG_X, &mut sig, &mut hsv, 19, &mut failed).0;
             // A point that has failed is not evaluated again.
             assert_eq!((found, failed), (if call == 0 { code } else { status::OK }, 1));
             assert_eq!(sig.iter().all(|&s| s == 0.0), call > 0 || code != status::OK);
             assert_eq!(hsv[LINEAR_FAILED..=LINEAR_ALIVE], [1.0, 0.0]);
         }
-        // SAFETY: as above.
-        let tangent =
-            unsafe { lsdyna::linear_utan_f64(ALONG_X.as_ptr(), hsv.as_ptr(), 19, es.as_mut_ptr(), null_mut(), 0) };
+        let call = lsdyna::Utan { cm: ALONG_X.as_ptr(), hsv: hsv.as_ptr(), nhv: 19, es: es.as_mut_ptr() };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        let tangent = unsafe { LinearElastic::utan(&call, null_mut(), 0) };
         assert_eq!((tangent, es), (status::OK, [0.0; 36]));
     }
 }
@@ -592,9 +583,7 @@ fn lsdyna_elements_that_collapse() {
         if let Some(f) = f {
             hsv[19..].copy_from_slice(f.as_slice());
         }
-        let (cm, s, h) = (ALONG_X.as_ptr(), sig.as_mut_ptr(), hsv.as_mut_ptr());
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        let found = unsafe { lsdyna::linear_umat_f64(cm, s, h, 19, &mut failed, null_mut(), 0) };
+        let found = element(&ALONG_X, &mut sig, &mut hsv, 19, &mut failed).0;
         assert_eq!((found, failed), (code, failel));
     }
     assert_eq!((sig, &hsv[LINEAR_FAILED..=LINEAR_ALIVE]), ([0.0; 6], &[1.0, 0.0][..]));
@@ -604,7 +593,7 @@ fn lsdyna_elements_that_collapse() {
 fn lsdyna_bulk_and_shear() {
     let (mut bulk, mut shear) = (0.0, 0.0);
     // SAFETY: the arrays have the sizes that the entry asks for.
-    let code = unsafe { lsdyna::linear_bulk_and_shear_f64(ALONG_X.as_ptr(), 10, &mut bulk, &mut shear, null_mut(), 0) };
+    let code = unsafe { LinearElastic::card_moduli(ALONG_X.as_ptr(), 10, &mut bulk, &mut shear, null_mut(), 0) };
     assert_eq!(code, status::OK);
     assert_near(&[bulk + 4.0 / 3.0 * shear], &[79.414], 1e-15, "K + 4G/3");
 }

@@ -1,7 +1,10 @@
 //! Abaqus: UMAT and VUMAT.
 
+use core::ptr::{null, null_mut};
+
 use libc::{c_char, size_t};
-use toron::host::abaqus::Vumat;
+use toron::host::abaqus::{ExplicitLaw, StandardLaw, Umat, Vumat};
+use toron::{Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a UMAT of Abaqus/Standard.
 ///
@@ -35,12 +38,10 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::abaqus::umat_tangent_f64(
-            stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
-        )
-    }
+    let call =
+        Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0: null(), dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic>::umat(&call, message, capacity) }
 }
 
 /// As `toron_abaqus_umat_tangent_f64` without DDSDDE, for hosts that want none.
@@ -61,12 +62,23 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::abaqus::umat_f64(
-            stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
-        )
-    }
+    let call = Umat {
+        stress,
+        statev,
+        ddsdde: null_mut(),
+        sse,
+        pnewdt,
+        dfgrd0: null(),
+        dfgrd1,
+        props,
+        nprops,
+        nstatv,
+        ndi,
+        nshr,
+        nlgeom,
+    };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic>::umat(&call, message, capacity) }
 }
 
 /// The linear elastic law as a UMAT of Abaqus/Standard.
@@ -96,13 +108,9 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::abaqus::linear_umat_f64(
-            stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
-            capacity,
-        )
-    }
+    let call = Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic>::umat(&call, message, capacity) }
 }
 
 /// The hyperelastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision.
@@ -121,8 +129,8 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::vumat_f64(block, message, capacity) }
+    // SAFETY: the structure and its arrays have the sizes that it says.
+    unsafe { <Hyperelastic<f64>>::vumat(block, message, capacity) }
 }
 
 /// As `toron_abaqus_vumat_f64`, for jobs in single precision.
@@ -132,8 +140,8 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::vumat_f32(block, message, capacity) }
+    // SAFETY: the structure and its arrays have the sizes that it says.
+    unsafe { <Hyperelastic<f32>>::vumat(block, message, capacity) }
 }
 
 /// The linear elastic law as a VUMAT of Abaqus/Explicit, for jobs in double precision: as `toron_abaqus_vumat_f64`, with 10 properties
@@ -144,8 +152,8 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::linear_vumat_f64(block, message, capacity) }
+    // SAFETY: the structure and its arrays have the sizes that it says.
+    unsafe { <LinearElastic<f64>>::vumat(block, message, capacity) }
 }
 
 /// As `toron_abaqus_linear_vumat_f64`, for jobs in single precision.
@@ -155,6 +163,6 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::abaqus::linear_vumat_f32(block, message, capacity) }
+    // SAFETY: the structure and its arrays have the sizes that it says.
+    unsafe { <LinearElastic<f32>>::vumat(block, message, capacity) }
 }

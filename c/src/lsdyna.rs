@@ -3,6 +3,8 @@
 use core::ffi::c_int;
 
 use libc::{c_char, size_t};
+use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
+use toron::{Hyperelastic, LinearElastic};
 
 /// The hyperelastic law as a scalar user material of LS-DYNA, in double precision.
 ///
@@ -23,8 +25,9 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::umat_f64(cm, sig, hsv, nhv, failel, message, capacity) }
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f64>>::umat(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_umat_f64`, in single precision.
@@ -38,8 +41,9 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::umat_f32(cm, sig, hsv, nhv, failel, message, capacity) }
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f32>>::umat(&call, message, capacity) }
 }
 
 /// The hyperelastic law as a vectorised user material of LS-DYNA, in double precision.
@@ -71,12 +75,9 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::lsdyna::umat_vector_f64(
-            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
-        )
-    }
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f64>>::umat_vector(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_umat_vector_f64`, in single precision.
@@ -99,12 +100,9 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::lsdyna::umat_vector_f32(
-            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
-        )
-    }
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f32>>::umat_vector(&call, message, capacity) }
 }
 
 /// The tangent of the hyperelastic law for LS-DYNA's scalar user routine `utan`, in double precision.
@@ -124,8 +122,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_f64(cm, hsv, nhv, es, message, capacity) }
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f64>>::utan(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_utan_f64`, in single precision.
@@ -138,8 +137,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_f32(cm, hsv, nhv, es, message, capacity) }
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f32>>::utan(&call, message, capacity) }
 }
 
 /// The tangent of the hyperelastic law as LS-DYNA's vectorised `utan` wants it, in double precision.
@@ -161,8 +161,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f64>>::utan_vector(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_utan_vector_f64`, in single precision.
@@ -178,8 +179,9 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f32>>::utan_vector(&call, message, capacity) }
 }
 
 /// Computes the bulk and shear modulus to be entered as cm(12) and cm(13), to which IBULK = 12 and IG = 13 on the card
@@ -196,8 +198,8 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::bulk_and_shear_f64(values, count, bulk, shear, message, capacity) }
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <Hyperelastic<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
 }
 
 /// The linear elastic law as a scalar user material of LS-DYNA, in double precision.
@@ -215,8 +217,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_umat_f64(cm, sig, hsv, nhv, failel, message, capacity) }
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f64>>::umat(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_linear_umat_f64`, in single precision.
@@ -230,8 +233,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_umat_f32(cm, sig, hsv, nhv, failel, message, capacity) }
+    let call = Umat { cm, sig, hsv, nhv, failel };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f32>>::umat(&call, message, capacity) }
 }
 
 /// The linear elastic law as a vectorised user material of LS-DYNA, in double precision: as `toron_lsdyna_umat_vector_f64`, with `hsvs`:
@@ -255,12 +259,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::lsdyna::linear_umat_vector_f64(
-            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
-        )
-    }
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f64>>::umat_vector(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_linear_umat_vector_f64`, in single precision.
@@ -283,12 +284,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        toron::host::lsdyna::linear_umat_vector_f32(
-            cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
-        )
-    }
+    let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f32>>::umat_vector(&call, message, capacity) }
 }
 
 /// The tangent of the linear elastic law for LS-DYNA's scalar user routine `utan`, in double precision: as `toron_lsdyna_utan_f64`, with
@@ -304,8 +302,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_utan_f64(cm, hsv, nhv, es, message, capacity) }
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f64>>::utan(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_linear_utan_f64`, in single precision.
@@ -318,8 +317,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_utan_f32(cm, hsv, nhv, es, message, capacity) }
+    let call = Utan { cm, hsv, nhv, es };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f32>>::utan(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_linear_utan_f64`, for LS-DYNA's vectorised `utan`: arguments as of `toron_lsdyna_utan_vector_f64`, with `hsvs`:
@@ -336,8 +336,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_utan_vector_f64(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f64>>::utan_vector(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_linear_utan_vector_f64`, in single precision.
@@ -353,8 +354,9 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_utan_vector_f32(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
+    let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f32>>::utan_vector(&call, message, capacity) }
 }
 
 /// As `toron_lsdyna_bulk_and_shear_f64`, for the linear elastic law: cm(11) and cm(12), IBULK = 11 and IG = 12. K + 4G/3 is the largest of
@@ -368,6 +370,6 @@ pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe { toron::host::lsdyna::linear_bulk_and_shear_f64(values, count, bulk, shear, message, capacity) }
+    // SAFETY: the arrays have the sizes above.
+    unsafe { <LinearElastic<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
 }

@@ -87,15 +87,18 @@ unsafe fn end_job(cmname: *const c_char, text: &str, routine: &CStr) {
     let name = String::from_utf8_lossy(unsafe { material_name(cmname) });
     // An output that is closed must not keep the job from ending.
     let _ = writeln!(std::io::stdout(), " toron, material {name}: {text}");
+    #[cfg(unix)]
     // SAFETY: a null-terminated name; what has it takes no arguments.
     unsafe {
         let found = libc::dlsym(libc::RTLD_DEFAULT, routine.as_ptr());
-        if found.is_null() {
-            std::process::exit(ERROR);
+        if !found.is_null() {
+            let end: unsafe extern "C" fn() = std::mem::transmute(found);
+            return end();
         }
-        let end: unsafe extern "C" fn() = std::mem::transmute(found);
-        end();
     }
+    #[cfg(not(unix))]
+    let _ = routine; // where the running program's routines cannot be asked for
+    std::process::exit(ERROR);
 }
 
 /// The symbols that Abaqus looks for, of laws told apart by the material's name, and for each law the functions `NAME_abaqus_umat_f64`
@@ -129,11 +132,13 @@ macro_rules! abaqus {
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
+                let call = $crate::toron::host::abaqus::Umat {
+                    stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
+                };
+                // SAFETY: the caller's arrays, as `Umat` says.
                 unsafe {
                     <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::abaqus::StandardLaw>::umat(
-                        stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
-                        message, capacity,
+                        &call, message, capacity,
                     )
                 }
             }
@@ -223,14 +228,27 @@ macro_rules! abaqus_umat {
             let text = message.as_mut_ptr();
             // SAFETY: Abaqus's promise. JSTEP(3) is 1 with NLGEOM=YES.
             unsafe {
-                let (nprops, nstatv, ndi, nshr, nlgeom) = (*nprops, *nstatv, *ndi, *nshr, *jstep.add(2));
-                let $numbers = [nprops, nstatv];
+                let call = $crate::toron::host::abaqus::Umat {
+                    stress,
+                    statev,
+                    ddsdde,
+                    sse,
+                    pnewdt,
+                    dfgrd0,
+                    dfgrd1,
+                    props,
+                    nprops: *nprops,
+                    nstatv: *nstatv,
+                    ndi: *ndi,
+                    nshr: *nshr,
+                    nlgeom: *jstep.add(2),
+                };
+                let $numbers = [call.nprops, call.nstatv];
                 #[allow(unreachable_patterns)] // where every material has a law
                 let status = match $choice {
                     $($pattern => {
                         <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::abaqus::StandardLaw>::umat(
-                            stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
-                            text, CAPACITY,
+                            &call, text, CAPACITY,
                         )
                     })+
                     _ => return $crate::abaqus::refuse_name($cmname, &$names, c"xit_"),

@@ -5,54 +5,50 @@ use toron::host::c::{self, AsNumbers, prepared_size};
 use toron::law::interface::Law;
 use toron::law::status;
 
+// What stands beside `$law` may hide the user's names: a macro brings no name but those of functions, and one that no law has.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! c {
     ($t:ident; $($law:ty as $name:literal, user $number:literal;)+) => {$(
         const _: () = {
-            use std::ffi::c_char;
-            use $crate::toron::host::c::{
-                ListedPoints, Named, PreparedOf, TableRow, listed_block, listed_prepare, listed_property, listed_state_variable,
-                status_message,
-            };
-            use $crate::toron::law::description::Description;
-
-            type Law = <$law as $crate::toron::host::Material<$t>>::Law;
-
-            static DESCRIPTION: Description = <Law as $crate::toron::law::interface::Law<$t>>::DESCRIPTION;
-
+            #[allow(non_camel_case_types)]
             #[derive(Clone, Copy)]
-            pub struct Name;
+            pub struct __toron_listed;
 
-            impl Named<$t> for Name {
-                type Law = Law;
+            impl $crate::toron::host::c::Named<$t> for __toron_listed {
+                type Law = <$law as $crate::toron::host::Material<$t>>::Law;
                 const PREPARED: &'static str = concat!($name, "_", stringify!($t));
                 const PREPARE: &'static str = concat!($name, "_prepare_", stringify!($t));
                 const POINTS: &'static str = concat!($name, "_points_", stringify!($t));
             }
 
+            static DESCRIPTION: $crate::toron::law::description::Description = $crate::description!($law, $t);
+
+            // SAFETY of each: what the header asks of the caller.
             #[unsafe(export_name = concat!($name, "_prepare_", stringify!($t)))]
             pub unsafe extern "C" fn prepare_law(
-                law: *mut PreparedOf<Name, $t>,
+                law: *mut $crate::toron::host::c::PreparedOf<__toron_listed, $t>,
                 size: usize,
                 properties: *const $t,
                 count: usize,
-                message: *mut c_char,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise, in the header.
-                unsafe { listed_prepare::<Name, $t>(law, size, properties, count, message, capacity) }
+                unsafe {
+                    $crate::toron::host::c::listed_prepare::<__toron_listed, $t>(
+                        law, size, properties, count, message, capacity,
+                    )
+                }
             }
 
             #[unsafe(export_name = concat!($name, "_block_", stringify!($t)))]
             pub unsafe extern "C" fn evaluate_block(
-                law: *const PreparedOf<Name, $t>,
-                points: *const ListedPoints<Name, $t>,
-                message: *mut c_char,
+                law: *const $crate::toron::host::c::PreparedOf<__toron_listed, $t>,
+                points: *const $crate::toron::host::c::ListedPoints<__toron_listed, $t>,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise, in the header.
-                unsafe { listed_block::<Name, $t>(law, points, message, capacity) }
+                unsafe { $crate::toron::host::c::listed_block::<__toron_listed, $t>(law, points, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_property_count"))]
@@ -63,12 +59,11 @@ macro_rules! c {
             #[unsafe(export_name = concat!($name, "_property"))]
             pub unsafe extern "C" fn property(
                 index: i32,
-                row: *mut TableRow,
-                message: *mut c_char,
+                row: *mut $crate::toron::host::c::TableRow,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise, in the header.
-                unsafe { listed_property(&DESCRIPTION, index, row, message, capacity) }
+                unsafe { $crate::toron::host::c::listed_property(&DESCRIPTION, index, row, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_state_count"))]
@@ -79,18 +74,20 @@ macro_rules! c {
             #[unsafe(export_name = concat!($name, "_state_variable"))]
             pub unsafe extern "C" fn state_variable(
                 index: i32,
-                row: *mut TableRow,
-                message: *mut c_char,
+                row: *mut $crate::toron::host::c::TableRow,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise, in the header.
-                unsafe { listed_state_variable(&DESCRIPTION, index, row, message, capacity) }
+                unsafe { $crate::toron::host::c::listed_state_variable(&DESCRIPTION, index, row, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_status_message"))]
-            pub unsafe extern "C" fn message_of_status(code: i32, message: *mut c_char, capacity: usize) -> i32 {
-                // SAFETY: the caller's promise, in the header.
-                unsafe { status_message(code, message, capacity) }
+            pub unsafe extern "C" fn message_of_status(
+                code: i32,
+                message: *mut ::core::ffi::c_char,
+                capacity: usize,
+            ) -> i32 {
+                unsafe { $crate::toron::host::c::status_message(code, message, capacity) }
             }
         };
     )+};

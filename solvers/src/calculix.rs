@@ -7,9 +7,6 @@ macro_rules! calculix {
     (f64; $($law:ty as $name:literal, user $number:literal;)+) => {
         $(
             const _: () = {
-                use ::core::ffi::c_char;
-                use $crate::toron::host::calculix::{Behaviour, CalculixLaw};
-
                 /// Arguments as CalculiX passes them, see its `umat_user.f`.
                 ///
                 /// # Safety
@@ -17,7 +14,7 @@ macro_rules! calculix {
                 #[unsafe(export_name = $name)]
                 #[allow(clippy::too_many_arguments)]
                 pub unsafe extern "C" fn behaviour(
-                    amat: *const c_char,
+                    amat: *const ::core::ffi::c_char,
                     iel: *const i32,
                     iint: *const i32,
                     kode: *const i32,
@@ -49,7 +46,7 @@ macro_rules! calculix {
                     _ipkon: *const i32,
                     _amat_length: i32,
                 ) {
-                    let call = Behaviour {
+                    let call = $crate::toron::host::calculix::Behaviour {
                         amat,
                         iel,
                         iint,
@@ -70,7 +67,9 @@ macro_rules! calculix {
                         pnewdt,
                     };
                     // SAFETY: CalculiX's promise.
-                    unsafe { <<$law as $crate::toron::host::Material<f64>>::Law as CalculixLaw>::behaviour(&call) }
+                    unsafe {
+                        <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::calculix::CalculixLaw>::behaviour(&call)
+                    }
                 }
             };
         )+

@@ -11,7 +11,6 @@
 //! The name is that of the law in every solver; see `docs/guides/own-law.md`. The libraries of toron's own laws are made by the same
 //! macros, one for each solver.
 
-#[cfg(unix)]
 #[doc(hidden)]
 pub mod abaqus;
 #[doc(hidden)]
@@ -54,16 +53,35 @@ pub use {libc, toron};
 /// toron_solvers::export! { f64; toron::Hyperelastic as "yarn", user 1; }
 /// # fn main() {}
 /// ```
+/// A law may be called as one likes:
+/// ```no_run
+/// mod engine {
+///     pub use toron::{Hyperelastic as Law, LinearElastic as Material};
+/// }
+/// use engine::Material;
+/// toron_solvers::export! { f64; engine::Law as "LAW", user 1; Material as "MATERIAL", user 2; }
+/// # fn main() {}
+/// ```
 #[macro_export]
 macro_rules! export {
     ($t:ident; $($law:ty as $name:literal, user $number:literal);+ $(;)?) => {
         const _: () = $crate::assert_distinct(&[$($name),+], &[$($number),+]);
+        $(const _: () = <$law as $crate::toron::host::Material<$t>>::TABLES_FIT;)+
         $crate::abaqus! { $t; $($law as $name, user $number;)+ }
         $crate::c! { $t; $($law as $name, user $number;)+ }
         $crate::calculix! { $t; $($law as $name, user $number;)+ }
         $crate::lsdyna! { $t; $($law as $name, user $number;)+ }
         $crate::mgis! { $t; $($law as $name, user $number;)+ }
         $crate::openradioss! { $t; $($law as $name, user $number;)+ }
+    };
+}
+
+/// The description of a law.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! description {
+    ($law:ty, $t:ident) => {
+        <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::law::interface::Law<$t>>::DESCRIPTION
     };
 }
 

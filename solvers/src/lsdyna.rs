@@ -13,24 +13,19 @@ macro_rules! lsdyna {
     };
     ($suffix:literal, $t:ident, $law:ty as $name:literal) => {
         const _: () = {
-            use ::core::ffi::{c_char, c_int};
-
-            use $crate::toron::host::{Material, lsdyna::UserRoutines};
-
-            type Law = <$law as Material<$t>>::Law;
-
             #[unsafe(export_name = concat!($name, "_lsdyna_umat", $suffix))]
             unsafe extern "C" fn umat(
                 cm: *const $t,
                 sig: *mut $t,
                 hsv: *mut $t,
                 nhv: i32,
-                failel: *mut c_int,
-                message: *mut c_char,
+                failel: *mut ::core::ffi::c_int,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { <Law as UserRoutines<$t>>::umat(cm, sig, hsv, nhv, failel, message, capacity) }
+                let call = $crate::toron::host::lsdyna::Umat { cm, sig, hsv, nhv, failel };
+                // SAFETY: the caller's arrays, as the structure says, here and below.
+                unsafe { $crate::lsdyna_routine!($t, $law, umat)(&call, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_lsdyna_umat_vector", $suffix))]
@@ -48,15 +43,13 @@ macro_rules! lsdyna {
                 lft: i32,
                 llt: i32,
                 nlq: i32,
-                failels: *mut c_int,
-                message: *mut c_char,
+                failels: *mut ::core::ffi::c_int,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                let (stress, range) = ([sig1, sig2, sig3, sig4, sig5, sig6], [lft, llt, nlq]);
-                // SAFETY: the caller's promise.
-                unsafe {
-                    <Law as UserRoutines<$t>>::umat_vector(cm, stress, hsvs, nhv, range, failels, message, capacity)
-                }
+                let sig = [sig1, sig2, sig3, sig4, sig5, sig6];
+                let call = $crate::toron::host::lsdyna::UmatVector { cm, sig, hsvs, nhv, lft, llt, nlq, failels };
+                unsafe { $crate::lsdyna_routine!($t, $law, umat_vector)(&call, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_lsdyna_utan", $suffix))]
@@ -65,11 +58,11 @@ macro_rules! lsdyna {
                 hsv: *const $t,
                 nhv: i32,
                 es: *mut $t,
-                message: *mut c_char,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { <Law as UserRoutines<$t>>::utan(cm, hsv, nhv, es, message, capacity) }
+                let call = $crate::toron::host::lsdyna::Utan { cm, hsv, nhv, es };
+                unsafe { $crate::lsdyna_routine!($t, $law, utan)(&call, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_lsdyna_utan_vector", $suffix))]
@@ -82,13 +75,11 @@ macro_rules! lsdyna {
                 llt: i32,
                 nlq: i32,
                 dsave: *mut $t,
-                message: *mut c_char,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe {
-                    <Law as UserRoutines<$t>>::utan_vector(cm, hsvs, nhv, [lft, llt, nlq], dsave, message, capacity)
-                }
+                let call = $crate::toron::host::lsdyna::UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+                unsafe { $crate::lsdyna_routine!($t, $law, utan_vector)(&call, message, capacity) }
             }
 
             #[unsafe(export_name = concat!($name, "_lsdyna_bulk_and_shear", $suffix))]
@@ -97,12 +88,20 @@ macro_rules! lsdyna {
                 count: usize,
                 bulk: *mut $t,
                 shear: *mut $t,
-                message: *mut c_char,
+                message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { <Law as UserRoutines<$t>>::card_moduli(values, count, bulk, shear, message, capacity) }
+                unsafe { $crate::lsdyna_routine!($t, $law, card_moduli)(values, count, bulk, shear, message, capacity) }
             }
         };
+    };
+}
+
+/// A routine of a law in one precision.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! lsdyna_routine {
+    ($t:ident, $law:ty, $routine:ident) => {
+        <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::host::lsdyna::UserRoutines<$t>>::$routine
     };
 }

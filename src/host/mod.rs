@@ -15,16 +15,19 @@ use crate::law::block::Precision;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::user::{User, UserMaterial};
+use crate::law::user::{User, UserMaterial, check_tables};
 
 /// A law by its name, without a precision: a [`UserMaterial`], [`Hyperelastic`] or [`LinearElastic`].
 pub trait Material<T: Precision> {
     /// The law in this precision.
     type Law: Law<T>;
+    /// Does not compile where the tables of a law do not fit its types.
+    const TABLES_FIT: () = ();
 }
 
 impl<M: UserMaterial, T: Precision> Material<T> for M {
     type Law = User<M, T>;
+    const TABLES_FIT: () = check_tables::<M>();
 }
 
 impl<T: Precision> Material<T> for Hyperelastic<f64> {

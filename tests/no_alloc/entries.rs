@@ -4,11 +4,13 @@ use std::ffi::{c_char, c_int};
 use std::ptr::{null, null_mut};
 
 use allocation_counter::measure;
-use toron::host::abaqus::Vumat;
+use toron::host::abaqus::{ExplicitLaw, StandardLaw, Vumat};
 use toron::host::c::*;
 use toron::host::calculix::{Behaviour, CalculixLaw};
+use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
-use toron::host::{abaqus, c, calculix, lsdyna, mgis, openradioss};
+use toron::host::{abaqus, c, calculix, mgis, openradioss};
+use toron::{Hyperelastic, LinearElastic};
 
 const P: usize = TORON_HYPERELASTIC_PROPERTIES;
 const L: usize = TORON_LINEAR_ELASTIC_PROPERTIES;
@@ -48,7 +50,7 @@ fn deformations() -> [[f64; 9]; 3] {
 
 /// Calls an entry, and counts.
 macro_rules! quiet {
-    ($entry:path, $($argument:expr),* $(,)?) => {{
+    ($entry:expr, $($argument:expr),* $(,)?) => {{
         let mut result = None;
         // SAFETY: every array is as long as the entry says, or null.
         #[allow(unused_unsafe)]
@@ -65,8 +67,6 @@ fn entries() -> Vec<String> {
         include_str!("../../c/src/tables.rs"),
         include_str!("../../c/src/hyperelastic.rs"),
         include_str!("../../c/src/linear_elastic.rs"),
-        include_str!("../../c/src/abaqus.rs"),
-        include_str!("../../c/src/lsdyna.rs"),
         include_str!("../../c/src/openradioss.rs"),
     ];
     // These have a name for each law, which is called by the law's type.
@@ -81,19 +81,31 @@ fn entries() -> Vec<String> {
     });
     let calls = sources.into_iter().flat_map(|source| source.split("toron::host::").skip(1));
     let calls = calls.filter_map(|call| call.split_once('(')).map(|(name, _)| name);
+    // And these a method.
+    let traits = [
+        ("StandardLaw", include_str!("../../src/host/abaqus/umat.rs")),
+        ("ExplicitLaw", include_str!("../../src/host/abaqus/vumat.rs")),
+        ("UserRoutines", include_str!("../../src/host/lsdyna/mod.rs")),
+    ];
+    let methods = traits.into_iter().flat_map(|(name, source)| {
+        let body = source.split_once(&format!("pub trait {name}")).and_then(|(_, rest)| rest.split_once("\n}"));
+        let definitions = body.expect("a trait").0.split("    unsafe fn ").skip(1);
+        definitions.filter_map(|text| Some(format!("::{}", text.split_once('(')?.0)))
+    });
     let is_name = |name: &&str| name.chars().all(|c| c.is_alphanumeric() || c == '_' || c == ':');
-    calls.filter(is_name).map(str::to_owned).chain(functions).collect()
+    calls.filter(is_name).map(str::to_owned).chain(functions).chain(methods).collect()
 }
 
 /// A new entry has to be added to the calls below.
 #[test]
 fn every_entry_is_called() {
     let separator = |c: char| !c.is_alphanumeric() && c != '_' && c != ':';
-    let words: Vec<_> = include_str!("entries.rs").split(separator).collect();
+    let words: Vec<&str> = include_str!("entries.rs").split(separator).collect();
     let entries = entries();
     assert!(entries.len() > 20, "{entries:?}");
     for entry in entries {
-        assert!(words.contains(&entry.as_str()), "{entry} is not called");
+        let is_it = |word: &&str| if entry.starts_with("::") { word.ends_with(&entry) } else { **word == entry };
+        assert!(words.iter().any(is_it), "{entry} is not called");
     }
 }
 
@@ -141,7 +153,7 @@ fn the_library_about_itself() {
 /// The entries that there are in both precisions.
 macro_rules! both_precisions {
     ($test:ident, $t:ty, $preset:path, $prepare:path, $point:path, $point_with_properties:path, $block:path,
-     $block_with_properties:path, $vumat:path, $umat:path, $utan:path, $vector:path, $vector_tangent:path) => {
+     $block_with_properties:path) => {
         #[test]
         fn $test() {
             let mut text = [0 as c_char; ROOM];
@@ -266,23 +278,47 @@ macro_rules! both_precisions {
                         Vumat { nshr: 1, ..job },
                         Vumat { size: 0, ..job },
                     ] {
-                        quiet!($vumat, &job, t, ROOM);
+                        quiet!(<Hyperelastic<$t> as ExplicitLaw<$t>>::vumat, &job, t, ROOM);
                     }
-                    quiet!($vumat, null(), null_mut(), 0);
+                    quiet!(<Hyperelastic<$t> as ExplicitLaw<$t>>::vumat, null(), null_mut(), 0);
 
                     let mut history = [0.0 as $t; S + 9];
                     history[S..].copy_from_slice(&f);
                     let (h, mut failed, i) = (history.as_mut_ptr(), 0 as c_int, S as i32);
-                    quiet!($umat, yarn, s, h, i, &mut failed, t, ROOM);
-                    quiet!($umat, yarn, s, h, 3, null_mut(), null_mut(), 0);
-                    let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
-                    for first in [1, 0] {
-                        quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, i, first, 1, 1, &mut failed, t, ROOM);
+                    quiet!(
+                        <Hyperelastic<$t> as UserRoutines<$t>>::umat,
+                        &Umat { cm: yarn, sig: s, hsv: h, nhv: i, failel: &mut failed },
+                        t,
+                        ROOM
+                    );
+                    quiet!(
+                        <Hyperelastic<$t> as UserRoutines<$t>>::umat,
+                        &Umat { cm: yarn, sig: s, hsv: h, nhv: 3, failel: null_mut() },
+                        null_mut(),
+                        0
+                    );
+                    let sig = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
+                    for lft in [1, 0] {
+                        let failels = &raw mut failed;
+                        let elements = UmatVector { cm: yarn, sig, hsvs: h, nhv: i, lft, llt: 1, nlq: 1, failels };
+                        quiet!(<Hyperelastic<$t> as UserRoutines<$t>>::umat_vector, &elements, t, ROOM);
                     }
-                    quiet!($utan, yarn, h, i, c, t, ROOM);
-                    quiet!($utan, yarn, null(), 3, c, null_mut(), 0);
-                    quiet!($vector_tangent, yarn, h, i, 1, 1, 1, c, t, ROOM);
-                    quiet!($vector_tangent, yarn, h, i, 0, 1, 1, null_mut(), null_mut(), 0);
+                    quiet!(
+                        <Hyperelastic<$t> as UserRoutines<$t>>::utan,
+                        &Utan { cm: yarn, hsv: h, nhv: i, es: c },
+                        t,
+                        ROOM
+                    );
+                    quiet!(
+                        <Hyperelastic<$t> as UserRoutines<$t>>::utan,
+                        &Utan { cm: yarn, hsv: null(), nhv: 3, es: c },
+                        null_mut(),
+                        0
+                    );
+                    let elements = UtanVector { cm: yarn, hsvs: h, nhv: i, lft: 1, llt: 1, nlq: 1, dsave: c };
+                    quiet!(<Hyperelastic<$t> as UserRoutines<$t>>::utan_vector, &elements, t, ROOM);
+                    let elements = UtanVector { lft: 0, dsave: null_mut(), ..elements };
+                    quiet!(<Hyperelastic<$t> as UserRoutines<$t>>::utan_vector, &elements, null_mut(), 0);
                 }
             }
         }
@@ -297,12 +333,7 @@ both_precisions!(
     c::hyperelastic_point_f64,
     c::hyperelastic_point_with_properties_f64,
     c::hyperelastic_block_f64,
-    c::hyperelastic_block_with_properties_f64,
-    abaqus::vumat_f64,
-    lsdyna::umat_f64,
-    lsdyna::utan_f64,
-    lsdyna::umat_vector_f64,
-    lsdyna::utan_vector_f64
+    c::hyperelastic_block_with_properties_f64
 );
 both_precisions!(
     single_precision,
@@ -312,12 +343,7 @@ both_precisions!(
     c::hyperelastic_point_f32,
     c::hyperelastic_point_with_properties_f32,
     c::hyperelastic_block_f32,
-    c::hyperelastic_block_with_properties_f32,
-    abaqus::vumat_f32,
-    lsdyna::umat_f32,
-    lsdyna::utan_f32,
-    lsdyna::umat_vector_f32,
-    lsdyna::utan_vector_f32
+    c::hyperelastic_block_with_properties_f32
 );
 
 #[test]
@@ -326,31 +352,44 @@ fn double_precision_only() {
     let t = text.as_mut_ptr();
     for yarn in &YARNS {
         let yarn = yarn.as_ptr();
-        quiet!(lsdyna::bulk_and_shear_f64, yarn, P, &mut bulk, &mut shear, t, ROOM);
-        quiet!(lsdyna::bulk_and_shear_f64, yarn, 3, &mut bulk, null_mut(), null_mut(), 0);
+        quiet!(Hyperelastic::card_moduli, yarn, P, &mut bulk, &mut shear, t, ROOM);
+        quiet!(Hyperelastic::card_moduli, yarn, 3, &mut bulk, null_mut(), null_mut(), 0);
         // SAFETY: numbers, which may be 0.
         let mut law = unsafe { std::mem::zeroed::<HyperelasticLaw<f64>>() };
         quiet!(c::hyperelastic_prepare_f64, &mut law, size_of_val(&law), yarn, P, t, ROOM);
         for f in deformations() {
             let (mut stress, mut state, mut energy, mut step) = ([0.0; 6], [0.0; S], 0.0, 1.0);
             let (s, h) = (stress.as_mut_ptr(), state.as_mut_ptr());
-            for count in [P as i32, -1] {
-                let (f, n) = (f.as_ptr(), S as i32);
-                quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, count, n, 3, 3, 1, t, ROOM);
-                let mut c = [0.0; 36];
-                let (c, e) = (c.as_mut_ptr(), &mut energy);
-                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 3, 1, t, ROOM);
-                quiet!(abaqus::umat_tangent_f64, s, h, c, e, &mut step, f, yarn, count, n, 3, 1, 1, t, ROOM);
+            let mut c = [0.0; 36];
+            let call = abaqus::Umat {
+                stress: s,
+                statev: h,
+                ddsdde: null_mut(),
+                sse: &mut energy,
+                pnewdt: &mut step,
+                dfgrd0: null(),
+                dfgrd1: f.as_ptr(),
+                props: yarn,
+                nprops: P as i32,
+                nstatv: S as i32,
+                ndi: 3,
+                nshr: 3,
+                nlgeom: 1,
+            };
+            let tangent = abaqus::Umat { ddsdde: c.as_mut_ptr(), ..call };
+            for call in [call, tangent, abaqus::Umat { nshr: 1, ..tangent }] {
+                for call in [call, abaqus::Umat { nprops: -1, ..call }, abaqus::Umat { nlgeom: 0, ..call }] {
+                    quiet!(<Hyperelastic as StandardLaw>::umat, &call, t, ROOM);
+                }
             }
+            let call = abaqus::Umat { statev: null_mut(), ..call };
+            quiet!(<Hyperelastic as StandardLaw>::umat, &call, null_mut(), 0);
             let (mut least, mut direction) = (0.0, [0.0; 3]);
             let (w, n, nothing) = (&mut least, direction.as_mut_ptr(), null_mut());
             let point = Point { deformation_gradient: f.as_ptr(), ..Point::empty() };
             quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, &point, w, n, t, ROOM);
             quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, &law, null(), w, n, t, ROOM);
             quiet!(c::hyperelastic_least_acoustic_eigenvalue_f64, null(), &point, nothing, n, t, ROOM);
-            let (f, n, p) = (REST.as_ptr(), S as i32, P as i32);
-            quiet!(abaqus::umat_f64, s, h, &mut energy, &mut step, f, yarn, p, n, 3, 3, 0, t, ROOM);
-            quiet!(abaqus::umat_f64, s, nothing, &mut energy, &mut step, f, yarn, p, n, 3, 3, 1, null_mut(), 0);
         }
     }
 }
@@ -393,7 +432,7 @@ fn calculix() {
 
 /// The linear elastic law in Abaqus and LS-DYNA.
 macro_rules! linear_hosts {
-    ($test:ident, $t:ty, $vumat:path, $umat:path, $utan:path, $vector:path, $vector_tangent:path) => {
+    ($test:ident, $t:ty) => {
         #[test]
         fn $test() {
             let mut text = [0 as c_char; ROOM];
@@ -429,54 +468,64 @@ macro_rules! linear_hosts {
                 };
                 let check = Vumat { step_time: 0.0, total_time: 0.0, ..job };
                 for job in [job, check, Vumat { nshr: 1, ..job }, Vumat { nprops: 3, ..job }] {
-                    quiet!($vumat, &job, t, ROOM);
+                    quiet!(<LinearElastic<$t> as ExplicitLaw<$t>>::vumat, &job, t, ROOM);
                 }
                 let mut history = [0.0 as $t; 28];
                 history[19..].copy_from_slice(&f);
                 let (h, mut failed) = (history.as_mut_ptr(), 0 as c_int);
                 for nhv in [19, 11] {
-                    quiet!($umat, yarn, s, h, nhv, &mut failed, t, ROOM);
-                    quiet!($utan, yarn, h, nhv, c, t, ROOM);
-                    let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c));
-                    quiet!($vector, yarn, s1, s2, s3, s4, s5, s6, h, nhv, 1, 1, 1, &mut failed, t, ROOM);
-                    quiet!($vector_tangent, yarn, h, nhv, 1, 1, 1, c, t, ROOM);
+                    quiet!(
+                        <LinearElastic<$t> as UserRoutines<$t>>::umat,
+                        &Umat { cm: yarn, sig: s, hsv: h, nhv, failel: &mut failed },
+                        t,
+                        ROOM
+                    );
+                    quiet!(
+                        <LinearElastic<$t> as UserRoutines<$t>>::utan,
+                        &Utan { cm: yarn, hsv: h, nhv, es: c },
+                        t,
+                        ROOM
+                    );
+                    let (sig, failels) = ([0, 1, 2, 3, 4, 5].map(|c| s.wrapping_add(c)), &raw mut failed);
+                    let elements = UmatVector { cm: yarn, sig, hsvs: h, nhv, lft: 1, llt: 1, nlq: 1, failels };
+                    quiet!(<LinearElastic<$t> as UserRoutines<$t>>::umat_vector, &elements, t, ROOM);
+                    let elements = UtanVector { cm: yarn, hsvs: h, nhv, lft: 1, llt: 1, nlq: 1, dsave: c };
+                    quiet!(<LinearElastic<$t> as UserRoutines<$t>>::utan_vector, &elements, t, ROOM);
                 }
             }
         }
     };
 }
 
-linear_hosts!(
-    linear_hosts_in_double_precision,
-    f64,
-    abaqus::linear_vumat_f64,
-    lsdyna::linear_umat_f64,
-    lsdyna::linear_utan_f64,
-    lsdyna::linear_umat_vector_f64,
-    lsdyna::linear_utan_vector_f64
-);
-linear_hosts!(
-    linear_hosts_in_single_precision,
-    f32,
-    abaqus::linear_vumat_f32,
-    lsdyna::linear_umat_f32,
-    lsdyna::linear_utan_f32,
-    lsdyna::linear_umat_vector_f32,
-    lsdyna::linear_utan_vector_f32
-);
+linear_hosts!(linear_hosts_in_double_precision, f64);
+linear_hosts!(linear_hosts_in_single_precision, f32);
 
 #[test]
 fn linear_hosts_in_double_precision_only() {
     let (mut bulk, mut shear, mut text) = (0.0, 0.0, [0 as c_char; ROOM]);
     let t = text.as_mut_ptr();
     for (yarn, f) in LINEAR.iter().flat_map(|yarn| deformations().map(move |f| (yarn.as_ptr(), f))) {
-        quiet!(lsdyna::linear_bulk_and_shear_f64, yarn, L, &mut bulk, &mut shear, t, ROOM);
+        quiet!(LinearElastic::card_moduli, yarn, L, &mut bulk, &mut shear, t, ROOM);
         let (mut stress, mut state, mut tangent) = ([0.0; 6], [0.0; S], [0.0; 36]);
         let (mut energy, mut step, n) = (0.0, 1.0, L as i32);
         let (s, h, c) = (stress.as_mut_ptr(), state.as_mut_ptr(), tangent.as_mut_ptr());
-        let (f0, f1, e) = (REST.as_ptr(), f.as_ptr(), &mut energy);
-        for (tangent, shear) in [(c, 3), (c, 1), (null_mut(), 3), (c, 2)] {
-            quiet!(abaqus::linear_umat_f64, s, h, tangent, e, &mut step, f0, f1, yarn, n, n, 3, shear, 1, t, ROOM);
+        for (ddsdde, nshr) in [(c, 3), (c, 1), (null_mut(), 3), (c, 2)] {
+            let call = abaqus::Umat {
+                stress: s,
+                statev: h,
+                ddsdde,
+                sse: &mut energy,
+                pnewdt: &mut step,
+                dfgrd0: REST.as_ptr(),
+                dfgrd1: f.as_ptr(),
+                props: yarn,
+                nprops: n,
+                nstatv: n,
+                ndi: 3,
+                nshr,
+                nlgeom: 1,
+            };
+            quiet!(<LinearElastic as StandardLaw>::umat, &call, t, ROOM);
         }
     }
 }

@@ -1,15 +1,16 @@
 //! One point through a C entry as its host would call it, from a fresh state to an answer in the library's order: for `eval`.
 
 use std::f64::consts::SQRT_2;
-use std::ffi::c_char;
 use std::ptr::null_mut;
 
 use super::blocks::{message_in, prepared};
 use super::hosts::{
     CalculixPoint, Given, MgisPoint, MgisTangent, OnePoint, OpenradiossGroup, Umat, Wanted, call_point,
 };
-use super::precision::BlockPrecision;
+use super::precision::{BlockPrecision, VumatEntry};
+use toron::Hyperelastic;
 use toron::host::c::{self, Block, Point};
+use toron::host::lsdyna::{UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::openradioss::card;
 use toron::host::{abaqus, lsdyna, mgis};
 use toron::law::parameters::{FIBRE, HYPERELASTIC_PROPERTIES};
@@ -223,7 +224,7 @@ pub fn vumat<T: BlockPrecision>(
     properties: &[f64; HYPERELASTIC_PROPERTIES],
     stretch: [f64; 6],
     round: impl Fn(f64) -> T,
-    entry: unsafe extern "C" fn(*const abaqus::Vumat<T>, *mut c_char, usize) -> i32,
+    entry: VumatEntry<T>,
 ) -> Answer {
     let stretch = stretch.map(&round);
     let properties = properties.map(&round);
@@ -264,7 +265,7 @@ fn lsdyna_constants(properties: &[f64; HYPERELASTIC_PROPERTIES]) -> [f64; 48] {
     cm[..HYPERELASTIC_PROPERTIES].copy_from_slice(properties);
     let [bulk, shear] = [11, 12].map(|i| &raw mut cm[i]);
     // SAFETY: the arrays have the sizes that the entry asks for. Bad properties are the material routine's to report.
-    unsafe { lsdyna::bulk_and_shear_f64(properties.as_ptr(), properties.len(), bulk, shear, null_mut(), 0) };
+    unsafe { Hyperelastic::card_moduli(properties.as_ptr(), properties.len(), bulk, shear, null_mut(), 0) };
     cm
 }
 
@@ -279,29 +280,25 @@ pub fn lsdyna(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], tangent
     let mut history = [0.0; HYPERELASTIC_STATE + 9];
     history[HYPERELASTIC_STATE..].copy_from_slice(f);
     let mut failed = 0;
-    // SAFETY: the arrays have the sizes that the entry asks for.
-    answer.status = unsafe {
-        lsdyna::umat_f64(
-            cm.as_ptr(),
-            answer.stress.as_mut_ptr(),
-            history.as_mut_ptr(),
-            HYPERELASTIC_STATE as i32,
-            &mut failed,
-            null_mut(),
-            0,
-        )
+    let element = lsdyna::Umat {
+        cm: cm.as_ptr(),
+        sig: answer.stress.as_mut_ptr(),
+        hsv: history.as_mut_ptr(),
+        nhv: HYPERELASTIC_STATE as i32,
+        failel: &mut failed,
     };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    answer.status = unsafe { Hyperelastic::umat(&element, null_mut(), 0) };
     answer.state.copy_from_slice(&history[..HYPERELASTIC_STATE]);
     answer.state[FAILED] = f64::from(failed);
     if tangent {
         let mut es = [[0.0; 6]; 6];
         // The element fails by its flag: the tangent of the intact one is wanted.
         history[FAILED] = 0.0;
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe {
-            let (count, to) = (HYPERELASTIC_STATE as i32, es.as_mut_ptr().cast());
-            lsdyna::utan_f64(cm.as_ptr(), history.as_ptr(), count, to, null_mut(), 0);
-        }
+        let (nhv, to) = (HYPERELASTIC_STATE as i32, es.as_mut_ptr().cast());
+        let element = Utan { cm: cm.as_ptr(), hsv: history.as_ptr(), nhv, es: to };
+        // SAFETY: as above.
+        unsafe { Hyperelastic::utan(&element, null_mut(), 0) };
         answer.ddsdde = Some(jaumann(&es, &answer.stress));
     }
     answer
@@ -321,27 +318,19 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
     }
     let mut stress = vec![0.0; 6 * nlq];
     let mut failed = vec![0; nlq];
-    let [sig1, sig2, sig3, sig4, sig5, sig6] = [0, 1, 2, 3, 4, 5].map(|c| stress[c * nlq..].as_mut_ptr());
-    // SAFETY: the arrays have the sizes that the entry asks for.
-    let worst = unsafe {
-        lsdyna::umat_vector_f64(
-            cm.as_ptr(),
-            sig1,
-            sig2,
-            sig3,
-            sig4,
-            sig5,
-            sig6,
-            history.as_mut_ptr(),
-            HYPERELASTIC_STATE as i32,
-            first as i32 + 1,
-            (first + n) as i32,
-            nlq as i32,
-            failed.as_mut_ptr(),
-            null_mut(),
-            0,
-        )
+    let (lft, llt) = (first as i32 + 1, (first + n) as i32);
+    let elements = UmatVector {
+        cm: cm.as_ptr(),
+        sig: [0, 1, 2, 3, 4, 5].map(|c| stress[c * nlq..].as_mut_ptr()),
+        hsvs: history.as_mut_ptr(),
+        nhv: HYPERELASTIC_STATE as i32,
+        lft,
+        llt,
+        nlq: nlq as i32,
+        failels: failed.as_mut_ptr(),
     };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    let worst = unsafe { Hyperelastic::umat_vector(&elements, null_mut(), 0) };
     let at = first + at;
     let mut answer = Answer {
         stress: std::array::from_fn(|c| stress[c * nlq + at]),
@@ -360,20 +349,17 @@ pub fn lsdyna_vector(properties: &[f64; HYPERELASTIC_PROPERTIES], f: &[f64; 9], 
     if tangent {
         let mut dsave = vec![0.0; 36 * nlq];
         history[FAILED * nlq..(FAILED + 1) * nlq].fill(0.0);
-        // SAFETY: as above.
-        unsafe {
-            lsdyna::utan_vector_f64(
-                cm.as_ptr(),
-                history.as_ptr(),
-                HYPERELASTIC_STATE as i32,
-                first as i32 + 1,
-                (first + n) as i32,
-                nlq as i32,
-                dsave.as_mut_ptr(),
-                null_mut(),
-                0,
-            )
+        let elements = UtanVector {
+            cm: cm.as_ptr(),
+            hsvs: history.as_ptr(),
+            nhv: HYPERELASTIC_STATE as i32,
+            lft,
+            llt,
+            nlq: nlq as i32,
+            dsave: dsave.as_mut_ptr(),
         };
+        // SAFETY: as above.
+        unsafe { Hyperelastic::utan_vector(&elements, null_mut(), 0) };
         let truesdell = std::array::from_fn(|i| std::array::from_fn(|j| dsave[(6 * i + j) * nlq + at]));
         answer.ddsdde = Some(jaumann(&truesdell, &answer.stress));
     }

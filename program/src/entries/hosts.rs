@@ -7,14 +7,15 @@ use nalgebra::Matrix3;
 
 use super::aligned::Aligned;
 use super::precision::BlockPrecision;
-use toron::Real;
+use toron::host::abaqus::StandardLaw;
 use toron::host::c::{self, HyperelasticLaw, Point};
 use toron::host::calculix::Behaviour;
 use toron::host::mgis::{self, BehaviourDataView, StateView};
 use toron::host::openradioss::{self, card};
-use toron::host::{abaqus, calculix};
+use toron::host::{abaqus, calculix, lsdyna};
 use toron::law::parameters::HYPERELASTIC_PROPERTIES;
 use toron::law::state::HYPERELASTIC_STATE;
+use toron::{Hyperelastic, Real};
 
 /// The law as an entry for points takes it: its properties, which are checked in every call, or prepared from them.
 #[derive(Clone, Copy)]
@@ -103,12 +104,11 @@ impl<T: BlockPrecision> LsdynaElement<T> {
     /// Calls the entry; returns its status.
     #[inline]
     pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
-        let (count, mut failed) = (HYPERELASTIC_STATE as i32, 0);
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe {
-            let (values, stress, history) = (properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr());
-            T::LSDYNA(values, stress, history, count, &mut failed, null_mut(), 0)
-        }
+        let (mut failed, nhv) = (0, HYPERELASTIC_STATE as i32);
+        let (cm, sig, hsv) = (properties.as_ptr(), self.stress.as_mut_ptr(), self.history.as_mut_ptr());
+        let element = lsdyna::Umat { cm, sig, hsv, nhv, failel: &mut failed };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { T::LSDYNA(&element, null_mut(), 0) }
     }
 }
 
@@ -134,14 +134,20 @@ impl<T: BlockPrecision> LsdynaVector<T> {
 
     /// Calls the entry; returns its status.
     pub fn call(&mut self, properties: &[T; HYPERELASTIC_PROPERTIES]) -> i32 {
-        // Each from the first: an array of addresses would be written and then read by parts, for which the processor waits.
-        let (n, s1) = (self.n, self.arrays.as_mut_ptr());
-        let [s2, s3, s4] = [s1.wrapping_add(n), s1.wrapping_add(2 * n), s1.wrapping_add(3 * n)];
-        let [s5, s6, history] = [s1.wrapping_add(4 * n), s1.wrapping_add(5 * n), s1.wrapping_add(6 * n)];
-        let (count, last) = (HYPERELASTIC_STATE as i32, n as i32);
-        let (values, failed, nothing) = (properties.as_ptr(), self.failed.as_mut_ptr(), null_mut());
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe { T::LSDYNA_VECTOR(values, s1, s2, s3, s4, s5, s6, history, count, 1, last, last, failed, nothing, 0) }
+        let (n, s1, last) = (self.n, self.arrays.as_mut_ptr(), self.n as i32);
+        let row = |c: usize| s1.wrapping_add(c * n);
+        let elements = lsdyna::UmatVector {
+            cm: properties.as_ptr(),
+            sig: [row(0), row(1), row(2), row(3), row(4), row(5)],
+            hsvs: row(6),
+            nhv: HYPERELASTIC_STATE as i32,
+            lft: 1,
+            llt: last,
+            nlq: last,
+            failels: self.failed.as_mut_ptr(),
+        };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { T::LSDYNA_VECTOR(&elements, null_mut(), 0) }
     }
 }
 
@@ -281,25 +287,23 @@ impl Umat {
         f: &[f64; 9],
         ddsdde: Option<&mut [[f64; 6]; 6]>,
     ) -> i32 {
-        // SAFETY: the arrays have the sizes that the entry asks for.
-        unsafe {
-            abaqus::umat_tangent_f64(
-                self.stress.as_mut_ptr(),
-                self.statev.as_mut_ptr(),
-                ddsdde.map_or(null_mut(), |rows| rows.as_mut_ptr().cast()),
-                &mut self.sse,
-                &mut self.pnewdt,
-                f.as_ptr(),
-                properties.as_ptr(),
-                HYPERELASTIC_PROPERTIES as i32,
-                HYPERELASTIC_STATE as i32,
-                3,
-                3,
-                1,
-                null_mut(),
-                0,
-            )
-        }
+        let call = abaqus::Umat {
+            stress: self.stress.as_mut_ptr(),
+            statev: self.statev.as_mut_ptr(),
+            ddsdde: ddsdde.map_or(null_mut(), |rows| rows.as_mut_ptr().cast()),
+            sse: &mut self.sse,
+            pnewdt: &mut self.pnewdt,
+            dfgrd0: null(),
+            dfgrd1: f.as_ptr(),
+            props: properties.as_ptr(),
+            nprops: HYPERELASTIC_PROPERTIES as i32,
+            nstatv: HYPERELASTIC_STATE as i32,
+            ndi: 3,
+            nshr: 3,
+            nlgeom: 1,
+        };
+        // SAFETY: the arrays have the sizes that the structure tells.
+        unsafe { Hyperelastic::umat(&call, null_mut(), 0) }
     }
 }
 

@@ -1,8 +1,11 @@
 //! The C entries that there are in both precisions.
 
-use std::ffi::{c_char, c_int};
+use std::ffi::c_char;
 
+use toron::Hyperelastic;
+use toron::host::abaqus::ExplicitLaw;
 use toron::host::c::{self, Block, HyperelasticLaw, LinearBlock, LinearElasticLaw, Point};
+use toron::host::lsdyna::UserRoutines;
 use toron::host::{abaqus, lsdyna, openradioss};
 
 /// Rounding to the precision of an entry.
@@ -33,9 +36,9 @@ pub trait BlockPrecision: openradioss::MyReal + Default + FromF64 + Send + Sync 
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<Self>, LinearBlock<Self>>;
     const POINT: PreparedEntry<HyperelasticLaw<Self>, Point<Self>>;
     const POINT_WITH_PROPERTIES: PropertiesEntry<Self, Point<Self>>;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<Self>, *mut c_char, usize) -> i32;
-    const LSDYNA: LsdynaEntry<Self>;
-    const LSDYNA_VECTOR: LsdynaVectorEntry<Self>;
+    const VUMAT: VumatEntry<Self>;
+    const LSDYNA: Routine<lsdyna::Umat<Self>>;
+    const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<Self>>;
     const OPENRADIOSS: OpenradiossEntry<Self>;
 }
 
@@ -44,24 +47,9 @@ pub type PrepareEntry<L, T> = unsafe extern "C" fn(*mut L, usize, *const T, usiz
 pub type PreparedEntry<L, S> = unsafe extern "C" fn(*const L, *const S, *mut c_char, usize) -> i32;
 pub type PropertiesEntry<T, S> = unsafe extern "C" fn(*const T, usize, *const S, *mut c_char, usize) -> i32;
 pub type OpenradiossEntry<T> = unsafe fn(&openradioss::Group<T>, *mut c_char, usize) -> i32;
-pub type LsdynaEntry<T> = unsafe extern "C" fn(*const T, *mut T, *mut T, i32, *mut c_int, *mut c_char, usize) -> i32;
-pub type LsdynaVectorEntry<T> = unsafe extern "C" fn(
-    *const T,
-    *mut T,
-    *mut T,
-    *mut T,
-    *mut T,
-    *mut T,
-    *mut T,
-    *mut T,
-    i32,
-    i32,
-    i32,
-    i32,
-    *mut c_int,
-    *mut c_char,
-    usize,
-) -> i32;
+pub type VumatEntry<T> = unsafe fn(*const abaqus::Vumat<T>, *mut c_char, usize) -> i32;
+/// A routine of a solver, whose arguments are a structure.
+pub type Routine<S> = unsafe fn(&S, *mut c_char, usize) -> i32;
 
 impl BlockPrecision for f64 {
     const PREPARE: PrepareEntry<HyperelasticLaw<f64>, f64> = c::hyperelastic_prepare_f64;
@@ -71,9 +59,9 @@ impl BlockPrecision for f64 {
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f64>, LinearBlock<f64>> = c::linear_elastic_block_f64;
     const POINT: PreparedEntry<HyperelasticLaw<f64>, Point<f64>> = c::hyperelastic_point_f64;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f64, Point<f64>> = c::hyperelastic_point_with_properties_f64;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f64>, *mut c_char, usize) -> i32 = abaqus::vumat_f64;
-    const LSDYNA: LsdynaEntry<f64> = lsdyna::umat_f64;
-    const LSDYNA_VECTOR: LsdynaVectorEntry<f64> = lsdyna::umat_vector_f64;
+    const VUMAT: VumatEntry<f64> = <Hyperelastic<f64>>::vumat;
+    const LSDYNA: Routine<lsdyna::Umat<f64>> = <Hyperelastic<f64>>::umat;
+    const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f64>> = <Hyperelastic<f64>>::umat_vector;
     const OPENRADIOSS: OpenradiossEntry<f64> = openradioss::entries::group_f64;
 }
 
@@ -85,8 +73,8 @@ impl BlockPrecision for f32 {
     const LINEAR_BLOCK: PreparedEntry<LinearElasticLaw<f32>, LinearBlock<f32>> = c::linear_elastic_block_f32;
     const POINT: PreparedEntry<HyperelasticLaw<f32>, Point<f32>> = c::hyperelastic_point_f32;
     const POINT_WITH_PROPERTIES: PropertiesEntry<f32, Point<f32>> = c::hyperelastic_point_with_properties_f32;
-    const VUMAT: unsafe extern "C" fn(*const abaqus::Vumat<f32>, *mut c_char, usize) -> i32 = abaqus::vumat_f32;
-    const LSDYNA: LsdynaEntry<f32> = lsdyna::umat_f32;
-    const LSDYNA_VECTOR: LsdynaVectorEntry<f32> = lsdyna::umat_vector_f32;
+    const VUMAT: VumatEntry<f32> = <Hyperelastic<f32>>::vumat;
+    const LSDYNA: Routine<lsdyna::Umat<f32>> = <Hyperelastic<f32>>::umat;
+    const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f32>> = <Hyperelastic<f32>>::umat_vector;
     const OPENRADIOSS: OpenradiossEntry<f32> = openradioss::entries::group_f32;
 }

@@ -14,7 +14,7 @@ use super::push_forward::{cauchy_of_second, truesdell_of_material};
 use crate::common::error::Error;
 use crate::common::toml_error::shortened;
 use crate::entries::evaluation::{self, Answer};
-use toron::host::abaqus;
+use crate::entries::precision::BlockPrecision;
 use toron::law::state::{ENERGIES, FAILED, FAILURE_INDEX, INVARIANTS};
 use toron::law::{status, stress};
 
@@ -208,10 +208,8 @@ fn evaluate_point(entry: Entry, tangent: bool, point: &Input, line: usize) -> Ou
         Entry::Block => evaluation::block(&properties, &columns, line, tangent),
         Entry::BlockF32 => evaluation::block(&properties.map(single), &columns.map(single), line, tangent),
         Entry::Umat => evaluation::umat(&properties, &columns, tangent),
-        Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, abaqus::vumat_f64)),
-        Entry::VumatSp => {
-            via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x as f32, abaqus::vumat_f32))
-        }
+        Entry::Vumat => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x, f64::VUMAT)),
+        Entry::VumatSp => via_vumat(&f, |stretch| evaluation::vumat(&properties, stretch, |x| x as f32, f32::VUMAT)),
         Entry::LsDyna => evaluation::lsdyna(&properties, &columns, tangent),
         Entry::LsDynaVector => evaluation::lsdyna_vector(&properties, &columns, line, tangent),
         Entry::Mgis => via_mgis(&f, evaluation::mgis(&properties, &columns, tangent)),

@@ -7,12 +7,13 @@ use std::collections::BTreeSet;
 use std::ffi::c_char;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::ptr::{null, null_mut};
 
 use crate::library::{LIBRARY, ROOT, SYSTEM, folder, run};
 use nalgebra::{Matrix3, Vector3};
-use toron::host::abaqus::umat_f64;
+use toron::host::abaqus::{StandardLaw, Umat};
 use toron::host::c::TORON_MESSAGE_CAPACITY;
-use toron::host::lsdyna;
+use toron::host::lsdyna::{self, UserRoutines};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{self, DENSITY, Dimension, FIBRE, PRESETS, Preset, Property};
 use toron::law::state::{self, ENERGIES, FAILED, HYPERELASTIC_STATE, INVARIANTS, StateVariable};
@@ -145,22 +146,32 @@ fn answer(entry: impl FnOnce(*mut c_char, usize) -> i32) -> (i32, String) {
 fn umat(properties: &[f64], state: i32, direct: i32, nlgeom: i32) -> (i32, String) {
     let f = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let (mut stress, mut statev, mut energy, mut step) = ([0.0; 6], [0.0; 11], 0.0, 1.0);
-    let (s, v, f, p) = (stress.as_mut_ptr(), statev.as_mut_ptr(), f.as_ptr(), properties.as_ptr());
-    let count = properties.len() as i32;
-    // SAFETY: the arrays have the sizes that a UMAT needs.
-    answer(|message, capacity| unsafe {
-        umat_f64(s, v, &mut energy, &mut step, f, p, count, state, direct, 3, nlgeom, message, capacity)
-    })
+    let call = Umat {
+        stress: stress.as_mut_ptr(),
+        statev: statev.as_mut_ptr(),
+        ddsdde: null_mut(),
+        sse: &mut energy,
+        pnewdt: &mut step,
+        dfgrd0: null(),
+        dfgrd1: f.as_ptr(),
+        props: properties.as_ptr(),
+        nprops: properties.len() as i32,
+        nstatv: state,
+        ndi: direct,
+        nshr: 3,
+        nlgeom,
+    };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    answer(|message, capacity| unsafe { <Hyperelastic as StandardLaw>::umat(&call, message, capacity) })
 }
 
 /// An element of LS-DYNA whose history holds no F.
 fn element_without_f(properties: &[f64]) -> (i32, String) {
     let (mut stress, mut history, mut failed) = ([0.0; 6], [0.0; 20], 0);
-    let (s, h) = (stress.as_mut_ptr(), history.as_mut_ptr());
-    // SAFETY: the arrays have the sizes that the material needs.
-    answer(|message, capacity| unsafe {
-        lsdyna::umat_f64(properties.as_ptr(), s, h, 11, &mut failed, message, capacity)
-    })
+    let (cm, sig, hsv) = (properties.as_ptr(), stress.as_mut_ptr(), history.as_mut_ptr());
+    let call = lsdyna::Umat { cm, sig, hsv, nhv: 11, failel: &mut failed };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    answer(|message, capacity| unsafe { <Hyperelastic as UserRoutines<f64>>::umat(&call, message, capacity) })
 }
 
 /// What a VUMAT with a wrong property says, with the prefix that the shim writes.

@@ -11,9 +11,6 @@
 macro_rules! openradioss_symbols {
     ($t:ty; $laws:expr) => {
         const _: () = {
-            use std::ffi::c_char;
-            use $crate::openradioss::{engine, starter};
-
             static LAWS: $crate::toron::host::openradioss::Laws<$t> = $laws;
 
             /// # Safety
@@ -33,7 +30,7 @@ macro_rules! openradioss_symbols {
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn st_lecm99_(
                 ilaw: *const i32,
-                rootn: *const c_char,
+                rootn: *const ::core::ffi::c_char,
                 rootlen: *const i32,
                 number: *const i32,
                 uparam: *mut $t,
@@ -48,7 +45,11 @@ macro_rules! openradioss_symbols {
                 // SAFETY: the solver's promise.
                 unsafe {
                     let root = std::slice::from_raw_parts(rootn.cast::<u8>(), usize::try_from(*rootlen).unwrap_or(0));
-                    let Some(material) = starter::material(&LAWS, *ilaw, root, *number, *maxuparam) else { return };
+                    let Some(material) =
+                        $crate::openradioss::starter::material(&LAWS, *ilaw, root, *number, *maxuparam)
+                    else {
+                        return;
+                    };
                     uparam.copy_from_nonoverlapping(material.uparam.as_ptr(), material.uparam.len());
                     (*nuparam, *nuvar, *nfunc) = (material.uparam.len() as i32, material.variables as i32, 0);
                     *parmat = material.modulus;
@@ -103,7 +104,7 @@ macro_rules! openradioss_symbols {
                 density: *const $t,
             ) {
                 // SAFETY: the solver's promise.
-                engine::begin::<$t>(unsafe { *material }, density);
+                $crate::openradioss::engine::begin::<$t>(unsafe { *material }, density);
             }
 
             /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's vector length.
@@ -132,7 +133,9 @@ macro_rules! openradioss_symbols {
                 fpsxz: *const $t,
                 _size_fpsxz: *const i32,
             ) {
-                engine::deform::<$t>([fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz]);
+                $crate::openradioss::engine::deform::<$t>([
+                    fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz,
+                ]);
             }
 
             /// The third call: counts and arrays of the group. The law is not evaluated yet, since the arrays for its stress come with
@@ -165,7 +168,7 @@ macro_rules! openradioss_symbols {
             ) {
                 // SAFETY: the solver's promise.
                 let (nel, nuparam, nuvar, number, time) = unsafe { (*nel, *nuparam, *nuvar, *number, *time) };
-                engine::group::<$t>(number, |group| {
+                $crate::openradioss::engine::group::<$t>(number, |group| {
                     (group.elements, group.parameters, group.variables, group.time) = (nel, nuparam, nuvar, time);
                     (group.uparam, group.numbers, group.sound_speed) = (uparam, ngl, soundsp);
                     (group.uvar, group.off) = (uvar, off);
@@ -187,7 +190,9 @@ macro_rules! openradioss_symbols {
                 signzx: *mut $t,
             ) {
                 // SAFETY: the solver's promise.
-                unsafe { engine::evaluate::<$t>(&LAWS, [signxx, signyy, signzz, signxy, signyz, signzx]) };
+                unsafe {
+                    $crate::openradioss::engine::evaluate::<$t>(&LAWS, [signxx, signyy, signzz, signxy, signyz, signzx])
+                };
             }
 
             /// The fifth call: nothing else is output.

@@ -21,8 +21,8 @@
 mod umat;
 mod vumat;
 
-pub use umat::{StandardLaw, linear_umat_f64, umat_f64, umat_tangent_f64};
-pub use vumat::{ExplicitLaw, Vumat, linear_vumat_f32, linear_vumat_f64, vumat_f32, vumat_f64};
+pub use umat::{StandardLaw, Umat};
+pub use vumat::{ExplicitLaw, Vumat};
 
 use crate::law::bounds::wrong_number;
 use crate::law::error::Error;

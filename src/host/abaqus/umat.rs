@@ -26,185 +26,177 @@ use crate::law::voigt::Moduli;
 /// The value that PNEWDT is lowered to if a point cannot be evaluated.
 const CUTBACK: f64 = 0.25;
 
-/// Checks the arguments of a UMAT, evaluates its point with or without DDSDDE and stores the results. Returns the status code.
+/// The arguments of a UMAT that the laws use, with Abaqus's names. Who makes one promises that every array that is not null has as many
+/// values as its field says, valid for what it is used for.
+#[derive(Clone, Copy, Debug)]
+pub struct Umat {
+    /// Out, `ntens` = `ndi` + `nshr`: Cauchy stress.
+    pub stress: *mut f64,
+    /// In and out, `nstatv`: the law's state variables, or more.
+    pub statev: *mut f64,
+    /// Out, `ntens` × `ntens`: the modulus of the Jaumann rate of the Kirchhoff stress, over J. Null: not computed.
+    pub ddsdde: *mut f64,
+    /// Out, 1: energy per current volume.
+    pub sse: *mut f64,
+    /// In and out, 1.
+    pub pnewdt: *mut f64,
+    /// In, 9: F by columns at the start of the increment, for a law that reads it, and at its end.
+    pub dfgrd0: *const f64,
+    pub dfgrd1: *const f64,
+    /// In, `nprops`: the law's properties.
+    pub props: *const f64,
+    pub nprops: i32,
+    pub nstatv: i32,
+    /// Numbers of direct components, 3, and of shear components, 3, or 1 for plane strain and axisymmetric solids.
+    pub ndi: i32,
+    pub nshr: i32,
+    /// JSTEP(3), which is not 0 with NLGEOM=YES.
+    pub nlgeom: i32,
+}
+
+impl Umat {
+    /// The properties, and the law that is prepared from them.
+    ///
+    /// # Errors
+    /// The first argument that is wrong.
+    fn law<L: Law<f64>>(&self) -> Result<L, Error> {
+        // A law that does not read DFGRD0 need not be given one.
+        let dfgrd0 = if L::DESCRIPTION.reads_old_gradient { self.dfgrd0 } else { self.dfgrd1 };
+        check_pointers(&[
+            (self.stress.cast_const(), "stress"),
+            (self.statev, "statev"),
+            (self.sse, "sse"),
+            (self.pnewdt, "pnewdt"),
+            (dfgrd0, if L::DESCRIPTION.reads_old_gradient { "dfgrd0" } else { "dfgrd1" }),
+            (self.dfgrd1, "dfgrd1"),
+            (self.props, "props"),
+        ])?;
+        if self.nlgeom == 0 {
+            let text = "there is no deformation gradient: the step is geometrically linear, give *STEP, NLGEOM=YES";
+            return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
+        }
+        check_counts(self.ndi, self.nshr, UMAT_COUNTS, self.nstatv, L::DESCRIPTION.state.len())?;
+        let table = L::DESCRIPTION.properties;
+        // SAFETY: there are `nprops`.
+        let values = unsafe { properties(self.props, property_count(self.nprops, table)?, table) }?;
+        let law = L::new(values)?;
+        if self.nshr == 1 {
+            check_plane(&law, values)?;
+        }
+        Ok(law)
+    }
+}
+
+/// A law as a UMAT of Abaqus/Standard.
+pub trait StandardLaw: Law<f64> {
+    /// The UMAT. Returns the status code, with a message of at most `capacity` bytes unless `message` is null.
+    ///
+    /// # Safety
+    /// The arrays are those that [`Umat`] promises, and `message` is null or has `capacity` bytes.
+    #[inline(never)]
+    unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the message is the caller's.
+        unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
+    }
+}
+
+impl<M: UserMaterial> StandardLaw for User<M, f64> {}
+
+impl StandardLaw for LinearElastic<f64> {
+    #[inline(never)]
+    unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: as above.
+        unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
+    }
+}
+
+impl StandardLaw for Hyperelastic<f64> {
+    #[inline(always)]
+    unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
+        let message = Message { text: message, capacity };
+        // SAFETY: as above.
+        unsafe { if call.ddsdde.is_null() { without_tangent(call, message) } else { with_tangent(call, message) } }
+    }
+}
+
+/// # Safety
+/// As for [`StandardLaw::umat`].
+#[inline(never)]
+unsafe fn without_tangent(call: &Umat, message: Message) -> i32 {
+    // SAFETY: the caller's arrays and message.
+    unsafe { hyperelastic(call, message, Stress::<true>) }
+}
+
+/// # Safety
+/// As for [`StandardLaw::umat`]; DDSDDE is not null.
+#[inline(never)]
+unsafe fn with_tangent(call: &Umat, message: Message) -> i32 {
+    // SAFETY: as above.
+    unsafe { hyperelastic(call, message, JaumannModulus) }
+}
+
+/// The UMAT of the hyperelastic law, by its kernel of one point.
 ///
 /// # Safety
-/// As documented for `toron_abaqus_umat_tangent_f64` in package `toron-c`; `ddsdde` is not null if `tangent` is DDSDDE.
-#[allow(clippy::too_many_arguments)]
+/// As for [`StandardLaw::umat`]; DDSDDE is there if `tangent` is that.
 #[inline(always)]
-unsafe fn umat<D: Derivative<N>, const N: usize>(
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-    message: Message,
-    tangent: D,
-) -> i32
+unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, message: Message, tangent: D) -> i32
 where
-    for<'a> &'a Umat<'a>: Sink<f64, N>,
+    for<'a> &'a Results<'a>: Sink<f64, N>,
 {
-    let usual = (ndi ^ 3) | (nshr ^ 3) | (nprops ^ parameters::HYPERELASTIC_PROPERTIES as i32) == 0;
-    let usual = usual && nstatv >= HYPERELASTIC_STATE as i32 && nlgeom != 0;
-    let missing = stress.is_null() || statev.is_null() || sse.is_null() || pnewdt.is_null();
-    if !usual || missing || dfgrd1.is_null() || props.is_null() {
+    let usual = (call.ndi ^ 3) | (call.nshr ^ 3) | (call.nprops ^ parameters::HYPERELASTIC_PROPERTIES as i32) == 0;
+    let usual = usual && call.nstatv >= HYPERELASTIC_STATE as i32 && call.nlgeom != 0;
+    let missing = call.stress.is_null() || call.statev.is_null() || call.sse.is_null() || call.pnewdt.is_null();
+    if !usual || missing || call.dfgrd1.is_null() || call.props.is_null() {
         // Every argument is looked at only if one of them is wrong, or if the element is two-dimensional.
-        let pointers = [
-            (stress.cast_const(), "stress"),
-            (statev, "statev"),
-            (sse, "sse"),
-            (pnewdt, "pnewdt"),
-            (dfgrd1, "dfgrd1"),
-            (props, "props"),
-        ];
-        // SAFETY: the caller's promise.
-        let code = unsafe {
-            entry(message, || {
-                check_pointers(&pointers)?;
-                check_umat(nstatv, ndi, nshr, nlgeom, HYPERELASTIC_STATE)?;
-                let properties =
-                    properties(props, property_count(nprops, &parameters::HYPERELASTIC)?, &parameters::HYPERELASTIC)?;
-                if nshr == 1 {
-                    check_plane(&Hyperelastic::new(properties)?, properties)?;
-                }
-                Ok(status::OK)
-            })
-        };
+        // SAFETY: the message is the caller's.
+        let code = unsafe { entry(message, || call.law::<Hyperelastic>().map(|_| status::OK)) };
         if code != status::OK {
             return code;
         }
     }
     let status = Cell::new(status::OK);
-    let arguments = Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd1, shear: nshr, status: &status };
-    let sink = &arguments;
+    let results = Results { call, status: &status };
+    let sink = &results;
     let body = move || {
-        // SAFETY: not null, and the caller's promise.
+        // SAFETY: not null, and of the sizes that `Umat` promises.
         let (source, f, state) = unsafe {
             (
-                slice::from_raw_parts(props, parameters::HYPERELASTIC_PROPERTIES),
-                &*sink.dfgrd1.cast::<[[f64; 3]; 3]>(),
-                &*sink.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
+                slice::from_raw_parts(sink.call.props, parameters::HYPERELASTIC_PROPERTIES),
+                &*sink.call.dfgrd1.cast::<[[f64; 3]; 3]>(),
+                &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )
         };
         evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the caller's.
     unsafe { entry(message, body) }
 }
 
-/// Checks the numbers of a UMAT.
-///
-/// # Errors
-/// The first that is wrong.
-#[cold]
-fn check_umat(nstatv: i32, ndi: i32, nshr: i32, nlgeom: i32, state: usize) -> Result<(), Error> {
-    if nlgeom == 0 {
-        let text = "there is no deformation gradient: the step is geometrically linear, give *STEP, NLGEOM=YES";
-        return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
-    }
-    check_counts(ndi, nshr, UMAT_COUNTS, nstatv, state)
-}
-
-/// `toron_abaqus_umat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_f64(
-    stress: *mut f64,
-    statev: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    let (ddsdde, message) = (core::ptr::null_mut(), Message { text: message, capacity });
-    let tangent = Stress::<true>;
-    // SAFETY: the caller's promise.
-    unsafe {
-        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
-    }
-}
-
-/// `toron_abaqus_umat_tangent_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn umat_tangent_f64(
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        if ddsdde.is_null() {
-            return umat_f64(
-                stress, statev, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, capacity,
-            );
-        }
-        let (message, tangent) = (Message { text: message, capacity }, JaumannModulus);
-        umat(stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message, tangent)
-    }
-}
-
-/// The arrays of a UMAT, for which the caller answers, as a sink: by reference, so that only its address is passed down.
-struct Umat<'a> {
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd1: *const f64,
-    shear: i32,
+/// Where the results of a point go: by reference, so that only its address is passed down.
+struct Results<'a> {
+    call: &'a Umat,
     status: &'a Cell<i32>,
 }
 
-impl Umat<'_> {
+impl Results<'_> {
     /// Stores all results except DDSDDE.
     #[inline(always)]
     fn put(&self, point: &Point<f64>, inverse_jacobian: Option<f64>) {
         let [s11, s22, s33, s12, s23, s31] = point.stress;
-        // SAFETY: ntens entries, for ntens = 6 or 4, and as many state variables as the law has.
+        // SAFETY: `Umat` promises ntens entries, 6 or 4, and as many state variables as the law has.
         unsafe {
-            *self.stress.cast() = [s11, s22, s33, s12];
-            if self.shear == 3 {
-                *self.stress.add(4).cast() = [s31, s23];
+            *self.call.stress.cast() = [s11, s22, s33, s12];
+            if self.call.nshr == 3 {
+                *self.call.stress.add(4).cast() = [s31, s23];
             }
             let Some(inverse_jacobian) = inverse_jacobian else { return self.keep(point) };
             // The sum of the energies of a point that can be evaluated fits the number format; a check here took 6 % of the call.
             let energy = sum_of_energies(point);
             let current = energy * inverse_jacobian;
-            *self.statev.cast() = point.state;
-            *self.sse = if current < f64::INFINITY { current } else { energy };
+            *self.call.statev.cast() = point.state;
+            *self.call.sse = if current < f64::INFINITY { current } else { energy };
         }
     }
 
@@ -219,10 +211,10 @@ impl Umat<'_> {
         // SAFETY: as many state variables as the law has; nine entries of F.
         unsafe {
             if self.status.get() == status::OK {
-                *self.statev.cast() = point.state;
-                *self.sse = current_density(energy, determinant(&*self.dfgrd1.cast()));
+                *self.call.statev.cast() = point.state;
+                *self.call.sse = current_density(energy, determinant(&*self.call.dfgrd1.cast()));
             } else {
-                *self.pnewdt = (*self.pnewdt).min(CUTBACK);
+                *self.call.pnewdt = (*self.call.pnewdt).min(CUTBACK);
             }
         }
     }
@@ -235,14 +227,14 @@ fn sum_of_energies(point: &Point<f64>) -> f64 {
     ((w_el + w_tc) + w_td) + w_ld
 }
 
-impl Sink<f64, 0> for &Umat<'_> {
+impl Sink<f64, 0> for &Results<'_> {
     #[inline(always)]
     fn take(self, point: Point<f64>, inverse_jacobian: Option<f64>, _: [f64; 0]) {
         self.put(&point, inverse_jacobian);
     }
 }
 
-impl Sink<f64, 21> for &Umat<'_> {
+impl Sink<f64, 21> for &Results<'_> {
     #[inline(always)]
     fn take(self, point: Point<f64>, inverse_jacobian: Option<f64>, moduli: [f64; 21]) {
         let [r1, r2, r3, r4, r5, r6] = Moduli(moduli).matrix();
@@ -250,11 +242,11 @@ impl Sink<f64, 21> for &Umat<'_> {
         let [r5, r6] = [abaqus_order(r5), abaqus_order(r6)];
         // SAFETY: ntens² entries, for ntens = 6 or 4.
         unsafe {
-            if self.shear == 3 {
-                *self.ddsdde.cast() = [r1, r2, r3, r4, r6, r5];
+            if self.call.nshr == 3 {
+                *self.call.ddsdde.cast() = [r1, r2, r3, r4, r6, r5];
             } else {
                 for (k, [c1, c2, c3, c4, ..]) in [r1, r2, r3, r4].into_iter().enumerate() {
-                    *self.ddsdde.cast::<[f64; 4]>().add(k) = [c1, c2, c3, c4];
+                    *self.call.ddsdde.cast::<[f64; 4]>().add(k) = [c1, c2, c3, c4];
                 }
             }
         }
@@ -281,238 +273,50 @@ fn current_density(energy: f64, jacobian: f64) -> f64 {
     if jacobian > 0.0 && current.is_finite() { current } else { energy }
 }
 
-/// The UMAT of a law by its step at one point, with DDSDDE unless that is null. Returns the status code.
+/// The UMAT of a law by its step at one point.
 ///
 /// # Errors
 /// The first argument that is wrong.
 ///
 /// # Safety
-/// As documented for `toron_abaqus_linear_umat_f64` in package `toron-c`.
-#[allow(clippy::too_many_arguments)]
-unsafe fn step<L: Law<f64>>(
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd0: *const f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-) -> Result<i32, Error> {
-    check_pointers(&[
-        (stress.cast_const(), "stress"),
-        (statev, "statev"),
-        (sse, "sse"),
-        (pnewdt, "pnewdt"),
-        (dfgrd0, "dfgrd0"),
-        (dfgrd1, "dfgrd1"),
-        (props, "props"),
-    ])?;
-    let table = L::DESCRIPTION.properties;
-    check_umat(nstatv, ndi, nshr, nlgeom, L::DESCRIPTION.state.len())?;
-    // SAFETY: the caller's promise, here and below.
-    let values = unsafe { properties(props, property_count(nprops, table)?, table) }?;
-    let law = L::new(values)?;
-    if nshr == 1 {
-        check_plane(&law, values)?;
-    }
+/// As for [`StandardLaw::umat`].
+unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
+    let law: L = call.law()?;
     let (mut sigma, mut state, mut tangent) = ([0.0; 6], L::fresh(), [[0.0; 6]; 6]);
-    let wanted = !ddsdde.is_null();
+    let wanted = !call.ddsdde.is_null();
     let point = Points {
-        f_old: components(dfgrd0, 1),
-        f_new: components(dfgrd1, 1),
-        state_old: statev.cast_const(),
+        f_old: components(if L::DESCRIPTION.reads_old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
+        f_new: components(call.dfgrd1, 1),
+        state_old: call.statev.cast_const(),
         state_new: state.as_mut().as_mut_ptr(),
         stress: components_mut(sigma.as_mut_ptr(), 1),
         tangent: if wanted { tangent.as_mut_ptr().cast() } else { core::ptr::null_mut() },
         measure: Measure::Jaumann,
         ..Points::without_arrays(1, 1)
     };
+    // SAFETY: the arrays are not null and those that `Umat` promises, or of one point here.
     let code = unsafe { law.step(&point) }?;
-    let components = if nshr == 3 { 6 } else { 4 };
+    let components = if call.nshr == 3 { 6 } else { 4 };
+    // SAFETY: ntens components, and as many state variables as the law has.
     unsafe {
         for (to, from) in (0..components).zip(IN_ABAQUS) {
-            *stress.add(to) = component(&sigma, from);
+            *call.stress.add(to) = component(&sigma, from);
         }
         if wanted {
             for (column, from) in (0..components).zip(IN_ABAQUS) {
                 for (row, entries) in (0..components).zip(IN_ABAQUS.map(|row| tangent.get(row))) {
-                    *ddsdde.add(components * column + row) = entries.map_or(0.0, |row| component(row, from));
+                    *call.ddsdde.add(components * column + row) = entries.map_or(0.0, |row| component(row, from));
                 }
             }
         }
         if code == status::OK {
-            *statev.cast() = state;
-            *sse = current_density(L::DESCRIPTION.energy(state.as_ref()), determinant(&*dfgrd1.cast()));
+            *call.statev.cast() = state;
+            *call.sse = current_density(L::DESCRIPTION.energy(state.as_ref()), determinant(&*call.dfgrd1.cast()));
         } else {
-            *pnewdt = (*pnewdt).min(CUTBACK);
+            *call.pnewdt = (*call.pnewdt).min(CUTBACK);
         }
     }
     Ok(code)
-}
-
-/// The UMAT of a law by its step.
-///
-/// # Safety
-/// As documented for `toron_abaqus_linear_umat_f64` in package `toron-c`.
-#[allow(clippy::too_many_arguments)]
-#[inline(always)]
-unsafe fn of_law<L: Law<f64>>(
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd0: *const f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        entry(Message { text: message, capacity }, move || {
-            step::<L>(stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom)
-        })
-    }
-}
-
-/// A law as a UMAT of Abaqus/Standard.
-pub trait StandardLaw: Law<f64> {
-    /// The UMAT, with the arguments of `toron_abaqus_linear_umat_f64` in package `toron-c`, of which `dfgrd0` is read where the law's
-    /// description says so, and `ddsdde` may be null. Returns the status code.
-    ///
-    /// # Safety
-    /// As documented there, with as many properties and state variables as the law has.
-    #[allow(clippy::too_many_arguments)]
-    #[inline(never)]
-    unsafe fn umat(
-        stress: *mut f64,
-        statev: *mut f64,
-        ddsdde: *mut f64,
-        sse: *mut f64,
-        pnewdt: *mut f64,
-        dfgrd0: *const f64,
-        dfgrd1: *const f64,
-        props: *const f64,
-        nprops: i32,
-        nstatv: i32,
-        ndi: i32,
-        nshr: i32,
-        nlgeom: i32,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            of_law::<Self>(
-                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
-                capacity,
-            )
-        }
-    }
-}
-
-impl<M: UserMaterial> StandardLaw for User<M, f64> {}
-
-impl StandardLaw for Hyperelastic<f64> {
-    #[inline(always)]
-    unsafe fn umat(
-        stress: *mut f64,
-        statev: *mut f64,
-        ddsdde: *mut f64,
-        sse: *mut f64,
-        pnewdt: *mut f64,
-        _dfgrd0: *const f64,
-        dfgrd1: *const f64,
-        props: *const f64,
-        nprops: i32,
-        nstatv: i32,
-        ndi: i32,
-        nshr: i32,
-        nlgeom: i32,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            umat_tangent_f64(
-                stress, statev, ddsdde, sse, pnewdt, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
-                capacity,
-            )
-        }
-    }
-}
-
-impl StandardLaw for LinearElastic<f64> {
-    #[inline(always)]
-    unsafe fn umat(
-        stress: *mut f64,
-        statev: *mut f64,
-        ddsdde: *mut f64,
-        sse: *mut f64,
-        pnewdt: *mut f64,
-        dfgrd0: *const f64,
-        dfgrd1: *const f64,
-        props: *const f64,
-        nprops: i32,
-        nstatv: i32,
-        ndi: i32,
-        nshr: i32,
-        nlgeom: i32,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            linear_umat_f64(
-                stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
-                capacity,
-            )
-        }
-    }
-}
-
-/// `toron_abaqus_linear_umat_f64` of the C interface; package `toron-c` documents its arguments.
-///
-/// # Safety
-/// As documented there.
-#[allow(clippy::too_many_arguments)]
-#[inline(never)]
-pub unsafe extern "C" fn linear_umat_f64(
-    stress: *mut f64,
-    statev: *mut f64,
-    ddsdde: *mut f64,
-    sse: *mut f64,
-    pnewdt: *mut f64,
-    dfgrd0: *const f64,
-    dfgrd1: *const f64,
-    props: *const f64,
-    nprops: i32,
-    nstatv: i32,
-    ndi: i32,
-    nshr: i32,
-    nlgeom: i32,
-    message: *mut c_char,
-    capacity: size_t,
-) -> i32 {
-    // SAFETY: the caller's promise.
-    unsafe {
-        of_law::<LinearElastic>(
-            stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom, message,
-            capacity,
-        )
-    }
 }
 
 /// The law's components 11 22 33 12 23 31 in Abaqus's order.

@@ -24,8 +24,8 @@ pub struct Vumat<T> {
     /// The size of this structure.
     pub size: size_t,
     /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-    /// caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (≥ 11, linear law ≥ 10) and of
-    /// properties (11, linear law 10).
+    /// caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
+    /// more) and of properties (the law's).
     pub nblock: i32,
     pub ndir: i32,
     pub nshr: i32,
@@ -70,10 +70,10 @@ macro_rules! at {
 }
 
 /// # Safety
-/// As for `toron_abaqus_vumat_f64`.
+/// As for [`ExplicitLaw::vumat`].
 unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
     let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    // SAFETY: null, or a structure of its size.
     let block = unsafe { read(block, &mut room) }?;
     check_pointers(&[
         (block.props, "props"),
@@ -97,13 +97,13 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     };
     let level = level(block.level)?;
     let table = L::DESCRIPTION.properties;
-    // SAFETY: not null, and the caller's promise.
+    // SAFETY: there are `nprops`.
     let values = unsafe { properties(block.props, property_count(block.nprops, table)?, table) }?;
     let law = L::new(values)?;
     if block.nshr == 1 {
         check_plane(&law, values)?;
     }
-    // SAFETY: the caller's promise, from here on.
+    // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
             // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
@@ -133,7 +133,7 @@ unsafe fn elastic_check<L: Law<T>, T: Precision>(law: &L, block: &Vumat<T>, n: u
     let components = 3 + block.nshr as usize;
     let two_g = T::splat(2.0) * shear;
     let lame = bulk - two_g * T::splat(1.0 / 3.0);
-    // SAFETY: the caller's promise.
+    // SAFETY: i < nblock, and c below the array's number of components.
     unsafe {
         for i in 0..n {
             let strain = |c: usize| at!(block.strain_inc, block, c, i);
@@ -209,7 +209,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
             level,
             ..Points::without_arrays(CHUNK.min(n - start), n)
         };
-        // SAFETY: the caller's promise; the arrays are those of n points from `start` on.
+        // SAFETY: the arrays are those of n points from `start` on.
         worst = worst.min(unsafe { law.step(&points) }?);
         for (i, &code) in (start..n).zip(&codes) {
             // SAFETY: i < n.
@@ -227,7 +227,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
 /// As for [`vumat`], for a point i < nblock whose new state is written.
 unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32) {
     let (zero, half, one) = (T::splat(0.0), T::splat(0.5), T::splat(1.0));
-    // SAFETY: the caller's promise.
+    // SAFETY: i < nblock, and c below the array's number of components.
     unsafe {
         if code != status::OK {
             at!(block.state_new, block, L::DESCRIPTION.failed, i) = one;
@@ -255,43 +255,34 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
 
 /// A law as a VUMAT of Abaqus/Explicit, for jobs in the precision of `T`.
 pub trait ExplicitLaw<T: Precision>: Law<T> {
-    /// The VUMAT, with the arguments of `toron_abaqus_vumat_f64` in package `toron-c`. Returns the worst status code.
+    /// The VUMAT. Returns the worst status code, with a message of at most `capacity` bytes unless `message` is null.
     ///
     /// # Safety
-    /// As documented there, with as many properties and state variables as the law has.
+    /// `block` is null or points to as many bytes as its size says, its arrays that are not null have the sizes that its fields say, and
+    /// `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the caller's block and message.
         unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block)) }
     }
 }
 
 impl<M: UserMaterial, T: Precision> ExplicitLaw<T> for User<M, T> {}
 
-/// The entry of the C interface for a law in one precision.
-macro_rules! entries {
-    ($law:ident, $t:ty: $vumat:ident) => {
-        /// The entry of the C interface with `toron_abaqus_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[inline(never)]
-        pub unsafe extern "C" fn $vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || vumat::<$law<$t>, $t>(block)) }
-        }
-
+/// The VUMAT of a law, compiled here in one precision, once for whatever package uses it.
+macro_rules! compiled {
+    ($law:ident, $t:ty) => {
         impl ExplicitLaw<$t> for $law<$t> {
-            #[inline(always)]
+            #[inline(never)]
             unsafe fn vumat(block: *const Vumat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { $vumat(block, message, capacity) }
+                // SAFETY: as in the trait.
+                unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, $t>(block)) }
             }
         }
     };
 }
 
-entries!(Hyperelastic, f64: vumat_f64);
-entries!(Hyperelastic, f32: vumat_f32);
-entries!(LinearElastic, f64: linear_vumat_f64);
-entries!(LinearElastic, f32: linear_vumat_f32);
+compiled!(Hyperelastic, f64);
+compiled!(Hyperelastic, f32);
+compiled!(LinearElastic, f64);
+compiled!(LinearElastic, f32);

@@ -1,9 +1,7 @@
 //! Any law as a user material of LS-DYNA, by its step.
 
-use core::ffi::c_int;
-
 use super::message::History;
-use super::{Elements, element_range, law};
+use super::{Elements, Umat, UmatVector, Utan, UtanVector, element_range, law};
 use crate::host::border::{check_pointers, from_entry, start_at_rest};
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
@@ -57,40 +55,28 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
     Ok(worst)
 }
 
-/// The vectorised material routine: the elements `range` of a block.
+/// The vectorised material routine.
 ///
 /// # Safety
-/// As for [`evaluate`], for arrays that are not null.
-pub(super) unsafe fn vector<T: Precision, L: History<T>>(
-    cm: *const T,
-    stress: [*mut T; 6],
-    hsvs: *mut T,
-    nhv: i32,
-    range: [i32; 3],
-    failels: *mut c_int,
-) -> Result<i32, Error> {
-    check_pointers(&[(cm, "cm")])?;
-    let elements = Elements::new(stress, hsvs, range, failels)?;
-    // SAFETY: the caller's promise.
-    unsafe { evaluate::<T, L>(cm, nhv, &elements) }
+/// The arrays are those that [`UmatVector`] promises.
+pub(super) unsafe fn vector<T: Precision, L: History<T>>(call: &UmatVector<T>) -> Result<i32, Error> {
+    check_pointers(&[(call.cm, "cm")])?;
+    let elements = Elements::new(call)?;
+    // SAFETY: not null, in rows of `nlq` elements, of which these are some.
+    unsafe { evaluate::<T, L>(call.cm, call.nhv, &elements) }
 }
 
 /// The material routine of one element.
 ///
 /// # Safety
-/// As for [`evaluate`], for arrays that are not null.
-pub(super) unsafe fn scalar<T: Precision, L: History<T>>(
-    cm: *const T,
-    sig: *mut T,
-    hsv: *mut T,
-    nhv: i32,
-    failel: *mut c_int,
-) -> Result<i32, Error> {
+/// The arrays are those that [`Umat`] promises.
+pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>) -> Result<i32, Error> {
+    let Umat { cm, sig, hsv, nhv, failel } = *call;
     check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
     check_pointers(&[(failel.cast_const(), "failel")])?;
     let stress = components_mut(sig, 1);
     let elements = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
-    // SAFETY: the caller's promise.
+    // SAFETY: not null, for this one element.
     unsafe { evaluate::<T, L>(cm, nhv, &elements) }
 }
 
@@ -141,28 +127,19 @@ unsafe fn tangents<T: Precision, L: History<T>>(
 }
 
 /// # Safety
-/// As for [`tangents`], for arrays that are not null.
-pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(
-    cm: *const T,
-    hsv: *const T,
-    nhv: i32,
-    es: *mut T,
-) -> Result<i32, Error> {
+/// The arrays are those that [`Utan`] promises.
+pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(call: &Utan<T>) -> Result<i32, Error> {
+    let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-    // SAFETY: the caller's promise.
+    // SAFETY: not null, for this one element.
     unsafe { tangents::<T, L>(cm, hsv, nhv, [0, 1, 1], es) }
 }
 
 /// # Safety
-/// As for [`tangents`], for arrays that are not null.
-pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(
-    cm: *const T,
-    hsvs: *const T,
-    nhv: i32,
-    range: [i32; 3],
-    dsave: *mut T,
-) -> Result<i32, Error> {
+/// The arrays are those that [`UtanVector`] promises.
+pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(call: &UtanVector<T>) -> Result<i32, Error> {
+    let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-    // SAFETY: the caller's promise.
-    unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range(range)?, dsave) }
+    // SAFETY: not null, in rows of `nlq` elements, of which these are some.
+    unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range([lft, llt, nlq])?, dsave) }
 }

@@ -4,7 +4,7 @@ use core::cell::Cell;
 use core::ffi::c_int;
 
 use super::message::History;
-use super::{check_number, element_range, is_plausible, law, no_gradient};
+use super::{Umat, Utan, UtanVector, check_number, element_range, is_plausible, law, no_gradient};
 use crate::host::border::{check_pointers, properties};
 use crate::host::c::PointAnswer;
 use crate::law::block::{Pointers, Precision, components};
@@ -41,7 +41,7 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 /// `cm` has the law's properties, `hsv` its state and F.
 unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
     check_number::<T, Hyperelastic<T>>(nhv)?;
-    // SAFETY: the caller's promise.
+    // SAFETY: `cm` has the properties, `hsv` the state and F behind it.
     unsafe {
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
         if !is_plausible::<T, Hyperelastic<T>>(|j| *hsv.add(j)) {
@@ -79,20 +79,15 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
 }
 
 /// # Safety
-/// As for `toron_lsdyna_umat_f64`.
-pub(super) unsafe fn scalar<T: Registers + Precision>(
-    cm: *const T,
-    sig: *mut T,
-    hsv: *mut T,
-    nhv: i32,
-    failel: *mut c_int,
-) -> Result<i32, Error> {
+/// The arrays are those that [`Umat`] promises.
+pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<i32, Error> {
+    let Umat { cm, sig, hsv, nhv, failel } = *call;
     // Each pointer is looked at only if one of them is null.
     if cm.is_null() | sig.is_null() | hsv.is_null() | failel.is_null() {
         check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
         check_pointers(&[(failel.cast_const(), "failel")])?;
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: not null, with the properties, the history and F.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
@@ -101,15 +96,11 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(
 }
 
 /// # Safety
-/// As for `toron_lsdyna_utan_f64`.
-pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(
-    cm: *const T,
-    hsv: *const T,
-    nhv: i32,
-    es: *mut T,
-) -> Result<i32, Error> {
+/// The arrays are those that [`Utan`] promises.
+pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) -> Result<i32, Error> {
+    let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-    // SAFETY: the caller's promise.
+    // SAFETY: not null, with the properties, the history and F.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let none = core::ptr::null_mut;
     let mut status = status::OK;
@@ -128,16 +119,11 @@ pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(
 }
 
 /// # Safety
-/// As for `toron_lsdyna_utan_vector_f64`.
-pub(super) unsafe fn vector_tangent<T: Precision>(
-    cm: *const T,
-    hsvs: *const T,
-    nhv: i32,
-    range: [i32; 3],
-    dsave: *mut T,
-) -> Result<i32, Error> {
+/// The arrays are those that [`UtanVector`] promises.
+pub(super) unsafe fn vector_tangent<T: Precision>(call: &UtanVector<T>) -> Result<i32, Error> {
+    let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-    let [start, count, stride] = element_range(range)?;
+    let [start, count, stride] = element_range([lft, llt, nlq])?;
     let row = |variable: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
     let pointers = Pointers {
         deformation_gradient: components(row(HYPERELASTIC_STATE), stride),
@@ -146,7 +132,7 @@ pub(super) unsafe fn vector_tangent<T: Precision>(
         measure: Measure::Truesdell,
         ..Pointers::without_arrays(count, stride)
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: not null; rows of `nlq` elements, of which those from `start` on are evaluated.
     unsafe {
         let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
         law.raw_block(&pointers)

@@ -40,92 +40,103 @@ use crate::law::number::vector::dot;
 use crate::law::status;
 use crate::law::user::{User, UserMaterial};
 
+/// The arguments of a scalar material routine, `umat41`. Who makes these structures promises that every array that is not null has as
+/// many values as its field says, valid for what it is used for; behind the history, `nhv` variables, are the 9 entries of F by columns.
+#[derive(Clone, Copy, Debug)]
+pub struct Umat<T> {
+    /// In: the law's properties, or more.
+    pub cm: *const T,
+    /// Out, 6: Cauchy stress.
+    pub sig: *mut T,
+    /// In and out, `nhv`; in, 9.
+    pub hsv: *mut T,
+    pub nhv: i32,
+    /// Out, 1: 1 where the element has failed or could not be evaluated, else 0.
+    pub failel: *mut c_int,
+}
+
+/// The arguments of a vectorised one, `umat41v`: arrays are (`nlq`, components), and elements `lft` to `llt`, counted from 1, are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct UmatVector<T> {
+    pub cm: *const T,
+    /// Out, `nlq` each: `sig1` to `sig6`.
+    pub sig: [*mut T; 6],
+    pub hsvs: *mut T,
+    pub nhv: i32,
+    pub lft: i32,
+    pub llt: i32,
+    pub nlq: i32,
+    pub failels: *mut c_int,
+}
+
+/// The arguments of the tangent of an element, `utan41`.
+#[derive(Clone, Copy, Debug)]
+pub struct Utan<T> {
+    pub cm: *const T,
+    pub hsv: *const T,
+    pub nhv: i32,
+    /// Out, 6 × 6.
+    pub es: *mut T,
+}
+
+/// The arguments of the vectorised one, `utan41v`.
+#[derive(Clone, Copy, Debug)]
+pub struct UtanVector<T> {
+    pub cm: *const T,
+    pub hsvs: *const T,
+    pub nhv: i32,
+    pub lft: i32,
+    pub llt: i32,
+    pub nlq: i32,
+    /// Out, (`nlq`, 6, 6).
+    pub dsave: *mut T,
+}
+
 /// A law as a user material of LS-DYNA. Its history is the law's state, the entries of F that are kept for it, and, behind these, F.
-/// The routines return the worst status code.
+/// The routines return the worst status code, with a message of at most `capacity` bytes unless `message` is null.
 pub trait UserRoutines<T: Precision>: History<T> {
-    /// The material routine, with the arguments of `toron_lsdyna_umat_f64` in package `toron-c`.
+    /// The material routine.
     ///
     /// # Safety
-    /// As documented there, with as many properties and history variables as the law has.
+    /// The arrays are those that [`Umat`] promises, and `message` is null or has `capacity` bytes.
     #[inline(never)]
-    unsafe fn umat(
-        cm: *const T,
-        sig: *mut T,
-        hsv: *mut T,
-        nhv: i32,
-        failel: *mut c_int,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            entry(Message { text: message, capacity }, move || any_law::scalar::<T, Self>(cm, sig, hsv, nhv, failel))
-        }
+    unsafe fn umat(call: &Umat<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the caller's arrays and message, here and below.
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar::<T, Self>(call)) }
     }
 
-    /// The vectorised one, with the arguments of `toron_lsdyna_umat_vector_f64`: `stress` is `sig1` to `sig6`, `range` `lft`, `llt` and
-    /// `nlq`.
+    /// The vectorised one.
     ///
     /// # Safety
-    /// As for [`umat`](Self::umat).
-    #[allow(clippy::too_many_arguments)]
+    /// As for [`umat`](Self::umat), with the arrays of [`UmatVector`].
     #[inline(never)]
-    unsafe fn umat_vector(
-        cm: *const T,
-        stress: [*mut T; 6],
-        hsvs: *mut T,
-        nhv: i32,
-        range: [i32; 3],
-        failels: *mut c_int,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            entry(Message { text: message, capacity }, move || {
-                any_law::vector::<T, Self>(cm, stress, hsvs, nhv, range, failels)
-            })
-        }
+    unsafe fn umat_vector(call: &UmatVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector::<T, Self>(call)) }
     }
 
-    /// The tangent, with the arguments of `toron_lsdyna_utan_f64`.
+    /// The tangent.
     ///
     /// # Safety
-    /// As for [`umat`](Self::umat).
+    /// As for [`umat`](Self::umat), with the arrays of [`Utan`].
     #[inline(never)]
-    unsafe fn utan(cm: *const T, hsv: *const T, nhv: i32, es: *mut T, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            entry(Message { text: message, capacity }, move || any_law::scalar_tangent::<T, Self>(cm, hsv, nhv, es))
-        }
+    unsafe fn utan(call: &Utan<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        unsafe { entry(Message { text: message, capacity }, || any_law::scalar_tangent::<T, Self>(call)) }
     }
 
-    /// The vectorised one, with the arguments of `toron_lsdyna_utan_vector_f64`: `range` is `lft`, `llt` and `nlq`.
+    /// The vectorised one.
     ///
     /// # Safety
-    /// As for [`umat`](Self::umat).
+    /// As for [`umat`](Self::umat), with the arrays of [`UtanVector`].
     #[inline(never)]
-    unsafe fn utan_vector(
-        cm: *const T,
-        hsvs: *const T,
-        nhv: i32,
-        range: [i32; 3],
-        dsave: *mut T,
-        message: *mut c_char,
-        capacity: size_t,
-    ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe {
-            entry(Message { text: message, capacity }, move || {
-                any_law::vector_tangent::<T, Self>(cm, hsvs, nhv, range, dsave)
-            })
-        }
+    unsafe fn utan_vector(call: &UtanVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        unsafe { entry(Message { text: message, capacity }, || any_law::vector_tangent::<T, Self>(call)) }
     }
 
-    /// The moduli that the card asks for, with the arguments of `toron_lsdyna_bulk_and_shear_f64`.
+    /// The moduli that the card asks for, for contact and the time step.
     ///
     /// # Safety
-    /// As documented there.
+    /// `values` is null or has `count` properties; `bulk` and `shear` are null or can be written; `message` is as for
+    /// [`umat`](Self::umat).
     #[inline(never)]
     unsafe fn card_moduli(
         values: *const T,
@@ -135,8 +146,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
         message: *mut c_char,
         capacity: size_t,
     ) -> i32 {
-        // SAFETY: the caller's promise.
-        unsafe { entry(Message { text: message, capacity }, move || moduli::<T, Self>(values, count, bulk, shear)) }
+        unsafe { entry(Message { text: message, capacity }, || moduli::<T, Self>(values, count, bulk, shear)) }
     }
 }
 
@@ -154,18 +164,14 @@ struct Elements<T> {
 
 impl<T: Scalar> Elements<T> {
     /// The elements that the arguments of a vectorised material routine name. Refuses a null pointer or a wrong range.
-    fn new(
-        stress: [*mut T; 6],
-        history: *mut T,
-        [lft, llt, nlq]: [i32; 3],
-        failed: *mut c_int,
-    ) -> Result<Elements<T>, Error> {
-        check_pointers(&[(history, "hsvs")])?;
-        check_pointers(&[(failed, "failels")])?;
-        let [s1, s2, s3, s4, s5, s6] = stress;
+    fn new(call: &UmatVector<T>) -> Result<Elements<T>, Error> {
+        let UmatVector { sig, hsvs, lft, llt, nlq, failels, .. } = *call;
+        check_pointers(&[(hsvs, "hsvs")])?;
+        check_pointers(&[(failels, "failels")])?;
+        let [s1, s2, s3, s4, s5, s6] = sig;
         check_pointers(&[(s1, "sig1"), (s2, "sig2"), (s3, "sig3"), (s4, "sig4"), (s5, "sig5"), (s6, "sig6")])?;
         let [first, count, leading_dimension] = element_range([lft, llt, nlq])?;
-        Ok(Elements { stress, history, leading_dimension, first, count, failed })
+        Ok(Elements { stress: sig, history: hsvs, leading_dimension, first, count, failed: failels })
     }
 
     /// Variable `j` of element `i`; the next element's is behind it.
@@ -312,200 +318,47 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
     !is_elsewhere()
 }
 
-/// The entries of the C interface for a law in one precision.
-macro_rules! entries {
-    (
-        $law:ident, $t:ty, $module:ident::<$($parameter:ty),+>:
-        $umat:ident, $umat_vector:ident, $utan:ident, $utan_vector:ident
-    ) => {
+/// The routines of a law, compiled here in one precision, once for whatever package uses them.
+macro_rules! compiled {
+    ($law:ident, $t:ty, $module:ident::<$($parameter:ty),+>) => {
         impl UserRoutines<$t> for $law<$t> {
-            #[inline(always)]
-            unsafe fn umat(
-                cm: *const $t,
-                sig: *mut $t,
-                hsv: *mut $t,
-                nhv: i32,
-                failel: *mut c_int,
+            #[inline(never)]
+            unsafe fn umat(call: &Umat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                // SAFETY: as in the trait, here and below.
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar::<$($parameter),+>(call)) }
+            }
+
+            #[inline(never)]
+            unsafe fn umat_vector(call: &UmatVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                unsafe { entry(Message { text: message, capacity }, || any_law::vector::<$t, Self>(call)) }
+            }
+
+            #[inline(never)]
+            unsafe fn utan(call: &Utan<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                unsafe { entry(Message { text: message, capacity }, || $module::scalar_tangent::<$($parameter),+>(call)) }
+            }
+
+            #[inline(never)]
+            unsafe fn utan_vector(call: &UtanVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                unsafe { entry(Message { text: message, capacity }, || $module::vector_tangent::<$($parameter),+>(call)) }
+            }
+
+            #[inline(never)]
+            unsafe fn card_moduli(
+                values: *const $t,
+                count: size_t,
+                bulk: *mut $t,
+                shear: *mut $t,
                 message: *mut c_char,
                 capacity: size_t,
             ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { $umat(cm, sig, hsv, nhv, failel, message, capacity) }
-            }
-
-            #[inline(always)]
-            unsafe fn umat_vector(
-                cm: *const $t,
-                [sig1, sig2, sig3, sig4, sig5, sig6]: [*mut $t; 6],
-                hsvs: *mut $t,
-                nhv: i32,
-                [lft, llt, nlq]: [i32; 3],
-                failels: *mut c_int,
-                message: *mut c_char,
-                capacity: size_t,
-            ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe {
-                    $umat_vector(
-                        cm, sig1, sig2, sig3, sig4, sig5, sig6, hsvs, nhv, lft, llt, nlq, failels, message, capacity,
-                    )
-                }
-            }
-
-            #[inline(always)]
-            unsafe fn utan(
-                cm: *const $t,
-                hsv: *const $t,
-                nhv: i32,
-                es: *mut $t,
-                message: *mut c_char,
-                capacity: size_t,
-            ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { $utan(cm, hsv, nhv, es, message, capacity) }
-            }
-
-            #[inline(always)]
-            unsafe fn utan_vector(
-                cm: *const $t,
-                hsvs: *const $t,
-                nhv: i32,
-                [lft, llt, nlq]: [i32; 3],
-                dsave: *mut $t,
-                message: *mut c_char,
-                capacity: size_t,
-            ) -> i32 {
-                // SAFETY: the caller's promise.
-                unsafe { $utan_vector(cm, hsvs, nhv, lft, llt, nlq, dsave, message, capacity) }
-            }
-        }
-
-        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[inline(never)]
-        pub unsafe extern "C" fn $umat(
-            cm: *const $t,
-            sig: *mut $t,
-            hsv: *mut $t,
-            nhv: i32,
-            failel: *mut c_int,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || $module::scalar::<$($parameter),+>(cm, sig, hsv, nhv, failel)) }
-        }
-
-        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[allow(clippy::too_many_arguments)]
-        #[inline(never)]
-        pub unsafe extern "C" fn $umat_vector(
-            cm: *const $t,
-            sig1: *mut $t,
-            sig2: *mut $t,
-            sig3: *mut $t,
-            sig4: *mut $t,
-            sig5: *mut $t,
-            sig6: *mut $t,
-            hsvs: *mut $t,
-            nhv: i32,
-            lft: i32,
-            llt: i32,
-            nlq: i32,
-            failels: *mut c_int,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            let stress = [sig1, sig2, sig3, sig4, sig5, sig6];
-            // SAFETY: the caller's promise.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    any_law::vector::<$t, $law<$t>>(cm, stress, hsvs, nhv, [lft, llt, nlq], failels)
-                })
-            }
-        }
-
-        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[inline(never)]
-        pub unsafe extern "C" fn $utan(
-            cm: *const $t,
-            hsv: *const $t,
-            nhv: i32,
-            es: *mut $t,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe { entry(Message { text: message, capacity }, move || $module::scalar_tangent::<$($parameter),+>(cm, hsv, nhv, es)) }
-        }
-
-        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[allow(clippy::too_many_arguments)]
-        #[inline(never)]
-        pub unsafe extern "C" fn $utan_vector(
-            cm: *const $t,
-            hsvs: *const $t,
-            nhv: i32,
-            lft: i32,
-            llt: i32,
-            nlq: i32,
-            dsave: *mut $t,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe {
-                entry(Message { text: message, capacity }, move || {
-                    $module::vector_tangent::<$($parameter),+>(cm, hsvs, nhv, [lft, llt, nlq], dsave)
-                })
+                unsafe { entry(Message { text: message, capacity }, || moduli::<$t, Self>(values, count, bulk, shear)) }
             }
         }
     };
 }
 
-entries!(Hyperelastic, f64, hyperelastic::<f64>: umat_f64, umat_vector_f64, utan_f64, utan_vector_f64);
-entries!(Hyperelastic, f32, hyperelastic::<f32>: umat_f32, umat_vector_f32, utan_f32, utan_vector_f32);
-entries!(
-    LinearElastic, f64, any_law::<f64, LinearElastic<f64>>:
-    linear_umat_f64, linear_umat_vector_f64, linear_utan_f64, linear_utan_vector_f64
-);
-entries!(
-    LinearElastic, f32, any_law::<f32, LinearElastic<f32>>:
-    linear_umat_f32, linear_umat_vector_f32, linear_utan_f32, linear_utan_vector_f32
-);
-
-/// The entry of the C interface for the moduli of a law.
-macro_rules! moduli {
-    ($law:ident: $bulk_and_shear:ident) => {
-        /// The entry of the C interface with `toron_lsdyna_` before its name; package `toron-c` documents its arguments.
-        ///
-        /// # Safety
-        /// As documented there.
-        #[inline(never)]
-        pub unsafe extern "C" fn $bulk_and_shear(
-            values: *const f64,
-            count: usize,
-            bulk: *mut f64,
-            shear: *mut f64,
-            message: *mut c_char,
-            capacity: size_t,
-        ) -> i32 {
-            // SAFETY: the caller's promise.
-            unsafe { <$law<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
-        }
-    };
-}
-
-moduli!(Hyperelastic: bulk_and_shear_f64);
-moduli!(LinearElastic: linear_bulk_and_shear_f64);
+compiled!(Hyperelastic, f64, hyperelastic::<f64>);
+compiled!(Hyperelastic, f32, hyperelastic::<f32>);
+compiled!(LinearElastic, f64, any_law::<f64, LinearElastic<f64>>);
+compiled!(LinearElastic, f32, any_law::<f32, LinearElastic<f32>>);

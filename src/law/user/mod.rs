@@ -179,7 +179,7 @@ impl<S: Array<T>, T> AsMut<[T]> for UserState<S, T> {
 }
 
 /// Checks at compile time that a law's tables fit its types.
-const fn check_tables<M: UserMaterial>() {
+pub(crate) const fn check_tables<M: UserMaterial>() {
     use super::parameters::same;
     let Description { properties, state, failed, alive, energies, .. } = M::DESCRIPTION;
     let own = <M::State<f64> as Array<f64>>::LENGTH;
