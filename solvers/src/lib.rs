@@ -91,36 +91,16 @@ pub const fn assert_distinct(names: &[&str], numbers: &[i32]) {
     let mut i = 0;
     while i < names.len() {
         assert!(
-            is_name(names[i].as_bytes()),
+            toron::host::is_name(names[i]),
             "a law's name is made of capitals, digits and underscores, and begins with a capital"
         );
-        assert!(0 < numbers[i] && numbers[i] < 100, "a law's number in OpenRadioss is from 1 to 99");
+        assert!(toron::host::is_number(numbers[i]), "a law's number in OpenRadioss is from 1 to 99");
         let mut k = 0;
         while k < i {
-            assert!(!same(names[i].as_bytes(), names[k].as_bytes()), "two laws have the same name");
+            assert!(!toron::law::parameters::same(names[i], names[k]), "two laws have the same name");
             assert!(numbers[i] != numbers[k], "two laws have the same number");
             k += 1;
         }
         i += 1;
     }
-}
-
-const fn is_name(name: &[u8]) -> bool {
-    let mut i = 0;
-    while i < name.len() {
-        let capital = name[i].is_ascii_uppercase();
-        if !capital && (i == 0 || !(name[i].is_ascii_digit() || name[i] == b'_')) {
-            return false;
-        }
-        i += 1;
-    }
-    !name.is_empty()
-}
-
-const fn same(a: &[u8], b: &[u8]) -> bool {
-    let mut i = 0;
-    while i < a.len() && i < b.len() && a[i] == b[i] {
-        i += 1;
-    }
-    i == a.len() && i == b.len()
 }

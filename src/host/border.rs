@@ -84,6 +84,20 @@ pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) ->
     }
 }
 
+/// Bulk and shear modulus of a law, for a time step.
+///
+/// # Errors
+/// A law of one's own whose fastest wave at rest has a speed that is no positive number.
+pub(super) fn stiffness_at_rest<T: Precision, L: Law<T>>(law: &L) -> Result<[T; 2], Error> {
+    let [bulk, shear] = law.bulk_and_shear();
+    if bulk.into() > 0.0 && bulk.into() < f64::INFINITY {
+        return Ok([bulk, shear]);
+    }
+    let text = "the law has no stiffness at F = 1 from which a time step can be computed: wave_modulus there, or without it the \
+        tangent, must be a positive number";
+    Err(Error::Setting { code: status::BAD_ARGUMENT, text })
+}
+
 /// For hosts that do not pass the F of the last step: sets it to 1 where it is 0, as the host initialises the place where it is kept,
 /// since points start unstressed. No F has a column of zeros.
 ///

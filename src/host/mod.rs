@@ -37,3 +37,21 @@ impl<T: Precision> Material<T> for Hyperelastic<f64> {
 impl<T: Precision> Material<T> for LinearElastic<f64> {
     type Law = LinearElastic<T>;
 }
+
+/// Whether a law may have this name in a library: capitals, digits and underscores, a capital first. Symbols are made of it.
+pub const fn is_name(name: &str) -> bool {
+    let (name, mut i) = (name.as_bytes(), 0);
+    while i < name.len() {
+        let capital = name[i].is_ascii_uppercase();
+        if !capital && (i == 0 || !(name[i].is_ascii_digit() || name[i] == b'_')) {
+            return false;
+        }
+        i += 1;
+    }
+    !name.is_empty()
+}
+
+/// Whether there is a `/MAT/USERnn` of this number in OpenRadioss.
+pub const fn is_number(number: i32) -> bool {
+    0 < number && number < 100
+}

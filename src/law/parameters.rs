@@ -150,7 +150,7 @@ pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
 ];
 
 /// Whether two names are the same, at compile time too.
-pub(crate) const fn same(a: &str, b: &str) -> bool {
+pub const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     let mut i = 0;
     while i < a.len() && i < b.len() && a[i] == b[i] {

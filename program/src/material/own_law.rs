@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
-use toron::host::Material;
+use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
 use toron::{Error, Measure};
@@ -31,12 +31,11 @@ impl OwnLaw {
     where
         M::Law: Send + Sync + 'static,
     {
-        let rest = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
-        if !symbol.starts_with(|c: char| c.is_ascii_uppercase()) || !symbol.chars().all(rest) {
+        if !is_name(symbol) {
             let allowed = "capitals, digits and underscores, a capital first";
             return Err(format!("the law's name is \"{symbol}\"; allowed: {allowed}"));
         }
-        if !(1..=99).contains(&number) {
+        if !is_number(number) {
             return Err(format!("the law's number in OpenRadioss is {number}; allowed: 1 to 99"));
         }
         Ok(OwnLaw {

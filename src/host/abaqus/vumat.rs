@@ -5,7 +5,7 @@ use core::mem::MaybeUninit;
 use libc::{c_char, size_t};
 
 use super::{VUMAT_COUNTS, check_counts, property_count};
-use crate::host::border::{Message, check_plane, check_pointers, entry, properties};
+use crate::host::border::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
 use crate::host::c::level;
 use crate::host::structures::{read, structures};
 use crate::law::block::{Precision, components, components_mut};
@@ -103,6 +103,8 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     if block.nshr == 1 {
         check_plane(&law, values)?;
     }
+    let checks = block.step_time == 0.0 && block.total_time == 0.0;
+    let moduli = if checks { stiffness_at_rest(&law)? } else { [T::splat(0.0); 2] };
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
@@ -113,8 +115,8 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
             }
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
         }
-        if block.step_time == 0.0 && block.total_time == 0.0 {
-            return Ok(elastic_check(&law, block, n));
+        if checks {
+            return Ok(elastic_check::<L, T>(moduli, block, n));
         }
         stretched(&law, block, n, level)
     }
@@ -126,8 +128,7 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.
-unsafe fn elastic_check<L: Law<T>, T: Precision>(law: &L, block: &Vumat<T>, n: usize) -> i32 {
-    let [bulk, shear] = law.bulk_and_shear();
+unsafe fn elastic_check<L: Law<T>, T: Precision>([bulk, shear]: [T; 2], block: &Vumat<T>, n: usize) -> i32 {
     let (zero, mut worst) = (T::splat(0.0), status::OK);
     let is_finite = |x: T| (x * zero).le(zero);
     let components = 3 + block.nshr as usize;

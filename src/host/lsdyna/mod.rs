@@ -28,7 +28,7 @@ use libc::{c_char, size_t};
 
 use message::History;
 
-use crate::host::border::{Message, check_pointers, entry, properties, store};
+use crate::host::border::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
 use crate::law::block::Precision;
 use crate::law::description::Description;
 use crate::law::error::Error;
@@ -236,7 +236,8 @@ unsafe fn moduli<T: Precision, L: Law<T>>(
 ) -> Result<i32, Error> {
     check_pointers(&[(bulk, "bulk"), (shear, "shear")])?;
     // SAFETY: the caller's promise, here and below.
-    let [k, g] = L::new(unsafe { properties(values, count, L::DESCRIPTION.properties) }?)?.bulk_and_shear();
+    let law = L::new(unsafe { properties(values, count, L::DESCRIPTION.properties) }?)?;
+    let [k, g] = stiffness_at_rest(&law)?;
     unsafe {
         store(&[k], bulk);
         store(&[g], shear);

@@ -1,5 +1,6 @@
 //! The laws that a library has, and what starter and engine call for each.
 
+use crate::host::border::stiffness_at_rest;
 use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
@@ -38,7 +39,7 @@ impl<M: UserMaterial, T: Precision> SolidLaw<T> for User<M, T> {
     const OPTIONS: usize = if M::DESCRIPTION.fibre.is_some() { 1 } else { 0 };
 
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error> {
-        let [bulk, shear] = User::<M, T>::new(properties)?.bulk_and_shear().map(Into::into);
+        let [bulk, shear] = stiffness_at_rest(&User::<M, T>::new(properties)?)?.map(Into::into);
         Ok(T::splat(bulk + 4.0 * shear / 3.0))
     }
 

@@ -40,6 +40,7 @@ use super::error::Error;
 use super::interface::{Law, Points};
 use super::kinematics::FibreFrame;
 use super::number::vector::Matrix;
+use super::parameters::{Property, same};
 use super::status;
 
 /// A law in formulas: implemented by a type without content, which stands for the law.
@@ -180,7 +181,6 @@ impl<S: Array<T>, T> AsMut<[T]> for UserState<S, T> {
 
 /// Checks at compile time that a law's tables fit its types.
 pub(crate) const fn check_tables<M: UserMaterial>() {
-    use super::parameters::same;
     let Description { properties, state, failed, alive, energies, .. } = M::DESCRIPTION;
     let own = <M::State<f64> as Array<f64>>::LENGTH;
     assert!(properties.len() == <M::Properties<f64> as Array<f64>>::LENGTH, "a row of the table for each property");
@@ -194,6 +194,40 @@ pub(crate) const fn check_tables<M: UserMaterial>() {
     assert!(M::DESCRIPTION.fibre_components().end <= properties.len(), "the fibre's three components are properties");
     assert!(M::DESCRIPTION.second_axis.is_none(), "a law of one's own has one direction, that of the fibre");
     assert!(!properties.is_empty(), "a law has properties");
+    let mut i = 0;
+    while i < properties.len() {
+        let Property { name, symbol, allowed, meaning, .. } = &properties[i];
+        check_row(name, symbol, meaning);
+        assert!(allowed.len() < 80, "what is allowed for a property has fewer than 80 bytes");
+        let mut k = 0;
+        while k < i {
+            assert!(!same(name, properties[k].name), "two properties have the same name");
+            k += 1;
+        }
+        i += 1;
+    }
+    let mut i = 0;
+    while i < state.len() {
+        check_row(state[i].name, state[i].symbol, state[i].meaning);
+        let mut k = 0;
+        while k < i {
+            assert!(!same(state[i].name, state[k].name), "two state variables have the same name");
+            k += 1;
+        }
+        i += 1;
+    }
+}
+
+/// Checks that a row of a table can be told in C: its name is an identifier, and the texts are not cut.
+const fn check_row(name: &str, symbol: &str, meaning: &str) {
+    let (bytes, mut i) = (name.as_bytes(), 0);
+    assert!(!bytes.is_empty() && !bytes[0].is_ascii_digit(), "a name in a table begins with a letter");
+    while i < bytes.len() {
+        assert!(bytes[i].is_ascii_alphanumeric() || bytes[i] == b'_', "a name in a table is a C identifier");
+        i += 1;
+    }
+    assert!(name.len() < 24 && symbol.len() < 24, "names and symbols in a table have fewer than 24 bytes");
+    assert!(meaning.len() < 100, "a meaning in a table has fewer than 100 bytes");
 }
 
 impl<M: UserMaterial, T: Precision> User<M, T> {
