@@ -5,12 +5,13 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use crate::common::console::print_error;
+use crate::common::console::{print, print_error};
 use crate::eval::own_law::{self, Entry};
 use crate::material::laws::Laws;
 use crate::material::own_law::OwnLaw;
 use crate::{command_line, deck, load_path, params};
 use toron::host::Material;
+use toron::host::c::AsNumbers;
 
 #[derive(Parser)]
 struct Arguments {
@@ -39,6 +40,8 @@ enum Command {
     },
     /// Print a material's card, ready to be pasted into a solver's deck.
     Deck(deck::command::Arguments),
+    /// Print the header of the law's functions in C.
+    Header,
     /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [1, 0, 0], "params": {NAME: value}}; "m", the fibre
     /// direction, may be left out.
     Eval {
@@ -51,7 +54,7 @@ enum Command {
     },
 }
 
-/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do. `name` is the law's
+/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do, and `header`. `name` is the law's
 /// name in the solvers' libraries, in capitals, and `number` its nn of OpenRadioss's `/MAT/USERnn`; files, and the program itself, call
 /// it by the name in small letters.
 ///
@@ -60,9 +63,11 @@ enum Command {
 ///     toron_program::of_law::<ReinforcedSolid>("REINFORCED", 3)
 /// }
 /// ```
-pub fn of_law<M: Material<f64>>(name: &'static str, number: i32) -> ExitCode
+pub fn of_law<M>(name: &'static str, number: i32) -> ExitCode
 where
-    M::Law: Send + Sync + 'static,
+    M: Material<f64> + Material<f32>,
+    <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
+    <M as Material<f32>>::Law: AsNumbers<f32>,
 {
     match OwnLaw::new::<M>(name, number) {
         // As long as the program runs, its law is there.
@@ -86,6 +91,10 @@ fn program(law: &'static OwnLaw) -> ExitCode {
         Command::Run { path, output } => load_path::command::run(laws, Some(&path), &output),
         Command::Params { units, preset } => params::print_tables(laws, units.as_deref(), preset.as_deref()),
         Command::Deck(arguments) => deck::command::run(laws, &arguments),
+        Command::Header => {
+            print(&(law.header)(law.symbol));
+            Ok(())
+        }
         Command::Eval { via, tangent } => own_law::lines(law, via, tangent),
     })
 }

@@ -4,10 +4,12 @@ use std::fmt;
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
+use toron::host::c::AsNumbers;
 use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
 use toron::law::interface::{Law, Points};
 use toron::{Error, Measure};
+use toron_solvers::c_header;
 
 /// A law that is none of the library's.
 pub struct OwnLaw {
@@ -18,6 +20,8 @@ pub struct OwnLaw {
     /// OpenRadioss's nn of `/MAT/USERnn`.
     pub number: i32,
     pub description: Description,
+    /// What its C header is made by.
+    pub header: fn(&str) -> String,
     prepare: Prepare,
 }
 
@@ -27,9 +31,11 @@ type Prepare = fn(&[f64]) -> Result<Arc<dyn Prepared>, Error>;
 impl OwnLaw {
     /// # Errors
     /// The name is not made of capitals, digits and underscores with a capital first, or the number is not from 1 to 99.
-    pub fn new<M: Material<f64>>(symbol: &'static str, number: i32) -> Result<OwnLaw, String>
+    pub fn new<M>(symbol: &'static str, number: i32) -> Result<OwnLaw, String>
     where
-        M::Law: Send + Sync + 'static,
+        M: Material<f64> + Material<f32>,
+        <M as Material<f64>>::Law: AsNumbers<f64> + Send + Sync + 'static,
+        <M as Material<f32>>::Law: AsNumbers<f32>,
     {
         if !is_name(symbol) {
             let allowed = "capitals, digits and underscores, a capital first";
@@ -42,8 +48,9 @@ impl OwnLaw {
             symbol,
             name: symbol.to_ascii_lowercase(),
             number,
-            description: M::Law::DESCRIPTION,
-            prepare: |values| Ok(Arc::new(M::Law::new(values)?)),
+            description: <<M as Material<f64>>::Law as Law<f64>>::DESCRIPTION,
+            header: c_header::<M>,
+            prepare: |values| Ok(Arc::new(<M as Material<f64>>::Law::new(values)?)),
         })
     }
 

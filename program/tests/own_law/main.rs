@@ -259,3 +259,9 @@ fn points_answer_by_the_names_of_the_law() {
     }
     assert_eq!(answers(Entry::Block, true, &lines), alone, "a point amid others answers as alone");
 }
+
+#[test]
+fn the_header_is_that_of_the_example() {
+    let committed = include_str!("../../../examples/own_law/reinforced.h");
+    assert_eq!((law().header)(law().symbol), committed);
+}
