@@ -5,8 +5,10 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use libc::c_char;
 use toron::Measure;
 use toron::host::Material;
+use toron::host::abaqus::Vumat;
 use toron::law::block::Precision;
 use toron::law::interface::{Law, Points};
 use toron::user::User;
@@ -154,4 +156,90 @@ fn a_block_takes_a_third_of_a_plain_loop() {
     let times: Vec<f64> = text.split_whitespace().map(|x| x.parse().expect("a number")).collect();
     println!("{times:?} ns");
     assert!(3.0 * times[0] <= times[1], "a block {} ns a point, a loop {} ns", times[0], times[1]);
+}
+
+/// A law that cannot be evaluated, as solvers call it.
+mod panicking {
+    use toron::user::parameters::{STRESS, positive};
+    use toron::user::state::{ALIVE, FAILED};
+    use toron::user::{Description, Real, Response, Step, UserMaterial};
+
+    #[derive(Clone, Copy, Debug, Default)]
+    pub struct Panicking;
+
+    impl UserMaterial for Panicking {
+        const DESCRIPTION: Description = Description {
+            title: "law that panics",
+            properties: const { &[positive("mu", "μ", STRESS, None, "shear modulus")] },
+            state: const { &[FAILED, ALIVE] },
+            fibre: None,
+            second_axis: None,
+            failed: 0,
+            alive: 1,
+            energies: 0..0,
+            reads_old_gradient: false,
+        };
+        type Properties<R: Real> = [R; 1];
+        type State<R: Real> = [R; 0];
+        type Constants<R: Real> = R;
+
+        fn constants<R: Real>(&[mu]: &[R; 1]) -> R {
+            mu
+        }
+
+        fn respond<R: Real>(_: &R, _: &Step<R, [R; 0]>) -> Response<R, [R; 0]> {
+            panic!("the law has no formula")
+        }
+    }
+
+    toron_solvers::export! { f64; Panicking as "PANICKING", user 9; }
+}
+
+/// Ends this process: [`a_panic_in_a_law_ends_the_job_with_its_message`] runs it in one of its own.
+#[test]
+#[ignore = "ends the process that runs it"]
+fn a_panic_in_a_law() {
+    unsafe extern "C" {
+        fn PANICKING_abaqus_vumat_f64(block: *const Vumat<f64>, message: *mut c_char, capacity: usize) -> i32;
+    }
+    let (mu, one, rest, mut out) = (1.0, 1.0, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0], [0.0; 6]);
+    let out = out.as_mut_ptr();
+    let block = Vumat {
+        nblock: 1,
+        ndir: 3,
+        nshr: 3,
+        nstatev: 2,
+        nprops: 1,
+        step_time: 1.0,
+        total_time: 1.0,
+        props: &mu,
+        density: &one,
+        strain_inc: rest.as_ptr(),
+        stretch_old: rest.as_ptr(),
+        stretch_new: rest.as_ptr(),
+        stress_old: rest.as_ptr(),
+        state_old: [0.0; 2].as_ptr(),
+        ener_intern_old: &one,
+        ener_inelas_old: &one,
+        stress_new: out,
+        state_new: [0.0; 2].as_mut_ptr(),
+        ener_intern_new: [0.0].as_mut_ptr(),
+        ener_inelas_new: [0.0].as_mut_ptr(),
+        ..Vumat::empty()
+    };
+    // SAFETY: the arrays have the sizes that the structure tells.
+    let status = unsafe { PANICKING_abaqus_vumat_f64(&block, std::ptr::null_mut(), 0) };
+    println!("came back with {status}");
+}
+
+/// It never crosses into the solver.
+#[test]
+fn a_panic_in_a_law_ends_the_job_with_its_message() {
+    let test = ["own_law::a_panic_in_a_law", "--exact", "--ignored", "--nocapture"];
+    let output = Command::new(std::env::current_exe().expect("this program")).args(test).output().expect("it runs");
+    let [stdout, stderr] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+    assert!(stderr.contains("the law has no formula"), "{stdout}{stderr}");
+    assert!(!stdout.contains("came back"), "{stdout}{stderr}");
+    #[cfg(unix)]
+    assert_eq!(std::os::unix::process::ExitStatusExt::signal(&output.status), Some(libc::SIGABRT));
 }
