@@ -40,7 +40,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
 ) -> i32 {
     let call =
         Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0: null(), dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic>::umat(&call, message, capacity) }
 }
 
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
         nshr,
         nlgeom,
     };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic>::umat(&call, message, capacity) }
 }
 
@@ -109,7 +109,7 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
     capacity: size_t,
 ) -> i32 {
     let call = Umat { stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic>::umat(&call, message, capacity) }
 }
 
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the structure and its arrays have the sizes that it says.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::vumat(block, message, capacity) }
 }
 
@@ -140,7 +140,7 @@ pub unsafe extern "C" fn toron_abaqus_vumat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the structure and its arrays have the sizes that it says.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f32>>::vumat(block, message, capacity) }
 }
 
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the structure and its arrays have the sizes that it says.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::vumat(block, message, capacity) }
 }
 
@@ -163,6 +163,6 @@ pub unsafe extern "C" fn toron_abaqus_linear_vumat_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the structure and its arrays have the sizes that it says.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::vumat(block, message, capacity) }
 }

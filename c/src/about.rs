@@ -19,6 +19,6 @@ pub extern "C" fn toron_abi_version() -> i32 {
 /// Returns 0, or `TORON_UNKNOWN_NAME` if there is no such code, which the text then says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_status_message(status: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::status_message(status, message, capacity) }
 }

@@ -19,7 +19,7 @@ pub unsafe extern "C" fn toron_hyperelastic_prepare_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_prepare_f64(law, size, properties, count, message, capacity) }
 }
 
@@ -33,7 +33,7 @@ pub unsafe extern "C" fn toron_hyperelastic_prepare_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_prepare_f32(law, size, properties, count, message, capacity) }
 }
 
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_point_f64(law, point, message, capacity) }
 }
 
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_point_f32(law, point, message, capacity) }
 }
 
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_point_with_properties_f64(properties, count, point, message, capacity) }
 }
 
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn toron_hyperelastic_point_with_properties_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_point_with_properties_f32(properties, count, point, message, capacity) }
 }
 
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_block_f64(law, block, message, capacity) }
 }
 
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_block_f32(law, block, message, capacity) }
 }
 
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_block_with_properties_f64(properties, count, block, message, capacity) }
 }
 
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn toron_hyperelastic_block_with_properties_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::hyperelastic_block_with_properties_f32(properties, count, block, message, capacity) }
 }
 
@@ -165,7 +165,7 @@ pub unsafe extern "C" fn toron_hyperelastic_least_acoustic_eigenvalue_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         toron::host::c::hyperelastic_least_acoustic_eigenvalue_f64(law, point, least, direction, message, capacity)
     }

@@ -13,7 +13,7 @@ pub unsafe extern "C" fn toron_linear_elastic_prepare_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_prepare_f64(law, size, properties, count, message, capacity) }
 }
 
@@ -27,7 +27,7 @@ pub unsafe extern "C" fn toron_linear_elastic_prepare_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_prepare_f32(law, size, properties, count, message, capacity) }
 }
 
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_axes_f64(law, fibre, second_axis, axes, message, capacity) }
 }
 
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn toron_linear_elastic_axes_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_axes_f32(law, fibre, second_axis, axes, message, capacity) }
 }
 
@@ -78,7 +78,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_point_f64(law, point, message, capacity) }
 }
 
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_point_f32(law, point, message, capacity) }
 }
 
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_point_with_properties_f64(properties, count, point, message, capacity) }
 }
 
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn toron_linear_elastic_point_with_properties_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_point_with_properties_f32(properties, count, point, message, capacity) }
 }
 
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_increment_f64(law, increment, message, capacity) }
 }
 
@@ -144,7 +144,7 @@ pub unsafe extern "C" fn toron_linear_elastic_increment_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_increment_f32(law, increment, message, capacity) }
 }
 
@@ -160,7 +160,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_block_f64(law, block, message, capacity) }
 }
 
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_block_f32(law, block, message, capacity) }
 }
 
@@ -186,7 +186,7 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_block_with_properties_f64(properties, count, block, message, capacity) }
 }
 
@@ -199,6 +199,6 @@ pub unsafe extern "C" fn toron_linear_elastic_block_with_properties_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::linear_elastic_block_with_properties_f32(properties, count, block, message, capacity) }
 }

@@ -26,7 +26,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f64(
     capacity: size_t,
 ) -> i32 {
     let call = Umat { cm, sig, hsv, nhv, failel };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::umat(&call, message, capacity) }
 }
 
@@ -42,7 +42,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_f32(
     capacity: size_t,
 ) -> i32 {
     let call = Umat { cm, sig, hsv, nhv, failel };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f32>>::umat(&call, message, capacity) }
 }
 
@@ -76,7 +76,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f64(
     capacity: size_t,
 ) -> i32 {
     let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::umat_vector(&call, message, capacity) }
 }
 
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn toron_lsdyna_umat_vector_f32(
     capacity: size_t,
 ) -> i32 {
     let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f32>>::umat_vector(&call, message, capacity) }
 }
 
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f64(
     capacity: size_t,
 ) -> i32 {
     let call = Utan { cm, hsv, nhv, es };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::utan(&call, message, capacity) }
 }
 
@@ -138,7 +138,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_f32(
     capacity: size_t,
 ) -> i32 {
     let call = Utan { cm, hsv, nhv, es };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f32>>::utan(&call, message, capacity) }
 }
 
@@ -162,7 +162,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f64(
     capacity: size_t,
 ) -> i32 {
     let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::utan_vector(&call, message, capacity) }
 }
 
@@ -180,7 +180,7 @@ pub unsafe extern "C" fn toron_lsdyna_utan_vector_f32(
     capacity: size_t,
 ) -> i32 {
     let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f32>>::utan_vector(&call, message, capacity) }
 }
 
@@ -198,7 +198,7 @@ pub unsafe extern "C" fn toron_lsdyna_bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <Hyperelastic<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
 }
 
@@ -218,7 +218,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_f64(
     capacity: size_t,
 ) -> i32 {
     let call = Umat { cm, sig, hsv, nhv, failel };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::umat(&call, message, capacity) }
 }
 
@@ -234,7 +234,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_f32(
     capacity: size_t,
 ) -> i32 {
     let call = Umat { cm, sig, hsv, nhv, failel };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::umat(&call, message, capacity) }
 }
 
@@ -260,7 +260,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f64(
     capacity: size_t,
 ) -> i32 {
     let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::umat_vector(&call, message, capacity) }
 }
 
@@ -285,7 +285,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_umat_vector_f32(
     capacity: size_t,
 ) -> i32 {
     let call = UmatVector { cm, sig: [sig1, sig2, sig3, sig4, sig5, sig6], hsvs, nhv, lft, llt, nlq, failels };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::umat_vector(&call, message, capacity) }
 }
 
@@ -303,7 +303,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_f64(
     capacity: size_t,
 ) -> i32 {
     let call = Utan { cm, hsv, nhv, es };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::utan(&call, message, capacity) }
 }
 
@@ -318,7 +318,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_f32(
     capacity: size_t,
 ) -> i32 {
     let call = Utan { cm, hsv, nhv, es };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::utan(&call, message, capacity) }
 }
 
@@ -337,7 +337,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f64(
     capacity: size_t,
 ) -> i32 {
     let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::utan_vector(&call, message, capacity) }
 }
 
@@ -355,7 +355,7 @@ pub unsafe extern "C" fn toron_lsdyna_linear_utan_vector_f32(
     capacity: size_t,
 ) -> i32 {
     let call = UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f32>>::utan_vector(&call, message, capacity) }
 }
 
@@ -370,6 +370,6 @@ pub unsafe extern "C" fn toron_lsdyna_linear_bulk_and_shear_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the arrays have the sizes above.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { <LinearElastic<f64>>::card_moduli(values, count, bulk, shear, message, capacity) }
 }

@@ -24,7 +24,7 @@ pub unsafe extern "C" fn toron_openradioss_lecm_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         toron::host::openradioss::lecm_f64(
             number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
@@ -46,7 +46,7 @@ pub unsafe extern "C" fn toron_openradioss_listing_f64(
     text: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::openradioss::listing_f64(uparam, nuparam, line, text, capacity) }
 }
 
@@ -102,7 +102,7 @@ pub unsafe extern "C" fn toron_openradioss_luser_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         toron::host::openradioss::luser_f64(
             nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,
@@ -127,7 +127,7 @@ pub unsafe extern "C" fn toron_openradioss_lecm_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         toron::host::openradioss::lecm_f32(
             number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
@@ -144,7 +144,7 @@ pub unsafe extern "C" fn toron_openradioss_listing_f32(
     text: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::openradioss::listing_f32(uparam, nuparam, line, text, capacity) }
 }
 
@@ -188,7 +188,7 @@ pub unsafe extern "C" fn toron_openradioss_luser_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe {
         toron::host::openradioss::luser_f32(
             nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,

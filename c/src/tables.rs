@@ -6,7 +6,7 @@ use toron::host::c::TableRow;
 /// The number of properties of a law (`TORON_HYPERELASTIC`, `TORON_LINEAR_ELASTIC`), or `TORON_UNKNOWN_NAME`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::property_count(law, message, capacity) }
 }
 
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn toron_property(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::property(law, index, row, message, capacity) }
 }
 
@@ -33,14 +33,14 @@ pub unsafe extern "C" fn toron_property_index(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::property_index(law, property, message, capacity) }
 }
 
 /// The number of state variables of a law, or `TORON_UNKNOWN_NAME`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_state_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::state_count(law, message, capacity) }
 }
 
@@ -53,7 +53,7 @@ pub unsafe extern "C" fn toron_state_variable(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::state_variable(law, index, row, message, capacity) }
 }
 
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn toron_state_index(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::state_index(law, variable, message, capacity) }
 }
 
@@ -87,7 +87,7 @@ pub unsafe extern "C" fn toron_preset_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::preset_f64(preset, units, properties, count, density, message, capacity) }
 }
 
@@ -102,6 +102,6 @@ pub unsafe extern "C" fn toron_preset_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the caller's arguments, as lib.rs says.
     unsafe { toron::host::c::preset_f32(preset, units, properties, count, density, message, capacity) }
 }

@@ -4,7 +4,7 @@
 use std::ffi::{CStr, c_char};
 use std::io::Write;
 
-/// The room for a message of the library, with the terminating null.
+/// The size of a buffer for any message of the library, with the terminating null.
 pub const CAPACITY: usize = toron::host::c::TORON_MESSAGE_CAPACITY;
 
 /// The exit code where Abaqus's own routine is not found.
@@ -23,7 +23,7 @@ const PLANE_STRESS: &str = "NSHR = 1, as of plane stress, which the laws do not 
 /// Abaqus's promise: `cmname` has 80 characters.
 #[inline(always)]
 unsafe fn material_name<'a>(cmname: *const c_char) -> &'a [u8] {
-    // SAFETY: the caller's promise.
+    // SAFETY: `cmname` has 80 characters.
     unsafe { std::slice::from_raw_parts(cmname.cast::<u8>(), 80) }.trim_ascii_end()
 }
 
@@ -32,7 +32,7 @@ unsafe fn material_name<'a>(cmname: *const c_char) -> &'a [u8] {
 /// # Safety
 /// As for [`refuse`].
 pub unsafe fn named(cmname: *const c_char, names: &'static [&'static str]) -> Option<&'static str> {
-    // SAFETY: the caller's promise.
+    // SAFETY: `cmname` is Abaqus's.
     let material = unsafe { material_name(cmname) };
     let begins =
         |name: &&str| material.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name.as_bytes()));
@@ -47,7 +47,7 @@ pub unsafe fn refuse(status: i32, message: &[c_char; CAPACITY], cmname: *const c
     if status >= 0 || status <= WORST_OF_A_DECK {
         return;
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: a message with such a status ends in a null, and `cmname` is Abaqus's.
     unsafe { end_job(cmname, &CStr::from_ptr(message.as_ptr()).to_string_lossy(), routine) };
 }
 
@@ -57,7 +57,7 @@ pub unsafe fn refuse(status: i32, message: &[c_char; CAPACITY], cmname: *const c
 /// As for [`refuse`].
 pub unsafe fn refuse_name(cmname: *const c_char, names: &[&str], routine: &CStr) {
     let text = format!("the name of a material begins with that of its law: {}", names.join(", "));
-    // SAFETY: the caller's promise.
+    // SAFETY: `cmname` is Abaqus's.
     unsafe { end_job(cmname, &text, routine) };
 }
 
@@ -69,11 +69,12 @@ pub unsafe fn refuses_plane_stress(nshr: i32, cmname: *const c_char, routine: &C
     if nshr != 1 {
         return false;
     }
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: `cmname` is Abaqus's.
     let name = unsafe { material_name(cmname) };
     if name.ends_with(b"_PSTRAIN") || name.ends_with(b"_AXIS") {
         return false;
     }
+    // SAFETY: as above.
     unsafe { end_job(cmname, PLANE_STRESS, routine) };
     true
 }
@@ -83,7 +84,7 @@ pub unsafe fn refuses_plane_stress(nshr: i32, cmname: *const c_char, routine: &C
 /// # Safety
 /// As for [`refuse`].
 unsafe fn end_job(cmname: *const c_char, text: &str, routine: &CStr) {
-    // SAFETY: the caller's promise.
+    // SAFETY: `cmname` is Abaqus's.
     let name = String::from_utf8_lossy(unsafe { material_name(cmname) });
     // An output that is closed must not keep the job from ending.
     let _ = writeln!(std::io::stdout(), " toron, material {name}: {text}");
@@ -135,7 +136,7 @@ macro_rules! abaqus {
                 let call = $crate::toron::host::abaqus::Umat {
                     stress, statev, ddsdde, sse, pnewdt, dfgrd0, dfgrd1, props, nprops, nstatv, ndi, nshr, nlgeom,
                 };
-                // SAFETY: the caller's arrays, as `Umat` says.
+                // SAFETY: the arrays are as long as `Umat` says, and the message is the caller's.
                 unsafe {
                     <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::abaqus::StandardLaw>::umat(
                         &call, message, capacity,
@@ -160,7 +161,7 @@ macro_rules! abaqus {
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
-                // SAFETY: the caller's promise.
+                // SAFETY: the structure is the caller's, with arrays as long as its fields say, and so is the message.
                 unsafe {
                     <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::host::abaqus::ExplicitLaw<$t>>::vumat(
                         block, message, capacity,
@@ -226,7 +227,7 @@ macro_rules! abaqus_umat {
             const CAPACITY: usize = $crate::abaqus::CAPACITY;
             let mut message = [0; CAPACITY];
             let text = message.as_mut_ptr();
-            // SAFETY: Abaqus's promise. JSTEP(3) is 1 with NLGEOM=YES.
+            // SAFETY: Abaqus's arrays, as long as `Umat` says, its numbers, and JSTEP(4), whose third is 1 with NLGEOM=YES.
             unsafe {
                 let call = $crate::toron::host::abaqus::Umat {
                     stress,
@@ -310,7 +311,7 @@ macro_rules! abaqus_vumat {
             const CAPACITY: usize = $crate::abaqus::CAPACITY;
             let mut message = [0; CAPACITY];
             let text = message.as_mut_ptr();
-            // SAFETY: Abaqus's promise.
+            // SAFETY: Abaqus's arrays, as long as `Vumat` says, and its numbers.
             unsafe {
                 if $crate::abaqus::refuses_plane_stress(*nshr, $cmname, c"xplb_exit_") {
                     return;

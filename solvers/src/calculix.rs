@@ -66,7 +66,7 @@ macro_rules! calculix {
                         orab,
                         pnewdt,
                     };
-                    // SAFETY: CalculiX's promise.
+                    // SAFETY: CalculiX's arguments are those that `Behaviour` promises.
                     unsafe {
                         <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::calculix::CalculixLaw>::behaviour(&call)
                     }

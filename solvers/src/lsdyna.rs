@@ -24,7 +24,7 @@ macro_rules! lsdyna {
                 capacity: usize,
             ) -> i32 {
                 let call = $crate::toron::host::lsdyna::Umat { cm, sig, hsv, nhv, failel };
-                // SAFETY: the caller's arrays, as the structure says, here and below.
+                // SAFETY: the arrays are as long as the structure says, and the message is the caller's.
                 unsafe { $crate::lsdyna_routine!($t, $law, umat)(&call, message, capacity) }
             }
 
@@ -49,6 +49,7 @@ macro_rules! lsdyna {
             ) -> i32 {
                 let sig = [sig1, sig2, sig3, sig4, sig5, sig6];
                 let call = $crate::toron::host::lsdyna::UmatVector { cm, sig, hsvs, nhv, lft, llt, nlq, failels };
+                // SAFETY: the arrays are as long as the structure says, and the message is the caller's.
                 unsafe { $crate::lsdyna_routine!($t, $law, umat_vector)(&call, message, capacity) }
             }
 
@@ -62,6 +63,7 @@ macro_rules! lsdyna {
                 capacity: usize,
             ) -> i32 {
                 let call = $crate::toron::host::lsdyna::Utan { cm, hsv, nhv, es };
+                // SAFETY: the arrays are as long as the structure says, and the message is the caller's.
                 unsafe { $crate::lsdyna_routine!($t, $law, utan)(&call, message, capacity) }
             }
 
@@ -79,6 +81,7 @@ macro_rules! lsdyna {
                 capacity: usize,
             ) -> i32 {
                 let call = $crate::toron::host::lsdyna::UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave };
+                // SAFETY: the arrays are as long as the structure says, and the message is the caller's.
                 unsafe { $crate::lsdyna_routine!($t, $law, utan_vector)(&call, message, capacity) }
             }
 
@@ -91,6 +94,7 @@ macro_rules! lsdyna {
                 message: *mut ::core::ffi::c_char,
                 capacity: usize,
             ) -> i32 {
+                // SAFETY: the moduli and the message are the caller's.
                 unsafe { $crate::lsdyna_routine!($t, $law, card_moduli)(values, count, bulk, shear, message, capacity) }
             }
         };

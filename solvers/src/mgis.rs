@@ -82,7 +82,7 @@ macro_rules! mgis {
                 /// MGIS's promise: `view` points to the data of a call, whose arrays have the sizes that the symbols tell.
                 #[unsafe(export_name = concat!($name, "_Tridimensional"))]
                 pub unsafe extern "C" fn tridimensional(view: *mut $crate::toron::host::mgis::BehaviourDataView) -> i32 {
-                    // SAFETY: a view of MGIS's.
+                    // SAFETY: the view is MGIS's.
                     unsafe { <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::mgis::MgisLaw>::integrate(view) }
                 }
 
@@ -92,7 +92,7 @@ macro_rules! mgis {
                 /// As above.
                 #[unsafe(export_name = concat!($name, "_PlaneStrain"))]
                 pub unsafe extern "C" fn plane_strain(view: *mut $crate::toron::host::mgis::BehaviourDataView) -> i32 {
-                    // SAFETY: a view of MGIS's.
+                    // SAFETY: the view is MGIS's.
                     unsafe { <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::mgis::MgisLaw>::integrate_in_plane(view) }
                 }
 
@@ -102,7 +102,7 @@ macro_rules! mgis {
                 /// As above.
                 #[unsafe(export_name = concat!($name, "_Axisymmetrical"))]
                 pub unsafe extern "C" fn axisymmetrical(view: *mut $crate::toron::host::mgis::BehaviourDataView) -> i32 {
-                    // SAFETY: a view of MGIS's.
+                    // SAFETY: the view is MGIS's.
                     unsafe { <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::host::mgis::MgisLaw>::integrate_in_plane(view) }
                 }
             };

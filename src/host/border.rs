@@ -29,7 +29,7 @@ pub(super) unsafe fn properties<'a, T>(
     if count != table.len() {
         return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), table));
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: `properties` is not null, as just checked: `count` values.
     Ok(unsafe { slice::from_raw_parts(properties, count) })
 }
 
@@ -105,7 +105,7 @@ pub(super) fn stiffness_at_rest<T: Precision, L: Law<T>>(law: &L) -> Result<[T; 
 /// The rows have n values.
 pub(super) unsafe fn start_at_rest<T: Precision>(f_old: [*mut T; 9], n: usize) {
     for i in 0..n {
-        // SAFETY: the caller's promise.
+        // SAFETY: i < n by the loop, and each row has n values.
         unsafe {
             if f_old.iter().take(3).all(|row| (*row.add(i)).into() == 0.0) {
                 for (c, row) in f_old.into_iter().enumerate() {
@@ -125,7 +125,8 @@ pub(super) fn from_entry<T, const N: usize>(mut arrays: [*mut T; N], first: usiz
     arrays
 }
 
-/// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error.
+/// Where a caller wants the message of an error: a buffer, or nowhere if it is null. It is written only if there is an error. Who makes
+/// one promises that `text` is null or points to `capacity` writable bytes.
 #[derive(Clone, Copy)]
 pub(super) struct Message {
     pub text: *mut c_char,
@@ -136,22 +137,22 @@ impl Message {
     /// Writes the pieces of a text, at most `capacity` bytes with the terminating null.
     ///
     /// # Safety
-    /// `text` is null or points to `capacity` writable bytes.
+    /// The buffer is what [`Message`] says.
     pub unsafe fn write(self, pieces: impl FnOnce(&mut dyn FnMut(&str))) {
         if self.text.is_null() || self.capacity == 0 {
             return;
         }
-        let (room, mut length) = (self.capacity - 1, 0);
+        let (longest, mut length) = (self.capacity - 1, 0);
         pieces(&mut |piece| {
             for &byte in piece.as_bytes() {
-                if length < room {
-                    // SAFETY: length < capacity.
+                if length < longest {
+                    // SAFETY: not null, and length < capacity.
                     unsafe { *self.text.add(length) = byte as c_char };
                     length += 1;
                 }
             }
         });
-        // SAFETY: length < capacity.
+        // SAFETY: not null, and length < capacity.
         unsafe { *self.text.add(length) = 0 };
     }
 
@@ -162,7 +163,7 @@ impl Message {
     #[cold]
     #[inline(never)]
     pub unsafe fn refuse(self, error: &Error) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the message is that of `write`.
         unsafe { self.write(|sink| error.describe(sink)) };
         error.code()
     }
@@ -180,10 +181,10 @@ impl Message {
     ) -> i32 {
         let name = match name {
             Ok(name) => name,
-            // SAFETY: the caller's promise; the error has no number to format.
+            // SAFETY: as above; the error has no number to format.
             Err(error) => return unsafe { self.refuse(&error) },
         };
-        // SAFETY: the caller's promise.
+        // SAFETY: as above.
         unsafe {
             self.write(|sink| {
                 sink("there is no ");
@@ -210,7 +211,7 @@ impl Message {
 pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
     in_default_environment(|| match body() {
         Ok(status::OK) => status::OK,
-        // SAFETY: the caller's promise.
+        // SAFETY: the message is the caller's, and `body` has run in the default environment, as this does.
         Ok(code) => unsafe { message.refuse(&Error::Plain(code)) },
         Err(error) => unsafe { message.refuse(&error) },
     })
@@ -221,7 +222,7 @@ pub(super) unsafe fn entry(message: Message, body: impl FnOnce() -> Result<i32, 
 /// # Safety
 /// As for [`Message::write`].
 pub(super) unsafe fn look_up(message: Message, body: impl FnOnce() -> Result<i32, Error>) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the caller's; the error has no number that needs the default environment.
     body().unwrap_or_else(|error| unsafe { message.refuse(&error) })
 }
 
@@ -236,7 +237,7 @@ pub(super) unsafe fn of_points(worst: i32, codes: *const i32, n: size_t) -> Resu
     if worst == status::OK || codes.is_null() {
         return Ok(worst);
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: `codes` is not null, as just checked, and i < n by the range.
     match (0..n).find(|&i| unsafe { *codes.add(i) } == worst) {
         Some(index) => Err(Error::Point { code: worst, index }),
         None => Ok(worst),
@@ -246,12 +247,12 @@ pub(super) unsafe fn of_points(worst: i32, codes: *const i32, n: size_t) -> Resu
 /// Copies results to the caller, unless `to` is null.
 ///
 /// # Safety
-/// `to` is null or has room for as many values.
+/// `to` is null or has space for as many values.
 #[inline(always)]
 pub(super) unsafe fn store<T: Copy>(values: &[T], to: *mut T) {
     if !to.is_null() {
         for (i, &value) in values.iter().enumerate() {
-            // SAFETY: the caller's promise.
+            // SAFETY: `to` is not null, as just checked, and i counts the values that it has space for.
             unsafe { *to.add(i) = value };
         }
     }

@@ -54,30 +54,38 @@ const EXIT_CODE: i32 = 201;
 /// ends the job as soon as all elements of a node have failed. The stress stays 0, so that this costs no accuracy.
 const RESIDUAL_STIFFNESS: f64 = 1e-6;
 
-/// Room for the properties of a law whose directions are turned.
+/// The most properties of a law whose directions are turned.
 const MOST_PROPERTIES: usize = 128;
 
-/// The arguments of CalculiX that the laws use, see its `umat_user.f`.
+/// The arguments of CalculiX that the laws use, with the names of its `umat_user.f`. Who makes one promises that every pointer points to
+/// as many values as its field says, valid for what they are used for.
 #[derive(Clone, Copy, Debug)]
 pub struct Behaviour {
-    /// The material's name, 80 characters.
+    /// In, 80 characters: the material's name.
     pub amat: *const c_char,
+    /// In, 1 each: element and integration point, from 1; −100 minus the number of constants, and the constants.
     pub iel: *const i32,
     pub iint: *const i32,
     pub kode: *const i32,
     pub elconloc: *const f64,
+    /// In, 6 each: strain and initial stress; 9: F by columns.
     pub emec: *const f64,
     pub beta: *const f64,
     pub xkl: *const f64,
+    /// In: the integration points of an element, mi(1), and the state variables of a point, 1; then the old and, out, the new state
+    /// variables of all points.
     pub mi: *const i32,
     pub nstate_: *const i32,
     pub xstateini: *const f64,
     pub xstate: *mut f64,
+    /// Out, 6 and 21: stress and tangent.
     pub stre: *mut f64,
     pub stiff: *mut f64,
+    /// In: the orientation, from 1, or 0, 1; coordinates of the point, 3; 7 for each orientation.
     pub iorien: *const i32,
     pub pgauss: *const f64,
     pub orab: *const f64,
+    /// In and out, 1.
     pub pnewdt: *mut f64,
 }
 
@@ -145,7 +153,7 @@ impl Arguments<'_> {
     /// The errors of a deck that the arguments show.
     fn properties(&self, law: &Description) -> Result<&[f64], Error> {
         let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
-        // SAFETY: CalculiX's promise: as many constants as kode says.
+        // SAFETY: as many constants as kode says: see `Behaviour`.
         let properties = unsafe { properties(self.constants, count, law.properties) }?;
         let state = law.history();
         if self.state_count < state as i32 {
@@ -196,7 +204,7 @@ impl Arguments<'_> {
         let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
-        // SAFETY: CalculiX's promise: there are as many as state_count says.
+        // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(Call { source: properties, f: self.f, fibre, state, tangent, sink: &mut answer }, Level::Avx512)?;
         self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())
@@ -209,12 +217,12 @@ impl Arguments<'_> {
     fn step<L: CalculixLaw>(&self) -> Result<Answer<L::State>, Error> {
         let values = self.properties(&L::DESCRIPTION)?;
         let law = self.oriented::<L>(values)?;
-        // SAFETY: CalculiX's promise: there are as many as state_count says.
+        // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let old = unsafe { *self.old_state.cast::<L::State>() };
         let f_new: &[f64; 9] = self.f.as_flattened().first_chunk().unwrap_or(&[0.0; 9]); // there are nine
         let mut f_old = *f_new;
         if L::DESCRIPTION.reads_old_gradient {
-            // SAFETY: as above; nine values.
+            // SAFETY: as above: state_count includes the nine values of F, of a law that reads them.
             unsafe {
                 f_old = *self.old_state.add(L::DESCRIPTION.state.len()).cast();
                 start_at_rest(components_mut(f_old.as_mut_ptr(), 1), 1);
@@ -263,18 +271,18 @@ impl Arguments<'_> {
         // As they are given, so that a message names what stands in the deck.
         let law = L::new(values)?;
         let Some((axes, place)) = self.orientation else { return Ok(law) };
-        let mut room = [0.0; MOST_PROPERTIES];
-        room.iter_mut().zip(values).for_each(|(to, &from)| *to = from);
+        let mut turned_values = [0.0; MOST_PROPERTIES];
+        turned_values.iter_mut().zip(values).for_each(|(to, &from)| *to = from);
         let Description { fibre, second_axis, .. } = L::DESCRIPTION;
         for first in [fibre, second_axis].into_iter().flatten() {
             // A second axis of 0 is any one.
-            if let Some(direction) = room.get_mut(first..).and_then(<[f64]>::first_chunk_mut)
+            if let Some(direction) = turned_values.get_mut(first..).and_then(<[f64]>::first_chunk_mut)
                 && *direction != [0.0; 3]
             {
                 *direction = turned(*direction, axes, place);
             }
         }
-        L::new(room.get(..values.len()).unwrap_or_default()).map_err(|_| Error::Plain(status::FIBRE_DIRECTION))
+        L::new(turned_values.get(..values.len()).unwrap_or_default()).map_err(|_| Error::Plain(status::FIBRE_DIRECTION))
     }
 
     /// Whether NLGEOM is missing: the strain is the linear one of this F, without ½ HᵀH, H = F − 1.
@@ -355,10 +363,10 @@ pub trait CalculixLaw: Law<f64> {
     /// The function that CalculiX calls.
     ///
     /// # Safety
-    /// CalculiX's promise: every pointer has as many values as its `umat_user.f` says.
+    /// The arguments are those that [`Behaviour`] promises.
     #[inline(never)]
     unsafe fn behaviour(call: &Behaviour) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the arguments are those that `Behaviour` promises.
         unsafe { answer(call, |arguments| arguments.step::<Self>()) }
     }
 }
@@ -368,7 +376,7 @@ impl<M: UserMaterial> CalculixLaw for User<M, f64> {}
 impl CalculixLaw for Hyperelastic<f64> {
     #[inline(always)]
     unsafe fn behaviour(call: &Behaviour) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the arguments are those that `Behaviour` promises.
         unsafe { hyperelastic(call) }
     }
 }
@@ -381,7 +389,7 @@ impl CalculixLaw for LinearElastic<f64> {
 
     #[inline(always)]
     unsafe fn behaviour(call: &Behaviour) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the arguments are those that `Behaviour` promises.
         unsafe { linear_elastic(call) }
     }
 }
@@ -392,7 +400,7 @@ impl CalculixLaw for LinearElastic<f64> {
 /// As for [`CalculixLaw::behaviour`].
 #[inline(never)]
 pub unsafe fn hyperelastic(call: &Behaviour) {
-    // SAFETY: the caller's promise.
+    // SAFETY: the arguments are those that `Behaviour` promises.
     unsafe { answer(call, |arguments| arguments.hyperelastic()) }
 }
 
@@ -402,7 +410,7 @@ pub unsafe fn hyperelastic(call: &Behaviour) {
 /// As for [`CalculixLaw::behaviour`].
 #[inline(never)]
 pub unsafe fn linear_elastic(call: &Behaviour) {
-    // SAFETY: the caller's promise.
+    // SAFETY: the arguments are those that `Behaviour` promises.
     unsafe { answer(call, |arguments| arguments.step::<LinearElastic>()) }
 }
 
@@ -412,7 +420,8 @@ pub unsafe fn linear_elastic(call: &Behaviour) {
 /// As for [`CalculixLaw::behaviour`].
 #[inline(always)]
 unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result<Answer<S>, Error>) {
-    // SAFETY: the caller's promise; integration points and elements count from 1.
+    // SAFETY: no pointer is null, and each has the values that `Behaviour` says. Integration points, elements and orientations count
+    // from 1.
     let (arguments, new) = unsafe {
         let point = (*call.iel as usize - 1) * *call.mi as usize + (*call.iint as usize - 1);
         let place = point * *call.nstate_ as usize;
@@ -432,7 +441,8 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
     };
     let mut message = Message::EMPTY;
     match in_default_environment(|| law(&arguments).map_err(|error| message.write(error))) {
-        // SAFETY: the caller's promise.
+        // SAFETY: the results have the sizes that `Behaviour` says; the state has as many values as the law's and F, which
+        // `Arguments::properties` has checked before there is an answer.
         Ok(answer) => unsafe {
             *call.stre.cast() = answer.stress;
             *call.stiff.cast() = answer.stiffness;

@@ -28,7 +28,7 @@ pub fn in_default_environment<R, W: FnOnce() -> R>(work: W) -> R {
     /// # Safety
     /// `call` is valid and its work has not been done.
     unsafe extern "sysv64" fn run<R, W: FnOnce() -> R>(call: *mut Call<R, W>) {
-        // SAFETY: the caller's promise; the work is taken once.
+        // SAFETY: `call` is valid, and its work is taken once.
         unsafe {
             let work = ManuallyDrop::take(&mut (*call).work);
             (*call).result.write(work());

@@ -34,7 +34,7 @@ fn check_size<S: Structure>(size: size_t) -> Result<(), Error> {
     Err(Error::Size { structure: S::NAME, size, known: size_of::<S>() })
 }
 
-/// The structure that a caller passes; one of another size is completed in `room`.
+/// The structure that a caller passes; one of another size is completed in `buffer`.
 ///
 /// # Errors
 /// It is null, has no valid size, or requests what this version does not know.
@@ -42,17 +42,18 @@ fn check_size<S: Structure>(size: size_t) -> Result<(), Error> {
 /// # Safety
 /// `structure` is null or points to as many bytes as its size says.
 #[inline(always)]
-pub(super) unsafe fn read<S: Structure>(structure: *const S, room: &mut MaybeUninit<S>) -> Result<&S, Error> {
+pub(super) unsafe fn read<S: Structure>(structure: *const S, buffer: &mut MaybeUninit<S>) -> Result<&S, Error> {
     if structure.is_null() {
         return Err(Error::Null { name: S::ARGUMENT });
     }
-    // SAFETY: not null, and the caller's promise.
+    // SAFETY: not null, as just checked: its first field is its size, and so many bytes are there. One of this version's size is one
+    // whose fields, pointers and numbers, may have any value.
     unsafe {
         let size = *structure.cast::<size_t>();
         if size == size_of::<S>() {
             return Ok(&*structure);
         }
-        read_other(structure, size, room)
+        read_other(structure, size, buffer)
     }
 }
 
@@ -62,17 +63,22 @@ pub(super) unsafe fn read<S: Structure>(structure: *const S, room: &mut MaybeUni
 /// # Safety
 /// As for [`read`], with this size.
 #[cold]
-unsafe fn read_other<S: Structure>(structure: *const S, size: size_t, room: &mut MaybeUninit<S>) -> Result<&S, Error> {
+unsafe fn read_other<S: Structure>(
+    structure: *const S,
+    size: size_t,
+    buffer: &mut MaybeUninit<S>,
+) -> Result<&S, Error> {
     check_size::<S>(size)?;
     let known = size_of::<S>();
-    *room = MaybeUninit::zeroed();
-    // SAFETY: the caller's promise, and the trait's.
+    *buffer = MaybeUninit::zeroed();
+    // SAFETY: of the `size` bytes that are there no more are copied than both versions have, and none behind them is read. What is not
+    // copied is 0, which the trait allows.
     unsafe {
         let bytes = structure.cast::<u8>();
-        room.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(bytes, size.min(known));
+        buffer.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(bytes, size.min(known));
         match (known..size).find(|&i| *bytes.add(i) != 0) {
             Some(offset) => Err(Error::UnknownField { structure: S::NAME, offset, known }),
-            None => Ok(room.assume_init_ref()),
+            None => Ok(buffer.assume_init_ref()),
         }
     }
 }
@@ -89,7 +95,8 @@ pub(super) unsafe fn write<S: Structure>(value: &S, structure: *mut S) -> Result
         return Err(Error::Null { name: S::ARGUMENT });
     }
     let (head, known) = (size_of::<size_t>(), size_of::<S>());
-    // SAFETY: not null, and the caller's promise.
+    // SAFETY: not null, as just checked: `size` bytes may be written, of which `common` is no more, and no less than `head`, since a
+    // size is two words at least.
     unsafe {
         let size = *structure.cast::<size_t>();
         check_size::<S>(size)?;

@@ -46,14 +46,18 @@ pub unsafe trait Law<T: Precision>: Copy {
     /// A null deformation gradient, a leading dimension below n, a density that is not positive if the wave speed is requested.
     ///
     /// # Safety
-    /// Every pointer that is not null points to as many values as its field says, valid for reading or writing; outputs overlap
-    /// nothing but, exactly, the old state that they replace.
+    /// The points are valid, see [`Points`].
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error>;
 }
 
 /// Points of a host in component-major arrays, `n` values next to each other in each component. Arrays that are null
 /// are absent: an old state is 0 then, and an output is not computed. F at the end must be there, and F at the start for a law that reads
 /// it.
+///
+/// # Safety
+/// Points are **valid** if every pointer that is not null points to as many values as its field, `n` and the leading dimension say, valid
+/// for reading or writing; and if outputs overlap nothing but, exactly, the old state that they replace. [`Law::step`] is unsafe, since
+/// only its caller can know this; it checks the leading dimension, and that what the law needs is not null.
 #[derive(Clone, Copy, Debug)]
 pub struct Points<T> {
     pub n: usize,
@@ -169,7 +173,7 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
             level: points.level,
             ..Pointers::without_arrays(points.n, points.leading_dimension)
         };
-        // SAFETY: the arrays are those of the points; the parts of the state are where the table of its rows has them.
+        // SAFETY: the arrays are those of valid points; the parts of the state are where the table of its rows has them.
         unsafe { self.raw_block(&pointers) }
     }
 }
@@ -217,7 +221,7 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
             level: points.level,
             ..LinearPointers::without_arrays(points.n, points.leading_dimension)
         };
-        // SAFETY: the arrays are those of the points.
+        // SAFETY: the arrays are those of valid points.
         unsafe { self.raw_block(&pointers) }
     }
 }

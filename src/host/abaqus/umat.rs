@@ -77,7 +77,7 @@ impl Umat {
         }
         check_counts(self.ndi, self.nshr, UMAT_COUNTS, self.nstatv, L::DESCRIPTION.state.len())?;
         let table = L::DESCRIPTION.properties;
-        // SAFETY: there are `nprops`.
+        // SAFETY: `props` is not null, as just checked, and has `nprops` values.
         let values = unsafe { properties(self.props, property_count(self.nprops, table)?, table) }?;
         let law = L::new(values)?;
         if self.nshr == 1 {
@@ -95,7 +95,7 @@ pub trait StandardLaw: Law<f64> {
     /// The arrays are those that [`Umat`] promises, and `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: the message is the caller's.
+        // SAFETY: the arrays are those that `Umat` promises, and the message is the caller's.
         unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
 }
@@ -105,7 +105,7 @@ impl<M: UserMaterial> StandardLaw for User<M, f64> {}
 impl StandardLaw for LinearElastic<f64> {
     #[inline(never)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: as above.
+        // SAFETY: as in the trait.
         unsafe { entry(Message { text: message, capacity }, || step::<Self>(call)) }
     }
 }
@@ -114,7 +114,7 @@ impl StandardLaw for Hyperelastic<f64> {
     #[inline(always)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
         let message = Message { text: message, capacity };
-        // SAFETY: as above.
+        // SAFETY: as in the trait; DDSDDE is there where it is written.
         unsafe { if call.ddsdde.is_null() { without_tangent(call, message) } else { with_tangent(call, message) } }
     }
 }
@@ -123,7 +123,7 @@ impl StandardLaw for Hyperelastic<f64> {
 /// As for [`StandardLaw::umat`].
 #[inline(never)]
 unsafe fn without_tangent(call: &Umat, message: Message) -> i32 {
-    // SAFETY: the caller's arrays and message.
+    // SAFETY: as in the trait.
     unsafe { hyperelastic(call, message, Stress::<true>) }
 }
 
@@ -131,7 +131,7 @@ unsafe fn without_tangent(call: &Umat, message: Message) -> i32 {
 /// As for [`StandardLaw::umat`]; DDSDDE is not null.
 #[inline(never)]
 unsafe fn with_tangent(call: &Umat, message: Message) -> i32 {
-    // SAFETY: as above.
+    // SAFETY: as in the trait.
     unsafe { hyperelastic(call, message, JaumannModulus) }
 }
 
@@ -149,7 +149,7 @@ where
     let missing = call.stress.is_null() || call.statev.is_null() || call.sse.is_null() || call.pnewdt.is_null();
     if !usual || missing || call.dfgrd1.is_null() || call.props.is_null() {
         // Every argument is looked at only if one of them is wrong, or if the element is two-dimensional.
-        // SAFETY: the message is the caller's.
+        // SAFETY: the message is the caller's, and `law` refuses an array that is null.
         let code = unsafe { entry(message, || call.law::<Hyperelastic>().map(|_| status::OK)) };
         if code != status::OK {
             return code;
@@ -170,7 +170,7 @@ where
         evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
-    // SAFETY: the message is the caller's.
+    // SAFETY: the message is the caller's; what `body` reads and writes is not null.
     unsafe { entry(message, body) }
 }
 

@@ -72,9 +72,9 @@ macro_rules! at {
 /// # Safety
 /// As for [`ExplicitLaw::vumat`].
 unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: null, or a structure of its size.
-    let block = unsafe { read(block, &mut room) }?;
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null; the structure has as many bytes as its size says.
+    let block = unsafe { read(block, &mut buffer) }?;
     check_pointers(&[
         (block.props, "props"),
         (block.density, "density"),
@@ -97,7 +97,7 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     };
     let level = level(block.level)?;
     let table = L::DESCRIPTION.properties;
-    // SAFETY: there are `nprops`.
+    // SAFETY: `props` is not null, as just checked, and has `nprops` values.
     let values = unsafe { properties(block.props, property_count(block.nprops, table)?, table) }?;
     let law = L::new(values)?;
     if block.nshr == 1 {
@@ -210,10 +210,11 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
             level,
             ..Points::without_arrays(CHUNK.min(n - start), n)
         };
-        // SAFETY: the arrays are those of n points from `start` on.
+        // SAFETY: the rows have the points from `start` on, of which no more than CHUNK are evaluated; the new state may replace the
+        // old one exactly.
         worst = worst.min(unsafe { law.step(&points) }?);
         for (i, &code) in (start..n).zip(&codes) {
-            // SAFETY: i < n.
+            // SAFETY: i < n, and `step` has written the new state.
             unsafe { finish::<L, T>(block, i, code) };
         }
         start += CHUNK;
@@ -263,7 +264,7 @@ pub trait ExplicitLaw<T: Precision>: Law<T> {
     /// `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn vumat(block: *const Vumat<T>, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: the caller's block and message.
+        // SAFETY: null or a structure of its size, with arrays as long as its fields say; the message is the caller's.
         unsafe { entry(Message { text: message, capacity }, move || vumat::<Self, T>(block)) }
     }
 }

@@ -22,10 +22,10 @@ pub extern "C" fn abi_version() -> i32 {
 /// `toron_status_message` of the C interface; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn status_message(status: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's: null, or `capacity` bytes.
     unsafe { Message { text: message, capacity }.write(|sink| Error::Plain(status).describe(sink)) };
     if status::meaning(status).is_some() { status::OK } else { status::UNKNOWN_NAME }
 }

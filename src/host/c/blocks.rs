@@ -223,13 +223,14 @@ impl<T: Scalar> Block<T> {
 }
 
 /// # Safety
-/// As for `toron_hyperelastic_block_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
 unsafe fn evaluate<T: Precision + Registers>(law: Law<'_, T>, block: *const Block<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and the layouts are plain, or checked before an array is read; how long the arrays are the C caller
+    // promises, and of `status` that it has n codes.
     unsafe {
-        let block = read(block, &mut room)?;
+        let block = read(block, &mut buffer)?;
         block.check()?;
         let worst = match (block.is_plain(), law) {
             (false, _) => evaluate_in_layouts(law, block)?,
@@ -264,7 +265,7 @@ unsafe fn named<T: Precision>(law: Law<'_, T>, block: &Block<T>, worst: i32) -> 
         Law::Properties(properties) => Hyperelastic::new(properties)?,
         Law::Prepared(prepared) => prepared.law(),
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the block has been evaluated, so that its layouts are right.
     let index = unsafe { law.at_fault(&block.pointers(), worst) };
     Err(index.map_or(Error::Plain(worst), |index| Error::Point { code: worst, index }))
 }
@@ -279,7 +280,7 @@ unsafe fn named<T: Precision>(law: Law<'_, T>, block: &Block<T>, worst: i32) -> 
 #[inline(always)]
 unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Block<T>) -> Result<i32, Error> {
     let (source, f, old, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
-    // SAFETY: the caller's promise.
+    // SAFETY: the block is plain: its fibre, which is not null, is one array of three components.
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
@@ -313,7 +314,7 @@ impl<T: Scalar> OnlyPoint<'_, T> {
     /// `array` is one of the block's, with this component.
     #[inline(always)]
     unsafe fn read(&self, array: *const T, component: usize) -> T {
-        // SAFETY: the caller's promise.
+        // SAFETY: the array has this component, at the block's leading dimension, and the point is the only one.
         unsafe { *array.add(component * leading_dimension(self.0.leading_dimension, 1)) }
     }
 }
@@ -321,7 +322,7 @@ impl<T: Scalar> OnlyPoint<'_, T> {
 impl<T: Scalar> Columns<T> for OnlyPoint<'_, T> {
     #[inline(always)]
     fn columns(&self) -> [[T; 3]; 3] {
-        // SAFETY: the block has an F; see `evaluate_point`.
+        // SAFETY: a usual point has an F, of nine components.
         let entry = |c: usize| unsafe { self.read(self.0.deformation_gradient[0], c) };
         [[entry(0), entry(1), entry(2)], [entry(3), entry(4), entry(5)], [entry(6), entry(7), entry(8)]]
     }
@@ -335,7 +336,7 @@ impl<T: Scalar> OldState<T> for OnlyPoint<'_, T> {
             FAILURE_INDEX.. => (self.0.failure_old, FAILURE_INDEX),
             _ => (self.0.energies_old, ENERGIES),
         };
-        // SAFETY: an old state that the block has is valid for its components; see `evaluate_point`.
+        // SAFETY: not null, and c − `first` is below the number of components of this part of the state.
         if array.is_null() { T::splat(0.0) } else { unsafe { self.read(array, c - first) } }
     }
 }
@@ -352,7 +353,8 @@ impl<T: Scalar> PointOfBlock<'_, T> {
         let PointOfBlock { block, code } = self;
         *code = point.status;
         let next = leading_dimension(block.leading_dimension, 1);
-        // SAFETY: the block has these arrays; see `evaluate_point`.
+        // SAFETY: a usual point has a stress, and all parts of the state or none; what may be null has been checked. As many values as
+        // components.
         let store = |values: &[T], array: *mut T| unsafe {
             for (c, &value) in values.iter().enumerate() {
                 *array.add(c * next) = value;
@@ -372,7 +374,7 @@ impl<T: Scalar> PointOfBlock<'_, T> {
             }
         }
         if !block.status.is_null() {
-            // SAFETY: as above.
+            // SAFETY: not null: one code.
             unsafe { *block.status = point.status };
         }
     }
@@ -390,7 +392,7 @@ impl<T: Scalar> Sink<T, 21> for PointOfBlock<'_, T> {
     fn take(self, point: point::Point<T>, _: Option<T>, moduli: [T; 21]) {
         let next = leading_dimension(self.block.leading_dimension, 1);
         for (c, &entry) in Moduli(moduli).matrix().as_flattened().iter().enumerate() {
-            // SAFETY: a block with a tangent has room for its 36 components; see `evaluate_point`.
+            // SAFETY: this sink is for a block with a tangent, of 36 components.
             unsafe { *self.block.tangent.add(c * next) = entry };
         }
         self.put(&point);
@@ -402,7 +404,7 @@ impl<T: Scalar> Sink<T, 21> for PointOfBlock<'_, T> {
 #[inline(never)]
 unsafe fn evaluate_in_layouts<T: Precision>(law: Law<'_, T>, block: &Block<T>) -> Result<i32, Error> {
     block.check_layouts()?;
-    // SAFETY: the caller's promise.
+    // SAFETY: the layouts have just been checked; how long the arrays are the C caller promises.
     unsafe { raw_block_of(law, &block.pointers()) }
 }
 
@@ -411,7 +413,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $block(
             law: *const HyperelasticLaw<$t>,
@@ -419,14 +421,14 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `evaluate` refuse null.
             unsafe { entry(Message { text: message, capacity }, move || evaluate(Law::Prepared(numbers(law)?), block)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $with_properties(
             values: *const $t,
@@ -435,7 +437,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `properties` and `evaluate` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
                     evaluate(Law::Properties(properties(values, count, &parameters::HYPERELASTIC)?), block)

@@ -157,12 +157,12 @@ const _: () = {
 /// A point as a block of one.
 ///
 /// # Safety
-/// As for `toron_linear_elastic_point_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and `raw_block` an F that is; how long the arrays of the one point are the C caller promises.
     unsafe {
-        let point = read(point, &mut room)?;
+        let point = read(point, &mut buffer)?;
         check_density::<T>(point.density, !point.wave_speed.is_null())?;
         law.raw_block(&LinearPointers {
             f_old: components(point.f_old, 1),
@@ -236,12 +236,12 @@ impl<T: Scalar> LinearBlock<T> {
 }
 
 /// # Safety
-/// As for `toron_linear_elastic_block_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn block<T: Precision>(law: &LinearElastic<T>, block: *const LinearBlock<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and `pointers` and `raw_block` check the layouts; how long the arrays are the C caller promises.
     unsafe {
-        let block = read(block, &mut room)?;
+        let block = read(block, &mut buffer)?;
         let pointers = block.pointers()?;
         let worst = law.raw_block(&pointers)?;
         if worst == status::OK || !block.status.is_null() {
@@ -259,7 +259,7 @@ unsafe fn load<T: Scalar, const N: usize>(from: *const T) -> [f64; N] {
     let mut values = [0.0; N];
     if !from.is_null() {
         for (i, value) in values.iter_mut().enumerate() {
-            // SAFETY: the caller's promise.
+            // SAFETY: `from` is not null, as just checked, and i < N by the loop.
             *value = unsafe { *from.add(i) }.into();
         }
     }
@@ -267,7 +267,7 @@ unsafe fn load<T: Scalar, const N: usize>(from: *const T) -> [f64; N] {
 }
 
 /// # Safety
-/// As for `toron_linear_elastic_axes_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn axes<T: Scalar>(
     law: &LinearElastic<T>,
     fibre: *const T,
@@ -277,7 +277,7 @@ unsafe fn axes<T: Scalar>(
     if axes.is_null() {
         return Err(Error::Null { name: "axes" });
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: `axes` is not null, as just checked, and i < 9; `load` reads the three values of a direction.
     unsafe {
         let mut law = law.lanes::<f64>();
         if !fibre.is_null() || !second_axis.is_null() {
@@ -294,12 +294,13 @@ unsafe fn axes<T: Scalar>(
 }
 
 /// # Safety
-/// As for `toron_linear_elastic_increment_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearIncrement<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, `strain` is checked, and `load` and `store` pass over null; the arrays are as long as the C caller
+    // promises.
     unsafe {
-        let increment = read(increment, &mut room)?;
+        let increment = read(increment, &mut buffer)?;
         if increment.strain.is_null() {
             return Err(Error::Null { name: "strain" });
         }
@@ -332,7 +333,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $axes(
             law: *const LinearElasticLaw<$t>,
@@ -342,7 +343,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `axes` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
                     self::axes(&numbers(law)?.law(), fibre, second_axis, axes)
@@ -353,7 +354,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $point(
             law: *const LinearElasticLaw<$t>,
@@ -361,14 +362,14 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `point` refuse null.
             unsafe { entry(Message { text: message, capacity }, move || self::point(&numbers(law)?.law(), point)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $point_with_properties(
             values: *const $t,
@@ -377,7 +378,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `properties` and `point` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
                     self::point(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, point)
@@ -388,7 +389,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $increment(
             law: *const LinearElasticLaw<$t>,
@@ -396,7 +397,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `increment` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || self::increment(&numbers(law)?.law(), increment))
             }
@@ -405,7 +406,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $block(
             law: *const LinearElasticLaw<$t>,
@@ -413,14 +414,14 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `block` refuse null.
             unsafe { entry(Message { text: message, capacity }, move || self::block(&numbers(law)?.law(), block)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $block_with_properties(
             values: *const $t,
@@ -429,7 +430,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `properties` and `block` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
                     self::block(&LinearElastic::new(properties(values, count, &parameters::LINEAR_ELASTIC)?)?, block)

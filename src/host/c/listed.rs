@@ -156,7 +156,7 @@ pub unsafe fn listed_prepare<N: Named<T>, T: Precision>(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the arguments are the C caller's; `prepare` refuses null.
     unsafe { super::prepared::prepare(law, size, values, count, Message { text: message, capacity }) }
 }
 
@@ -172,15 +172,16 @@ pub unsafe fn listed_block<N: Named<T>, T: Precision>(
     capacity: size_t,
 ) -> i32 {
     let body = move || {
-        let mut room = MaybeUninit::uninit();
-        // SAFETY: the caller's promise.
+        let mut buffer = MaybeUninit::uninit();
+        // SAFETY: `numbers` and `read` refuse null, and `checked` and `step` what the law needs and is null; how long the arrays are
+        // the C caller promises.
         unsafe {
             let law = N::Law::of(numbers::<T, _>(law)?);
-            let points = read(points, &mut room)?;
+            let points = read(points, &mut buffer)?;
             of_points(law.step(&points.checked()?)?, points.status, points.n)
         }
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
     unsafe { entry(Message { text: message, capacity }, body) }
 }
 
@@ -195,7 +196,7 @@ pub unsafe fn listed_property(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: row and message are the C caller's; `write_row` refuses a row that is null.
     unsafe { look_up(Message { text: message, capacity }, || write_row(law.properties, index, row)) }
 }
 
@@ -210,6 +211,6 @@ pub unsafe fn listed_state_variable(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: row and message are the C caller's; `write_row` refuses a row that is null.
     unsafe { look_up(Message { text: message, capacity }, || write_row(law.state, index, row)) }
 }

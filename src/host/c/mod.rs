@@ -12,6 +12,16 @@
 //! | arrays | the caller's; read and written during the call only, never kept |
 //!
 //! Every function may be called from any thread at any time.
+//!
+//! # What a caller promises
+//!
+//! What is null is passed over or refused; of a pointer that is not, each function has to believe, while it runs:
+//!
+//! - a structure that begins with its size has as many bytes as it says, a prepared law is a whole structure of its type, prepared or
+//!   not, and in what a function prepares, `size` bytes may be written;
+//! - an array has as many values as its argument or field says, in the layout that the structure says, valid for reading or writing;
+//! - outputs overlap nothing but, exactly, the old state that they replace;
+//! - a name is a null-terminated text, and at `message` `capacity` bytes may be written.
 
 mod about;
 mod arguments;

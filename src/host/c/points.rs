@@ -67,7 +67,8 @@ structures! { Point, "toron_point_f64", "toron_point_f32", "point"; }
 const _: () = assert!(size_of::<Point<f64>>() == 3 * 8 + 8 * 8 && size_of::<Point<f32>>() == size_of::<Point<f64>>());
 
 /// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that `tangent`
-/// must not be null if there is a tangent.
+/// must not be null if there is a tangent. Who makes one promises that the others have the values of one point: 6, 11, 4 × 6, 1, and
+/// those of the tangent's measure, 36 or 81.
 pub(in crate::host) struct PointAnswer<'a, T> {
     pub stress: *mut T,
     pub state: *mut T,
@@ -82,7 +83,7 @@ impl<T: Real> PointAnswer<'_, T> {
     #[inline(always)]
     fn put(self, point: &point::Point<T>) {
         *self.status = point.status;
-        // SAFETY: the function that makes this has arrays of these sizes, or null.
+        // SAFETY: each array is null or has as many values as `PointAnswer` says.
         unsafe {
             store(&point.state, self.state);
             store(&point.stress, self.stress);
@@ -106,7 +107,7 @@ impl<T: Real> Sink<T, 0> for PointAnswer<'_, T> {
 impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
     #[inline(always)]
     fn take(self, point: point::Point<T>, _: Option<T>, moduli: [T; 21]) {
-        // SAFETY: the function that makes this has room for the matrix.
+        // SAFETY: 36 values, which `PointAnswer` promises for this tangent.
         unsafe { *self.tangent.cast() = Moduli(moduli).matrix() };
         self.put(&point);
     }
@@ -115,7 +116,7 @@ impl<T: Real> Sink<T, 21> for PointAnswer<'_, T> {
 impl<T: Real> Sink<T, 81> for PointAnswer<'_, T> {
     #[inline(always)]
     fn take(self, point: point::Point<T>, _: Option<T>, nominal: [T; 81]) {
-        // SAFETY: the function that makes this has room for the matrix.
+        // SAFETY: 81 values, which `PointAnswer` promises for this tangent.
         unsafe { *self.tangent.cast() = nominal };
         self.put(&point);
     }
@@ -130,10 +131,10 @@ type Motion<'a, T> = (&'a [[T; 3]; 3], Option<[T; 3]>);
 /// F is null.
 ///
 /// # Safety
-/// As for `toron_hyperelastic_point_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
 unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> {
-    // SAFETY: the caller's promise.
+    // SAFETY: F is null or nine values, and so is the fibre with three.
     unsafe {
         let f = point.deformation_gradient.cast::<[[T; 3]; 3]>().as_ref();
         let fibre = if point.fibre.is_null() { None } else { Some(*point.fibre.cast::<[T; 3]>()) };
@@ -152,7 +153,7 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
     #[inline(always)]
     fn take(self, point: point::Point<T>, _: Option<T>, _: [T; 0]) {
         *self.status = point.status;
-        // SAFETY: `evaluate` makes this from arrays of these sizes.
+        // SAFETY: `evaluate` has found the arrays that are written not to be null; they have the values of one point.
         unsafe {
             *self.stress.cast() = point.stress;
             if STATE {
@@ -165,13 +166,13 @@ impl<T: Real, const STATE: bool> Sink<T, 0> for StressAnswer<'_, T, STATE> {
 /// Evaluates the law at one point, from and to a caller's arrays.
 ///
 /// # Safety
-/// As for `toron_hyperelastic_point_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
 unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>) -> Result<i32, Error> {
-    let mut room = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    let mut buffer = MaybeUninit::uninit();
+    // SAFETY: `read` refuses null, and `motion` an F that is; how long the arrays are the C caller promises.
     let (point, (f, fibre)) = unsafe {
-        let point = read(point, &mut room)?;
+        let point = read(point, &mut buffer)?;
         (point, motion(point)?)
     };
     let level = match point.level {
@@ -180,7 +181,7 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
     };
     let Point { state_old, state_new, stress, modes, wave_speed, tangent, .. } = *point;
     let mut fresh = MaybeUninit::uninit();
-    // SAFETY: the caller's promise.
+    // SAFETY: null or the values of one point; in cells, since the new state may replace them.
     let state = match unsafe { state_old.cast::<[Cell<T>; HYPERELASTIC_STATE]>().as_ref() } {
         Some(state) => state,
         None => fresh.write(cells([T::splat(0.0); HYPERELASTIC_STATE])),
@@ -230,7 +231,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $point(
             law: *const HyperelasticLaw<$t>,
@@ -238,14 +239,14 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `numbers` and `evaluate` refuse null.
             unsafe { entry(Message { text: message, capacity }, move || evaluate(numbers(law)?, point)) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $with_properties(
             values: *const $t,
@@ -254,7 +255,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `properties` and `evaluate` refuse null.
             unsafe {
                 entry(Message { text: message, capacity }, move || {
                     evaluate(properties(values, count, &parameters::HYPERELASTIC)?, point)
@@ -270,7 +271,7 @@ entries!(f32: hyperelastic_point_f32, hyperelastic_point_with_properties_f32);
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
     law: *const HyperelasticLaw<f64>,
@@ -281,11 +282,11 @@ pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
     capacity: size_t,
 ) -> i32 {
     let body = move || {
-        let mut room = MaybeUninit::uninit();
-        // SAFETY: the caller's promise.
+        let mut buffer = MaybeUninit::uninit();
+        // SAFETY: `numbers`, `read` and `motion` refuse null, `least` is checked, and `store` passes over a direction that is null.
         unsafe {
             let law = numbers(law)?.law();
-            let (f, fibre) = motion(read(point, &mut room)?)?;
+            let (f, fibre) = motion(read(point, &mut buffer)?)?;
             if least.is_null() {
                 return Err(Error::Null { name: "least" });
             }
@@ -295,6 +296,6 @@ pub unsafe extern "C" fn hyperelastic_least_acoustic_eigenvalue_f64(
         }
         Ok(status::OK)
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
     unsafe { entry(Message { text: message, capacity }, body) }
 }

@@ -133,7 +133,8 @@ pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L)
     if law.is_null() {
         return Err(Error::Null { name: "law" });
     }
-    // SAFETY: not null, the caller's promise and the trait's.
+    // SAFETY: not null, as just checked, and of the form that the trait says: tag, size, the numbers, a last word. Numbers may have any
+    // bytes.
     unsafe {
         let words = law.cast::<u64>();
         let (size, last) = (size_of::<L>() as u64, size_of::<L>() / 8 - 1);
@@ -145,7 +146,7 @@ pub(super) unsafe fn numbers<'a, T: Precision, L: PreparedLaw<T>>(law: *const L)
 }
 
 /// # Safety
-/// As for `toron_hyperelastic_prepare_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 pub(super) unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
     law: *mut L,
     size: size_t,
@@ -160,10 +161,11 @@ pub(super) unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
         if size != size_of::<L>() {
             return Err(Error::Size { structure: L::NAME, size, known: size_of::<L>() });
         }
-        // SAFETY: the caller's promise.
+        // SAFETY: `properties` refuses null, and there are `count` values.
         let values = unsafe { properties(values, count, L::Law::DESCRIPTION.properties) }?;
         let numbers = L::Law::new(values)?.numbers();
-        // SAFETY: not null, of this size, and the caller's promise; a number whose bytes are all 0 is 0.
+        // SAFETY: not null and of this size, as just checked; a number whose bytes are all 0 is 0. The trait says where the numbers
+        // are.
         unsafe {
             law.write_bytes(0, 1);
             let words = law.cast::<u64>();
@@ -175,7 +177,7 @@ pub(super) unsafe fn prepare<T: Precision, L: PreparedLaw<T>>(
         }
         Ok(status::OK)
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's, and so are the arguments, which `body` checks.
     unsafe { entry(message, body) }
 }
 
@@ -184,7 +186,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $hyperelastic(
             law: *mut HyperelasticLaw<$t>,
@@ -194,14 +196,14 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `prepare` refuses null.
             unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
         }
 
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $linear_elastic(
             law: *mut LinearElasticLaw<$t>,
@@ -211,7 +213,7 @@ macro_rules! entries {
             message: *mut c_char,
             capacity: size_t,
         ) -> i32 {
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `prepare` refuses null.
             unsafe { prepare(law, size, properties, count, Message { text: message, capacity }) }
         }
     };

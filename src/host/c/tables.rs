@@ -124,7 +124,7 @@ fn description(law: i32) -> Result<&'static Description, Error> {
 /// There is no such index, or no row to write to.
 ///
 /// # Safety
-/// As for `toron_property`.
+/// What [a caller promises](super#what-a-caller-promises).
 pub(super) unsafe fn write_row<R>(table: &'static [R], index: i32, row: *mut TableRow) -> Result<i32, Error>
 where
     TableRow: From<&'static R>,
@@ -133,7 +133,7 @@ where
         let (code, value) = (status::UNKNOWN_NAME, i64::from(index));
         return Err(Error::Range { code, name: "index", value, least: 0, greatest: table.len() as i64 - 1 });
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: `write` refuses null; the row has as many bytes as its size says.
     unsafe { write(&TableRow::from(found), row) }?;
     Ok(status::OK)
 }
@@ -141,7 +141,7 @@ where
 /// The index of a name among those of a table, or a status code.
 ///
 /// # Safety
-/// `wanted` is a C string or null; as for [`Message::write`].
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn index_of(
     wanted: *const c_char,
     what: &'static str,
@@ -149,11 +149,11 @@ unsafe fn index_of(
     names: impl Iterator<Item = &'static str> + Clone,
     message: Message,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: null, or a C string.
     let wanted = unsafe { name(wanted, argument) };
     match names.clone().position(|name| Ok(name) == wanted) {
         Some(index) => index as i32,
-        // SAFETY: the caller's promise.
+        // SAFETY: the message is the C caller's.
         None => unsafe { message.refuse_name(what, wanted, names) },
     }
 }
@@ -161,17 +161,17 @@ unsafe fn index_of(
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn property_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's.
     unsafe { look_up(Message { text: message, capacity }, || Ok(description(law)?.properties.len() as i32)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn property(
     law: i32,
@@ -180,14 +180,14 @@ pub unsafe extern "C" fn property(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: row and message are the C caller's; `write_row` refuses a row that is null.
     unsafe { look_up(Message { text: message, capacity }, || write_row(description(law)?.properties, index, row)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn property_index(
     law: i32,
@@ -196,28 +196,29 @@ pub unsafe extern "C" fn property_index(
     capacity: size_t,
 ) -> i32 {
     let message = Message { text: message, capacity };
-    let find = |table: &'static [Property]| {
-        // SAFETY: the caller's promise.
-        unsafe { index_of(property, "property", "property", table.iter().map(|row| row.name), message) }
-    };
-    // SAFETY: the caller's promise.
-    unsafe { look_up(message, || Ok(find(description(law)?.properties))) }
+    // SAFETY: the name is null or a C string, and the message is the C caller's.
+    unsafe {
+        look_up(message, || {
+            let names = description(law)?.properties.iter().map(|row| row.name);
+            Ok(index_of(property, "property", "property", names, message))
+        })
+    }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn state_count(law: i32, message: *mut c_char, capacity: size_t) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's.
     unsafe { look_up(Message { text: message, capacity }, || Ok(description(law)?.state.len() as i32)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn state_variable(
     law: i32,
@@ -226,27 +227,28 @@ pub unsafe extern "C" fn state_variable(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: row and message are the C caller's; `write_row` refuses a row that is null.
     unsafe { look_up(Message { text: message, capacity }, || write_row(description(law)?.state, index, row)) }
 }
 
 /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
 ///
 /// # Safety
-/// As documented there.
+/// What [a caller promises](super#what-a-caller-promises).
 #[inline(never)]
 pub unsafe extern "C" fn state_index(law: i32, variable: *const c_char, message: *mut c_char, capacity: size_t) -> i32 {
     let message = Message { text: message, capacity };
-    let find = |table: &'static [StateVariable]| {
-        // SAFETY: the caller's promise.
-        unsafe { index_of(variable, "state variable", "variable", table.iter().map(|row| row.name), message) }
-    };
-    // SAFETY: the caller's promise.
-    unsafe { look_up(message, || Ok(find(description(law)?.state))) }
+    // SAFETY: the name is null or a C string, and the message is the C caller's.
+    unsafe {
+        look_up(message, || {
+            let names = description(law)?.state.iter().map(|row| row.name);
+            Ok(index_of(variable, "state variable", "variable", names, message))
+        })
+    }
 }
 
 /// # Safety
-/// As for `toron_preset_f64`.
+/// What [a caller promises](super#what-a-caller-promises).
 unsafe fn preset<T: Scalar>(
     preset: *const c_char,
     units: *const c_char,
@@ -255,14 +257,14 @@ unsafe fn preset<T: Scalar>(
     density: *mut T,
     message: Message,
 ) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: each is null or a C string.
     let (preset, units) = unsafe { (name(preset, "preset"), name(units, "units")) };
     let Some(found) = preset.ok().and_then(parameters::preset) else {
-        // SAFETY: the caller's promise.
+        // SAFETY: the message is the C caller's.
         return unsafe { message.refuse_name("preset", preset, parameters::PRESETS.iter().map(|preset| preset.name)) };
     };
     let Some(system) = units.ok().and_then(UnitSystem::parse) else {
-        // SAFETY: the caller's promise.
+        // SAFETY: the message is the C caller's.
         return unsafe { message.refuse_name("system of units", units, core::iter::once(UnitSystem::ALLOWED)) };
     };
     let write = || {
@@ -273,16 +275,16 @@ unsafe fn preset<T: Scalar>(
             return Err(wrong_number(i64::try_from(count).unwrap_or(i64::MAX), found.table()));
         }
         for (i, (&value, property)) in found.values.iter().zip(found.table()).enumerate() {
-            // SAFETY: i < count.
+            // SAFETY: not null, as just checked, and i < `count`, which is the table's length.
             unsafe { *properties.add(i) = T::splat(system.from_si(value, property.dimension)) };
         }
         if !density.is_null() {
-            // SAFETY: not null, and the caller's promise.
+            // SAFETY: not null, as just checked: one value.
             unsafe { *density = T::splat(system.from_si(found.density, parameters::DENSITY)) };
         }
         Ok(status::OK)
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is the C caller's.
     unsafe { look_up(message, write) }
 }
 
@@ -291,7 +293,7 @@ macro_rules! entries {
         /// The entry of the C interface with `toron_` before its name; package `toron-c` documents its arguments.
         ///
         /// # Safety
-        /// As documented there.
+        /// What [a caller promises](super#what-a-caller-promises).
         #[inline(never)]
         pub unsafe extern "C" fn $preset(
             preset: *const c_char,
@@ -303,7 +305,7 @@ macro_rules! entries {
             capacity: size_t,
         ) -> i32 {
             let message = Message { text: message, capacity };
-            // SAFETY: the caller's promise.
+            // SAFETY: the arguments are the C caller's; `preset` refuses null where it is not allowed.
             in_default_environment(move || unsafe { self::preset(preset, units, properties, count, density, message) })
         }
     };

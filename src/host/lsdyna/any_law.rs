@@ -18,7 +18,7 @@ const CHUNK: usize = 64;
 /// `cm` has the law's properties; the history and results of the elements may be written, and F is behind their history.
 unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements: &Elements<T>) -> Result<i32, Error> {
     let Elements { leading_dimension: stride, first, count, .. } = *elements;
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9 variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *elements.variable(j, first)) }?;
     let (mut worst, mut done) = (status::OK, 0);
     while done < count {
@@ -28,6 +28,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
         // Of a law that does not depend on F at the start of a step, this is F at its end, which is not written.
         let f_old = components_mut(row(L::DESCRIPTION.state.len()), stride);
         if L::DESCRIPTION.reads_old_gradient {
+            // SAFETY: rows of the history, which have the n elements from `start` on.
             unsafe { start_at_rest(f_old, n) };
         }
         let points = Points {
@@ -39,16 +40,18 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
             status: codes.as_mut_ptr(),
             ..Points::without_arrays(n, stride)
         };
+        // SAFETY: rows with the n elements from `start` on; the new state is in the place of the old one, and `codes` has n ≤ CHUNK.
         worst = worst.min(unsafe { law.step(&points) }?);
         let codes = codes.get(..n).unwrap_or(&codes);
         if L::DESCRIPTION.reads_old_gradient {
             for (i, _) in codes.iter().enumerate().filter(|(_, code)| **code == status::OK) {
                 for (old, new) in f_old.into_iter().zip(points.f_new) {
+                    // SAFETY: as for `step`, and i < n.
                     unsafe { *old.add(i) = *new.add(i) };
                 }
             }
         }
-        // SAFETY: the elements are those of the block.
+        // SAFETY: `codes` has the status of the n elements from `start` on.
         unsafe { elements.mark_failed(&L::DESCRIPTION, start, codes) };
         done += n;
     }
@@ -62,7 +65,7 @@ unsafe fn evaluate<T: Precision, L: History<T>>(cm: *const T, nhv: i32, elements
 pub(super) unsafe fn vector<T: Precision, L: History<T>>(call: &UmatVector<T>) -> Result<i32, Error> {
     check_pointers(&[(call.cm, "cm")])?;
     let elements = Elements::new(call)?;
-    // SAFETY: not null, in rows of `nlq` elements, of which these are some.
+    // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which these are some.
     unsafe { evaluate::<T, L>(call.cm, call.nhv, &elements) }
 }
 
@@ -76,7 +79,7 @@ pub(super) unsafe fn scalar<T: Precision, L: History<T>>(call: &Umat<T>) -> Resu
     check_pointers(&[(failel.cast_const(), "failel")])?;
     let stress = components_mut(sig, 1);
     let elements = Elements { stress, history: hsv, leading_dimension: 1, first: 0, count: 1, failed: failel };
-    // SAFETY: not null, for this one element.
+    // SAFETY: `check_pointers` has refused null; rows of one element.
     unsafe { evaluate::<T, L>(cm, nhv, &elements) }
 }
 
@@ -93,13 +96,14 @@ unsafe fn tangents<T: Precision, L: History<T>>(
     dsave: *mut T,
 ) -> Result<i32, Error> {
     let row = |variable: usize, start: usize| hsvs.wrapping_add(variable.wrapping_mul(stride).wrapping_add(start));
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: `cm` has the properties, and the first of the elements, of which `law` asks only if there is one, NHV + 9 variables.
     let law: L = unsafe { law(cm, nhv, count, |j| *row(j, first)) }?;
     let mut worst = status::OK;
     for i in first..first + count {
         let f = components(row(L::DESCRIPTION.history(), i), stride);
         let (mut state, mut stress, mut entries) = (L::fresh(), [T::splat(0.0); 6], [[T::splat(0.0); 6]; 6]);
         for (j, variable) in state.as_mut().iter_mut().enumerate() {
+            // SAFETY: i is one of the elements, and j one of the law's variables.
             *variable = unsafe { *row(j, i) };
         }
         let state = state.as_mut().as_mut_ptr();
@@ -113,12 +117,14 @@ unsafe fn tangents<T: Precision, L: History<T>>(
             measure: Measure::Truesdell,
             ..Points::without_arrays(1, 1)
         };
+        // SAFETY: F is behind the history of element i; the other arrays are those of one point here, with one state.
         worst = worst.min(unsafe { law.step(&point) }?);
         for (r, row) in entries.iter().enumerate() {
             for (c, &entry) in row.iter().enumerate() {
                 let mirrored = entries.get(c).and_then(|row| row.get(r)).copied().unwrap_or(entry);
                 // Halved first: the sum might overflow.
                 let mean = entry * T::splat(0.5) + mirrored * T::splat(0.5);
+                // SAFETY: r and c are below 6, and i is one of the elements.
                 unsafe { *dsave.wrapping_add((6 * c + r).wrapping_mul(stride).wrapping_add(i)) = mean };
             }
         }
@@ -131,7 +137,7 @@ unsafe fn tangents<T: Precision, L: History<T>>(
 pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(call: &Utan<T>) -> Result<i32, Error> {
     let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-    // SAFETY: not null, for this one element.
+    // SAFETY: `check_pointers` has refused null; rows of one element.
     unsafe { tangents::<T, L>(cm, hsv, nhv, [0, 1, 1], es) }
 }
 
@@ -140,6 +146,6 @@ pub(super) unsafe fn scalar_tangent<T: Precision, L: History<T>>(call: &Utan<T>)
 pub(super) unsafe fn vector_tangent<T: Precision, L: History<T>>(call: &UtanVector<T>) -> Result<i32, Error> {
     let UtanVector { cm, hsvs, nhv, lft, llt, nlq, dsave } = *call;
     check_pointers(&[(cm, "cm"), (hsvs, "hsvs"), (dsave, "dsave")])?;
-    // SAFETY: not null, in rows of `nlq` elements, of which these are some.
+    // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which these are some.
     unsafe { tangents::<T, L>(cm, hsvs, nhv, element_range([lft, llt, nlq])?, dsave) }
 }

@@ -41,7 +41,7 @@ type ElementArguments<'a, T> = (&'a [T], &'a [[T; 3]; 3], &'a [Cell<T>; HYPERELA
 /// `cm` has the law's properties, `hsv` its state and F.
 unsafe fn element<'a, T: Precision>(cm: *const T, hsv: *const T, nhv: i32) -> Result<ElementArguments<'a, T>, Error> {
     check_number::<T, Hyperelastic<T>>(nhv)?;
-    // SAFETY: `cm` has the properties, `hsv` the state and F behind it.
+    // SAFETY: `cm` has the properties, and behind the state, whose number has been checked, is F.
     unsafe {
         let properties = properties(cm, parameters::HYPERELASTIC_PROPERTIES, &parameters::HYPERELASTIC)?;
         if !is_plausible::<T, Hyperelastic<T>>(|j| *hsv.add(j)) {
@@ -64,7 +64,7 @@ impl<T: Scalar> Sink<T, 0> for Element<'_, T> {
     #[inline(always)]
     fn take(self, point: Point<T>, _: Option<T>, _: [T; 0]) {
         *self.status = point.status;
-        // SAFETY: `scalar` makes this from pointers to arrays of these sizes, as its caller promises.
+        // SAFETY: `scalar` makes this from the arrays that `Umat` promises, none of them null.
         unsafe {
             *self.sig.cast() = point.stress;
             *self.hsv.cast() = point.state;
@@ -87,7 +87,7 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<
         check_pointers(&[(cm, "cm"), (sig, "sig"), (hsv, "hsv")])?;
         check_pointers(&[(failel.cast_const(), "failel")])?;
     }
-    // SAFETY: not null, with the properties, the history and F.
+    // SAFETY: `check_pointers` has refused null; the arrays are those that `Umat` promises.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
@@ -100,7 +100,7 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<
 pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) -> Result<i32, Error> {
     let Utan { cm, hsv, nhv, es } = *call;
     check_pointers(&[(cm, "cm"), (hsv, "hsv"), (es, "es")])?;
-    // SAFETY: not null, with the properties, the history and F.
+    // SAFETY: `check_pointers` has refused null; the arrays are those that `Utan` promises.
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let none = core::ptr::null_mut;
     let mut status = status::OK;
@@ -132,7 +132,7 @@ pub(super) unsafe fn vector_tangent<T: Precision>(call: &UtanVector<T>) -> Resul
         measure: Measure::Truesdell,
         ..Pointers::without_arrays(count, stride)
     };
-    // SAFETY: not null; rows of `nlq` elements, of which those from `start` on are evaluated.
+    // SAFETY: `check_pointers` has refused null; rows of `nlq` elements, of which those from `start` on are evaluated.
     unsafe {
         let law: Hyperelastic<T> = law(cm, nhv, count, |j| *row(j))?;
         law.raw_block(&pointers)

@@ -101,7 +101,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// The arrays are those that [`Umat`] promises, and `message` is null or has `capacity` bytes.
     #[inline(never)]
     unsafe fn umat(call: &Umat<T>, message: *mut c_char, capacity: size_t) -> i32 {
-        // SAFETY: the caller's arrays and message, here and below.
+        // SAFETY: the arrays and the message are the caller's.
         unsafe { entry(Message { text: message, capacity }, || any_law::scalar::<T, Self>(call)) }
     }
 
@@ -111,6 +111,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`UmatVector`].
     #[inline(never)]
     unsafe fn umat_vector(call: &UmatVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the arrays and the message are the caller's.
         unsafe { entry(Message { text: message, capacity }, || any_law::vector::<T, Self>(call)) }
     }
 
@@ -120,6 +121,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`Utan`].
     #[inline(never)]
     unsafe fn utan(call: &Utan<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the arrays and the message are the caller's.
         unsafe { entry(Message { text: message, capacity }, || any_law::scalar_tangent::<T, Self>(call)) }
     }
 
@@ -129,6 +131,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
     /// As for [`umat`](Self::umat), with the arrays of [`UtanVector`].
     #[inline(never)]
     unsafe fn utan_vector(call: &UtanVector<T>, message: *mut c_char, capacity: size_t) -> i32 {
+        // SAFETY: the arrays and the message are the caller's.
         unsafe { entry(Message { text: message, capacity }, || any_law::vector_tangent::<T, Self>(call)) }
     }
 
@@ -146,6 +149,7 @@ pub trait UserRoutines<T: Precision>: History<T> {
         message: *mut c_char,
         capacity: size_t,
     ) -> i32 {
+        // SAFETY: the arrays and the message are the caller's.
         unsafe { entry(Message { text: message, capacity }, || moduli::<T, Self>(values, count, bulk, shear)) }
     }
 }
@@ -188,7 +192,7 @@ impl<T: Scalar> Elements<T> {
     unsafe fn mark_failed(&self, law: &Description, start: usize, codes: &[i32]) {
         let (failed, alive) = (self.variable(law.failed, start), self.variable(law.alive, start));
         for (i, &code) in codes.iter().enumerate() {
-            // SAFETY: the caller's promise.
+            // SAFETY: the elements from `start` on have a history and a flag, and `codes` has no more than there are.
             unsafe {
                 if code != status::OK {
                     *failed.add(i) = T::splat(1.0);
@@ -235,9 +239,10 @@ unsafe fn moduli<T: Precision, L: Law<T>>(
     shear: *mut T,
 ) -> Result<i32, Error> {
     check_pointers(&[(bulk, "bulk"), (shear, "shear")])?;
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: `properties` refuses null, and there are `count` values.
     let law = L::new(unsafe { properties(values, count, L::DESCRIPTION.properties) }?)?;
     let [k, g] = stiffness_at_rest(&law)?;
+    // SAFETY: not null, as has been checked: one value each.
     unsafe {
         store(&[k], bulk);
         store(&[g], shear);
@@ -273,7 +278,7 @@ unsafe fn law<T: Precision, L: History<T>>(
 ) -> Result<L, Error> {
     check_number::<T, L>(nhv)?;
     let table = L::DESCRIPTION.properties;
-    // SAFETY: the caller's promise.
+    // SAFETY: `cm` has as many properties as the table.
     let law = L::new(unsafe { properties(cm, table.len(), table) }?)?;
     if count > 0 && !is_plausible::<T, L>(first) {
         return Err(no_gradient::<T, L>());
@@ -325,22 +330,25 @@ macro_rules! compiled {
         impl UserRoutines<$t> for $law<$t> {
             #[inline(never)]
             unsafe fn umat(call: &Umat<$t>, message: *mut c_char, capacity: size_t) -> i32 {
-                // SAFETY: as in the trait, here and below.
+                // SAFETY: as in the trait.
                 unsafe { entry(Message { text: message, capacity }, || $module::scalar::<$($parameter),+>(call)) }
             }
 
             #[inline(never)]
             unsafe fn umat_vector(call: &UmatVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                // SAFETY: as in the trait.
                 unsafe { entry(Message { text: message, capacity }, || any_law::vector::<$t, Self>(call)) }
             }
 
             #[inline(never)]
             unsafe fn utan(call: &Utan<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                // SAFETY: as in the trait.
                 unsafe { entry(Message { text: message, capacity }, || $module::scalar_tangent::<$($parameter),+>(call)) }
             }
 
             #[inline(never)]
             unsafe fn utan_vector(call: &UtanVector<$t>, message: *mut c_char, capacity: size_t) -> i32 {
+                // SAFETY: as in the trait.
                 unsafe { entry(Message { text: message, capacity }, || $module::vector_tangent::<$($parameter),+>(call)) }
             }
 
@@ -353,6 +361,7 @@ macro_rules! compiled {
                 message: *mut c_char,
                 capacity: size_t,
             ) -> i32 {
+                // SAFETY: as in the trait.
                 unsafe { entry(Message { text: message, capacity }, || moduli::<$t, Self>(values, count, bulk, shear)) }
             }
         }

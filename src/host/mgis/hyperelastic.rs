@@ -25,13 +25,13 @@ use super::view::{BehaviourDataView, Operator, Options, StressMeasure, columns, 
 impl MgisLaw for Hyperelastic<f64> {
     #[inline(always)]
     unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { hyperelastic(view) }
     }
 
     #[inline(always)]
     unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { hyperelastic_in_plane(view) }
     }
 }
@@ -42,7 +42,7 @@ impl MgisLaw for Hyperelastic<f64> {
 /// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
     unsafe { integrate(view, |view, options| evaluate(view, options, false)) }
 }
 
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn hyperelastic(view: *mut BehaviourDataView) -> i32 {
 /// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: as above.
     unsafe { integrate(view, |view, options| evaluate(view, options, true)) }
 }
 
@@ -65,7 +65,8 @@ pub unsafe extern "C" fn hyperelastic_in_plane(view: *mut BehaviourDataView) -> 
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(always)]
 unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
-    // SAFETY: the caller's promise.
+    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is in cells, since the
+    // new one may replace it.
     let (source, state, f) = unsafe {
         (
             slice::from_raw_parts(view.s1.material_properties, HYPERELASTIC_PROPERTIES),
@@ -139,7 +140,7 @@ impl ToHost<'_> {
             return;
         }
         operator(&results);
-        // SAFETY: MGIS's promise.
+        // SAFETY: the arrays are those of `evaluate`'s view, whose sizes and pointers are right.
         unsafe {
             results.store_speed(point.wave_modulus);
             if results.options.integrates {
@@ -161,21 +162,21 @@ impl Sink<f64, 21> for ToHost<'_> {
     fn take(self, point: Point<f64>, _: Option<f64>, moduli: [f64; 21]) {
         let rows = Moduli(moduli).matrix();
         if self.results.options.operator == Some(Operator::Material) {
-            // SAFETY: MGIS's promise.
+            // SAFETY: as in `put`; K has the values of dS/dE.
             return self.put(&point, true, |to| unsafe { to.store_operator(&material(rows)) });
         }
         let operator = if self.latched || point.status != status::OK {
             [[0.0; 9]; 6]
         } else if self.results.options.operator == Some(Operator::KirchhoffByIncrement) {
             let Results { view, options, plane } = self.results;
-            // SAFETY: MGIS's promise; the first F is read for this operator, and if the step is not integrated.
+            // SAFETY: not null; the first F is read for this operator, and if the step is not integrated.
             let f0 = if options.integrates { unsafe { columns(view.s0.gradients, plane) } } else { *self.f };
             kirchhoff_by_increment(&rows, &point.stress, &f0, self.f)
         } else {
             cauchy_by_gradient(&rows, &point.stress, self.f)
         };
         let finite = nan_unless_finite(operator.as_flattened()) == 0.0;
-        // SAFETY: MGIS's promise.
+        // SAFETY: as in `put`; K has the values of this operator.
         self.put(&point, finite, |to| unsafe { to.store_operator(&operator) });
     }
 }
@@ -184,7 +185,7 @@ impl Sink<f64, 81> for ToHost<'_> {
     #[inline(always)]
     fn take(self, point: Point<f64>, _: Option<f64>, entries: [f64; 81]) {
         let rows = nominal(|row, column| entries.get(row + 9 * column).copied().unwrap_or_default());
-        // SAFETY: MGIS's promise.
+        // SAFETY: as in `put`; K has the values of dP/dF.
         self.put(&point, true, |to| unsafe { to.store_operator(&rows) });
     }
 }

@@ -33,5 +33,5 @@ pub use view::{BehaviourDataView, StateView};
 pub const INTEGRATED: i32 = 1;
 pub const NOT_INTEGRATED: i32 = -1;
 
-/// The room for a message that MGIS and MTest give, with the terminating null.
+/// The size of the buffer that MGIS and MTest give for a message, with the terminating null.
 pub const MESSAGE_CAPACITY: usize = 512;

@@ -56,11 +56,12 @@ impl Results<'_> {
     /// Writes the new state of a step that is integrated, and its stress; whether its values are finite has been checked.
     ///
     /// # Safety
-    /// MGIS's promise: the arrays have the sizes that the symbols of the behaviour tell.
+    /// The view is what [`BehaviourDataView`] says; arrays that are needed are not null.
     #[inline(always)]
     pub unsafe fn store_step<S: Copy>(&self, stress: &Stress, state: &S, energy: f64) {
         let s1 = &self.view.s1;
-        // SAFETY: the caller's promise.
+        // SAFETY: `integrate` has found these arrays not to be null, and the energy is checked; a stress has 6 or 9 values, in the
+        // plane 4 or 5, and the state is the law's.
         unsafe {
             match (stress, self.plane) {
                 (Stress::Symmetric(values), false) => *s1.thermodynamic_forces.cast() = *values,
@@ -82,7 +83,7 @@ impl Results<'_> {
     #[inline(always)]
     pub unsafe fn store_operator<const COLUMNS: usize, const ROWS: usize>(&self, rows: &[[f64; COLUMNS]; ROWS]) {
         let in_plane = |count: usize| if count == 6 { 4 } else { 5 };
-        // SAFETY: the caller's promise.
+        // SAFETY: K is not null, and has as many values as the operator: ROWS × COLUMNS, or in the plane those of the first 4 or 5.
         unsafe {
             if !self.plane {
                 *self.view.k.cast() = *rows;
@@ -104,7 +105,7 @@ impl Results<'_> {
     #[inline(always)]
     pub unsafe fn store_speed(&self, modulus: f64) {
         if let Some(density) = self.options.density {
-            // SAFETY: the caller's promise.
+            // SAFETY: `Options::read` gives a density only where the speed has a place.
             unsafe { *self.view.speed_of_sound = wave_speed(modulus, density) };
         }
     }

@@ -23,10 +23,10 @@ pub trait MgisLaw: Law<f64> {
     /// The function of the hypothesis `Tridimensional`.
     ///
     /// # Safety
-    /// MGIS's promise: `view` is null or points to the data of a call, whose arrays have the sizes that the symbols tell.
+    /// `view` is null or points to what [`BehaviourDataView`] says.
     #[inline(never)]
     unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { of_law::<Self>(view, false) }
     }
 
@@ -36,7 +36,7 @@ pub trait MgisLaw: Law<f64> {
     /// As for [`integrate`](Self::integrate).
     #[inline(never)]
     unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { of_law::<Self>(view, true) }
     }
 }
@@ -46,13 +46,13 @@ impl<M: UserMaterial> MgisLaw for User<M, f64> {}
 impl MgisLaw for LinearElastic<f64> {
     #[inline(always)]
     unsafe fn integrate(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { linear_elastic(view) }
     }
 
     #[inline(always)]
     unsafe fn integrate_in_plane(view: *mut BehaviourDataView) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: `view` is null or MGIS's.
         unsafe { linear_elastic_in_plane(view) }
     }
 }
@@ -63,7 +63,7 @@ impl MgisLaw for LinearElastic<f64> {
 /// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: `view` is null or MGIS's.
     unsafe { of_law::<LinearElastic>(view, false) }
 }
 
@@ -73,7 +73,7 @@ pub unsafe extern "C" fn linear_elastic(view: *mut BehaviourDataView) -> i32 {
 /// As for [`MgisLaw::integrate`].
 #[inline(never)]
 pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: `view` is null or MGIS's.
     unsafe { of_law::<LinearElastic>(view, true) }
 }
 
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn linear_elastic_in_plane(view: *mut BehaviourDataView) -
 /// As for [`MgisLaw::integrate`].
 #[inline(always)]
 unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: `view` is null or MGIS's, and `integrate` evaluates only if no pointer that is needed is null.
     unsafe { integrate(view, |view, options| evaluate::<L>(view, options, plane)) }
 }
 
@@ -96,7 +96,8 @@ unsafe fn of_law<L: Law<f64>>(view: *mut BehaviourDataView, plane: bool) -> i32 
 /// As for [`MgisLaw::integrate`]; no pointer that is needed is null.
 #[inline(never)]
 unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plane: bool) -> Result<i32, Error> {
-    // SAFETY: the caller's promise; the state may be replaced in place.
+    // SAFETY: `integrate` has found these arrays not to be null; they have the values of the tables. The state is copied, since the new
+    // one may replace it.
     let (properties, old, f0) = unsafe {
         (
             slice::from_raw_parts(view.s1.material_properties, L::DESCRIPTION.properties.len()),
@@ -121,7 +122,8 @@ unsafe fn evaluate<L: Law<f64>>(view: &BehaviourDataView, options: Options, plan
         return Ok(status::OVERFLOW);
     }
     let results = Results { view, options, plane };
-    // SAFETY: the caller's promise.
+    // SAFETY: `integrate` has found the arrays not to be null, and there is a density only where the speed has a place; the results
+    // have the request's and the hypothesis's sizes.
     unsafe {
         match &rows {
             Rows::None => (),

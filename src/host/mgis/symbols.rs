@@ -22,7 +22,7 @@ impl Text {
     }
 }
 
-/// The room for a name, with the terminating null.
+/// The bytes of a name, with the terminating null.
 pub const NAME: usize = 64;
 
 const fn terminated(name: &str) -> [u8; NAME] {

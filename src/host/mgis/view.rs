@@ -27,14 +27,16 @@ pub struct StateView {
     pub external_state_variables: *const f64,
 }
 
-/// The data of a call.
+/// The data of a call. MGIS promises that every pointer that is not null points to as many values as its field says, valid for what
+/// they are used for: F and stress those of the hypothesis, properties and state variables those that the symbols of the behaviour tell.
+/// Only the state at the end may be in the place of that at the start.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct BehaviourDataView {
-    /// Null, or room for a message of [`MESSAGE_CAPACITY`] bytes.
+    /// Null, or a buffer of [`MESSAGE_CAPACITY`] bytes for a message.
     pub error_message: *mut c_char,
     pub dt: f64,
-    /// In: the request, the stress measure and the kind of the tangent; out: the tangent, if it is requested.
+    /// In, 2 or 3: the request, the stress measure and, if a tangent is requested, its kind; out: the tangent.
     pub k: *mut f64,
     /// In and out: the factor by which the time step may grow or must shrink.
     pub rdt: *mut f64,
@@ -94,10 +96,10 @@ impl Options {
     /// A number that stands for nothing, or a density that is missing or wrong.
     ///
     /// # Safety
-    /// MGIS's promise: K has three values, and the densities are null or point to a value if the speed of sound is requested.
+    /// The view is what [`BehaviourDataView`] says, and K is not null.
     #[inline(always)]
     unsafe fn read(view: &BehaviourDataView) -> Result<Options, Error> {
-        // SAFETY: the caller's promise. The third value is read only if there is an operator.
+        // SAFETY: `integrate` has found K not to be null; its third value is read only if there is an operator.
         let (coded, measure) = unsafe { (*view.k, *view.k.add(1)) };
         let sounds = coded > 50.0;
         let request = if sounds { coded - 100.0 } else { coded };
@@ -117,10 +119,11 @@ impl Options {
             let wanted = "-3 to 4, or 100 more for the speed of sound";
             return Err(Error::Argument { name: "K[0]", value: coded, wanted });
         }
-        // SAFETY: the caller's promise.
-        let operator = if operates { Some(unsafe { Operator::read(*view.k.add(2)) }?) } else { None };
-        // SAFETY: the caller's promise.
-        let density = if sounds { Some(unsafe { view.density(integrates) }?) } else { None };
+        // SAFETY: K has a third value where there is an operator; the densities are null or a value.
+        let (operator, density) = unsafe {
+            let operator = if operates { Some(Operator::read(*view.k.add(2))?) } else { None };
+            (operator, if sounds { Some(view.density(integrates)?) } else { None })
+        };
         Ok(Options { integrates, measure, operator, density })
     }
 }
@@ -152,7 +155,7 @@ impl BehaviourDataView {
     /// It is missing or no density, or there is nowhere to write the speed.
     ///
     /// # Safety
-    /// MGIS's promise: the density is null or points to a value.
+    /// The view is what [`BehaviourDataView`] says.
     #[cold]
     unsafe fn density(&self, integrates: bool) -> Result<f64, Error> {
         let state = if integrates { &self.s1 } else { &self.s0 };
@@ -162,7 +165,7 @@ impl BehaviourDataView {
         if self.speed_of_sound.is_null() {
             return Err(Error::Null { name: "speed_of_sound" });
         }
-        // SAFETY: the caller's promise.
+        // SAFETY: not null, as just checked: one value.
         let density = unsafe { *state.mass_density };
         match check_density(density) {
             Err(Error::Argument { value, wanted, .. }) => Err(Error::Argument { name: "mass_density", value, wanted }),
@@ -201,7 +204,7 @@ impl BehaviourDataView {
 /// Runs an entry: reads the request, passes it to `evaluate`, which returns the status of the point, and answers MGIS.
 ///
 /// # Safety
-/// MGIS's promise: `view` is null or points to the data of a call.
+/// `view` is null or points to what [`BehaviourDataView`] says.
 #[inline(always)]
 pub(super) unsafe fn integrate(
     view: *const BehaviourDataView,
@@ -210,7 +213,7 @@ pub(super) unsafe fn integrate(
     if view.is_null() {
         return NOT_INTEGRATED;
     }
-    // SAFETY: not null, and the caller's promise.
+    // SAFETY: not null, as just checked, and then MGIS's.
     let view = unsafe { &*view };
     let message = Message { text: view.error_message, capacity: MESSAGE_CAPACITY };
     let body = move || {
@@ -219,16 +222,16 @@ pub(super) unsafe fn integrate(
         {
             return Err(error);
         }
-        // SAFETY: the caller's promise.
+        // SAFETY: K and the other arrays that are needed are not null.
         let options = unsafe { Options::read(view) }?;
         let code = evaluate(view, options)?;
         if code != status::OK && !view.rdt.is_null() {
-            // SAFETY: the caller's promise.
+            // SAFETY: not null, as just checked: one value.
             unsafe { *view.rdt = (*view.rdt).min(CUTBACK) };
         }
         Ok(code)
     };
-    // SAFETY: the caller's promise.
+    // SAFETY: the message is null or has MESSAGE_CAPACITY bytes.
     match unsafe { entry(message, body) } {
         status::OK => INTEGRATED,
         _ => NOT_INTEGRATED,
@@ -241,7 +244,7 @@ pub(super) unsafe fn integrate(
 /// `gradients` points to 9 values, or to 5 in the plane.
 #[inline(always)]
 pub(super) unsafe fn columns(gradients: *const f64, plane: bool) -> [[f64; 3]; 3] {
-    // SAFETY: the caller's promise.
+    // SAFETY: five values in the plane, else nine.
     unsafe {
         if plane {
             let [f11, f22, f33, f12, f21] = *gradients.cast();

@@ -43,24 +43,24 @@ pub trait Precision: Registers + 'static {
 // it.
 impl Precision for f64 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f64>, block: &Pointers<f64>, request: Request) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the same block and level.
         unsafe { dispatch(level, law, block, request) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f64>, block: &LinearPointers<f64>) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
     }
 }
 
 impl Precision for f32 {
     unsafe fn dispatch(level: Level, law: &Hyperelastic<f32>, block: &Pointers<f32>, request: Request) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the same block and level.
         unsafe { dispatch(level, law, block, request) }
     }
 
     unsafe fn dispatch_linear(level: Level, law: &LinearElastic<f32>, block: &LinearPointers<f32>) -> i32 {
-        // SAFETY: the caller's promise.
+        // SAFETY: the same block and level.
         unsafe { dispatch_linear(level, law, block) }
     }
 }
@@ -79,7 +79,8 @@ fn whole<T: Registers, I: Instructions>(first: usize, n: usize) -> Range<usize> 
 /// As for [`Precision::dispatch`].
 #[cfg_attr(not(target_arch = "x86_64"), allow(unused_variables))] // only kernels of wider instructions depend on the request
 unsafe fn dispatch<T: Registers>(level: Level, law: &Hyperelastic<T>, block: &Pointers<T>, request: Request) -> i32 {
-    // SAFETY: the caller's promise; AVX-512 is chosen for more points than a register holds.
+    // SAFETY: the block is valid, and the processor has the level's instructions; what does not fill a register of them is padded.
+    // AVX-512 is chosen for more points than a register holds.
     unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]
@@ -117,7 +118,8 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     const WAVE_STATE_ALIGNED: u8 = WAVE + STATE + ALIGNED;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
-    // SAFETY: the caller's promise.
+    // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is what `state`,
+    // `explicit`, `stress_alone` and `fibres` tell.
     unsafe {
         match (state, law.shears, stress_alone) {
             (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block),
@@ -144,7 +146,7 @@ unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &
     const ANY_ALIGNED: u8 = ANY + ALIGNED;
     // Compared with the tangent, the products with the frame that an aligned fibre saves take little time.
     let aligned = law.aligned && block.fibre[0].is_null() && block.tangent.is_null();
-    // SAFETY: the caller's promise.
+    // SAFETY: the block fills a register, and the general kernel looks up which arrays it has.
     unsafe { if aligned { I::run::<T, ANY_ALIGNED>(law, block) } else { I::run::<T, ANY>(law, block) } }
 }
 
@@ -152,7 +154,8 @@ unsafe fn run_any<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &
 /// As for [`Precision::dispatch_linear`].
 unsafe fn dispatch_linear<T: Registers>(level: Level, law: &LinearElastic<T>, block: &LinearPointers<T>) -> i32 {
     let n = block.n;
-    // SAFETY: the caller's promise.
+    // SAFETY: the block is valid, and the processor has the level's instructions; `part` and `wide` are whole registers, and `rest` is
+    // fewer points than one holds.
     unsafe {
         match level {
             Level::Baseline => {
@@ -191,6 +194,6 @@ unsafe fn run_linear<T: Registers, I: Instructions>(
     if points.is_empty() {
         return status::OK;
     }
-    // SAFETY: the caller's promise.
+    // SAFETY: points of a valid block that fill whole registers: there are some, so that the level has these instructions.
     unsafe { I::run_linear(law, block, points) }
 }

@@ -182,7 +182,7 @@ pub trait Lanes<T>: Real {
     unsafe fn load_first(from: *const T, count: usize, fill: Self) -> Self {
         let mut values = [const { MaybeUninit::<T>::uninit() }; WIDEST];
         let values = values.as_mut_ptr().cast();
-        // SAFETY: the caller's promise; no register has more lanes.
+        // SAFETY: no register has more than WIDEST lanes, and `count`, no more, are copied.
         unsafe {
             fill.store(values);
             values.copy_from_nonoverlapping(from, count);
@@ -195,7 +195,7 @@ pub trait Lanes<T>: Real {
     /// `to` points to `COUNT` values.
     #[inline(always)]
     unsafe fn store_where(self, mask: Self::Mask, to: *mut T) {
-        // SAFETY: the caller's promise.
+        // SAFETY: `to` has COUNT values.
         unsafe { Self::select(mask, self, Self::load(to)).store(to) }
     }
     /// Stores the lanes, which are small integers, to consecutive values.

@@ -102,7 +102,7 @@ impl<T, R: Lanes<T>> Lanes<T> for Twice<R> {
     const COUNT: usize = 2 * R::COUNT;
     #[inline(always)]
     unsafe fn load(from: *const T) -> Self {
-        // SAFETY: the caller's promise, of both halves.
+        // SAFETY: COUNT values are two halves of R::COUNT.
         unsafe { Twice(R::load(from), R::load(from.add(R::COUNT))) }
     }
     #[inline(always)]

@@ -180,7 +180,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
             wave_speed::check_density(points.density)?;
         }
         let asks_for_derivatives = !points.tangent.is_null() || (!points.wave_speed.is_null() && !self.bounds_waves());
-        // SAFETY: the caller's promise: the arrays are valid for n points, and `Level::best` is what the processor has.
+        // SAFETY: the points are valid, and their layouts have just been checked; `Level::best` is what the processor has.
         Ok(unsafe {
             if asks_for_derivatives {
                 self.with_derivatives(points)
@@ -204,7 +204,8 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
     unsafe fn run(&self, level: Level, points: &Points<T>) -> i32 {
         let n = points.n;
         let whole = |count: usize, first: usize| n - (n - first) % count;
-        // SAFETY: the caller's promise; the ranges are whole registers of the block's points.
+        // SAFETY: the ranges are points of the block, and whole registers where `sweep` asks for that; the processor has the level's
+        // instructions.
         unsafe {
             match level {
                 #[cfg(target_arch = "x86_64")]
@@ -228,7 +229,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 unsafe fn avx512<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<T>, range: Range<usize>) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: these are the instructions of the lanes.
     unsafe { sweep::<M, T, T::Avx512>(law, points, range) }
 }
 
@@ -243,7 +244,7 @@ unsafe fn avx2<M: UserMaterial, T: Precision>(law: &User<M, T>, points: &Points<
     let Range { start, end } = range;
     let count = <T::Avx2 as Lanes<T>>::COUNT;
     let (pairs, whole) = (end - (end - start) % (2 * count), end - (end - start) % count);
-    // SAFETY: the caller's promise; each range is whole registers of its type.
+    // SAFETY: each range is whole registers of its type, and these are the instructions of the lanes.
     unsafe {
         let of_pairs =
             if start < pairs { sweep::<M, T, Twice<T::Avx2>>(law, points, start..pairs) } else { status::OK };
@@ -381,7 +382,7 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
 /// The components are valid for the points of a register from `i` on.
 #[inline(always)]
 unsafe fn gradient<T, R: Lanes<T>>(f: &[*const T; 9], i: usize) -> Matrix<R> {
-    // SAFETY: the caller's promise.
+    // SAFETY: each component has a register of values from i on.
     unsafe {
         [
             [R::load(f[0].add(i)), R::load(f[1].add(i)), R::load(f[2].add(i))],

@@ -312,7 +312,7 @@ unsafe impl<M: UserMaterial, T: Precision> Law<T> for User<M, T> {
     }
 
     unsafe fn step(&self, points: &Points<T>) -> Result<i32, Error> {
-        // SAFETY: the caller's promise is that of the block.
+        // SAFETY: the points are valid, as `block` asks.
         unsafe { self.block(points) }
     }
 }

@@ -63,7 +63,7 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
         let level = points.level.unwrap_or(Level::Avx512).min(Level::best());
         let mut worst = status::OK;
         for i in 0..points.n {
-            // SAFETY: i < n, and the caller's promise.
+            // SAFETY: i < n by the loop, and `level` is one that the processor has.
             worst = worst.min(unsafe { law.point::<T>(points, i, at_rest, level) });
         }
         worst
