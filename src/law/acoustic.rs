@@ -65,15 +65,6 @@ impl Hyperelastic<f64> {
         let frame = [d.e, d.q1, d.q2()];
         Ok(Acoustic { modulus: moduli.matrix(), stress: point.stress, jacobian: d.jacobian, frame })
     }
-
-    /// The least stable wave of the intact material at `f`, see [`Acoustic::least`]: its ρ0 v², a stress. Below 0 the
-    /// material has lost ellipticity.
-    ///
-    /// # Errors
-    /// The status code of a point that cannot be evaluated.
-    pub fn least_acoustic_eigenvalue(&self, f: &[[f64; 3]; 3], fibre: Option<[f64; 3]>) -> Result<f64, i32> {
-        Ok(self.acoustic(f, fibre)?.least().modulus)
-    }
 }
 
 impl Acoustic {

@@ -56,7 +56,7 @@ pub const LINEAR_ELASTIC: Description = Description {
 
 impl Description {
     /// How many entries of F a host keeps behind the state, by columns: those of the start of a step, where it depends on them.
-    pub const fn kept(&self) -> usize {
+    pub(crate) const fn kept(&self) -> usize {
         if self.reads_old_gradient { 9 } else { 0 }
     }
 

@@ -123,8 +123,8 @@ pub const LINEAR_ELASTIC_PROPERTIES: usize = 10;
 /// Indices among the properties of the linear elastic law: the stress at failure, and the first components of the fibre direction
 /// and of the second axis.
 pub const SIGMA_LIM: usize = place(&LINEAR_ELASTIC, "sigma_lim");
-pub const LINEAR_FIBRE: usize = place(&LINEAR_ELASTIC, "m_1");
-pub const LINEAR_SECOND_AXIS: usize = place(&LINEAR_ELASTIC, "n_1");
+pub(crate) const LINEAR_FIBRE: usize = place(&LINEAR_ELASTIC, "m_1");
+pub(crate) const LINEAR_SECOND_AXIS: usize = place(&LINEAR_ELASTIC, "n_1");
 
 /// The properties of the linear elastic orthotropic law (Tab. 4.4).
 pub static LINEAR_ELASTIC: [Property; LINEAR_ELASTIC_PROPERTIES] = [
@@ -177,7 +177,7 @@ pub enum LawName {
 
 impl LawName {
     /// The law's properties.
-    pub const fn properties(self) -> &'static [Property] {
+    pub(crate) const fn properties(self) -> &'static [Property] {
         match self {
             LawName::Hyperelastic => &HYPERELASTIC,
             LawName::LinearElastic => &LINEAR_ELASTIC,

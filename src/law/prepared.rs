@@ -24,11 +24,11 @@ pub struct PreparedHyperelastic<T>(pub [T; PreparedHyperelastic::<f64>::COUNT]);
 pub struct PreparedLinearElastic<T>(pub [T; PreparedLinearElastic::<f64>::COUNT]);
 
 impl PreparedHyperelastic<f64> {
-    pub const COUNT: usize = 26;
+    pub(crate) const COUNT: usize = 26;
 }
 
 impl PreparedLinearElastic<f64> {
-    pub const COUNT: usize = 19;
+    pub(crate) const COUNT: usize = 19;
 }
 
 impl<T: Real + Into<f64>> From<&Hyperelastic<T>> for PreparedHyperelastic<T> {
@@ -71,7 +71,7 @@ impl<T: Real + Into<f64>> From<&Hyperelastic<T>> for PreparedHyperelastic<T> {
 impl<T: Real + Into<f64>> PreparedHyperelastic<T> {
     /// The law that these numbers came from.
     #[inline(always)]
-    pub fn law(&self) -> Hyperelastic<T> {
+    pub(crate) fn law(&self) -> Hyperelastic<T> {
         let &PreparedHyperelastic(
             [
                 k_el,
@@ -158,7 +158,7 @@ impl<T: Real<Mask = bool> + Into<f64>> From<&LinearElastic<T>> for PreparedLinea
 
 impl<T: Real<Mask = bool> + Into<f64>> PreparedLinearElastic<T> {
     /// The law that these numbers came from.
-    pub fn law(&self) -> LinearElastic<T> {
+    pub(crate) fn law(&self) -> LinearElastic<T> {
         let &PreparedLinearElastic(
             [e_1, e_2, e_3, g_12, g_23, g_31, limit, m_1, m_2, m_3, s_1, s_2, s_3, t_1, t_2, t_3, n_1, n_2, n_3],
         ) = self;

@@ -43,7 +43,7 @@ pub enum Measure {
 
 impl Measure {
     /// The number of rows, which is that of columns.
-    pub const fn size(self) -> usize {
+    pub(crate) const fn size(self) -> usize {
         match self {
             Measure::Nominal => 9,
             _ => 6,

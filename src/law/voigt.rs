@@ -78,12 +78,6 @@ pub(super) fn added<R: Real>(x: &[R; 6], b: R, y: &[R; 6]) -> [R; 6] {
 pub struct Moduli<R>(pub [R; 21]);
 
 impl<R: Copy> Moduli<R> {
-    /// The index of an entry within the upper triangle.
-    pub const fn place(row: usize, column: usize) -> usize {
-        let (a, b) = if row < column { (row, column) } else { (column, row) };
-        a * (11 - a) / 2 + b
-    }
-
     /// The full matrix.
     #[inline(always)]
     pub fn matrix(&self) -> [[R; 6]; 6] {

@@ -24,7 +24,7 @@ use super::number::real::Real;
 ///
 /// # Errors
 /// The density is not a positive, normal, finite number.
-pub fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
+pub(crate) fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
     let density = density.into();
     if density >= T::MIN_POSITIVE && density < f64::INFINITY {
         return Ok(());

@@ -47,7 +47,7 @@ pub fn check_density<T: Real + Into<f64>>(density: f64, needed: bool) -> Result<
 impl Layout {
     /// The layout with nothing left out, in a block with this leading dimension.
     #[inline(always)]
-    pub fn or(self, leading_dimension: size_t) -> Layout {
+    pub(super) fn or(self, leading_dimension: size_t) -> Layout {
         let leading_dimension = match (self.leading_dimension, self.stride) {
             (0, 0 | 1) => leading_dimension,
             (0, _) => 1,
@@ -62,7 +62,7 @@ impl Layout {
     /// # Errors
     /// Some are given, but not all; or entries may overlap, or are before the array's start.
     #[inline(always)]
-    pub fn check<P: Copy + PartialEq, const N: usize>(
+    pub(super) fn check<P: Copy + PartialEq, const N: usize>(
         self,
         array: &[P; N],
         null: P,
@@ -88,13 +88,13 @@ impl Layout {
 
     /// The pointers to the components of an array that [`check`](Self::check) has found right.
     #[inline(always)]
-    pub fn components<T, const N: usize>(self, array: &[*const T; N]) -> [*const T; N] {
+    pub(super) fn components<T, const N: usize>(self, array: &[*const T; N]) -> [*const T; N] {
         if array[1].is_null() { components(array[0], self.leading_dimension) } else { *array }
     }
 
     /// The same for an array to be written.
     #[inline(always)]
-    pub fn components_mut<T, const N: usize>(self, array: &[*mut T; N]) -> [*mut T; N] {
+    pub(super) fn components_mut<T, const N: usize>(self, array: &[*mut T; N]) -> [*mut T; N] {
         if array[1].is_null() { components_mut(array[0], self.leading_dimension) } else { *array }
     }
 }

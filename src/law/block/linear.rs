@@ -84,7 +84,7 @@ pub struct LinearStrides {
 
 impl LinearStrides {
     /// Points next to each other: component-major arrays.
-    pub const UNIT: LinearStrides =
+    pub(crate) const UNIT: LinearStrides =
         LinearStrides { deformation_gradient: 1, fibre: 1, axes: 1, state: 1, stress: 1, tangent: 1 };
 }
 

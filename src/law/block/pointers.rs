@@ -69,7 +69,8 @@ pub struct Strides {
 
 impl Strides {
     /// Points next to each other: component-major arrays.
-    pub const UNIT: Strides = Strides { deformation_gradient: 1, fibre: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
+    pub(crate) const UNIT: Strides =
+        Strides { deformation_gradient: 1, fibre: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
 }
 
 /// The names of an array's leading dimension and stride, for messages.
