@@ -114,7 +114,7 @@ macro_rules! structures {
         // SAFETY: of the fields one is the size, and the others are pointers and numbers, which may be 0; that there is no padding
         // is asserted where the structure is defined.
         unsafe impl<T: $crate::law::number::real::Scalar> $crate::host::structures::Structure for $structure<T> {
-            const NAME: &'static str = if T::HEADROOM { $double } else { $single };
+            const NAME: &'static str = if T::WIDE_RANGE { $double } else { $single };
             const ARGUMENT: &'static str = $argument;
         }
 

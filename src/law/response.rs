@@ -77,7 +77,7 @@ impl<R: Real> Deformed<'_, R> {
         // A product with zero is NaN for a result that is not finite. With the bounds of the properties the invariants, the
         // index and the energies are finite wherever the kinematics are valid, except the energy of the longitudinal shear. If
         // the compaction energy overflows, so does the stress, so that it is checked only if the stress is not requested.
-        if !R::HEADROOM || shear {
+        if !R::WIDE_RANGE || shear {
             let sum = (stress[0] + stress[1]) + (stress[2] + stress[3]) + (stress[4] + stress[5]);
             latch_or_nan = sum.mul_add(zero, latch_or_nan);
             if request.energies && !request.stress {
@@ -115,7 +115,7 @@ impl<R: Real> Deformed<'_, R> {
 impl<R: Real> Hyperelastic<R> {
     /// The new state, given [`Response::updated`]. The latch is finite at every point.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments)]
+    #[allow(clippy::too_many_arguments)] // results of several stages, which have no more in common than this call
     pub(crate) fn history(
         &self,
         strain: &Strain<R>,

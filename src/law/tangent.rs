@@ -560,5 +560,5 @@ fn add<R: Real>(a: [R; 3], b: [R; 3]) -> [R; 3] {
 /// limited.
 #[inline(always)]
 pub(crate) fn may_overflow<R: Real>(measure: Measure, shear: bool) -> bool {
-    shear || !R::HEADROOM || !matches!(measure, Measure::Truesdell | Measure::Jaumann)
+    shear || !R::WIDE_RANGE || !matches!(measure, Measure::Truesdell | Measure::Jaumann)
 }

@@ -82,7 +82,7 @@ impl<R: Real> Real for Dual<R> {
     const EXPONENTS: (f64, f64) = R::EXPONENTS;
     const EPSILON: f64 = R::EPSILON;
     const SQUARES: (f64, f64) = R::SQUARES;
-    const HEADROOM: bool = R::HEADROOM;
+    const WIDE_RANGE: bool = R::WIDE_RANGE;
     const HALF_ARTANH: &'static [f64] = R::HALF_ARTANH;
     const LN: &'static [f64] = R::LN;
     const EXP: &'static [f64] = R::EXP;

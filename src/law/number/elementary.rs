@@ -266,7 +266,7 @@ impl<R: Real> Reduced<R> {
         let Reduced { n, r, nonzero } = *self;
         let exponential = (r * r).mul_add(polynomial(R::EXP, r), r) + R::splat(1.0);
         let power = R::select(nonzero, exponential.times_power_of_two(n), R::splat(0.0));
-        if R::HEADROOM {
+        if R::WIDE_RANGE {
             return power; // no compaction makes the power overflow
         }
         // 2^n by itself overflows.

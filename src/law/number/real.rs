@@ -31,7 +31,7 @@ pub trait Real:
     const SQUARES: (f64, f64);
     #[doc(hidden)]
     /// Whether the range is so wide that no stress except that of the longitudinal shear can overflow.
-    const HEADROOM: bool;
+    const WIDE_RANGE: bool;
     #[doc(hidden)]
     /// Whether there is room for a second number, see [`pair`](Self::pair).
     const PAIRS: bool = false;

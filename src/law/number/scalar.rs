@@ -30,14 +30,14 @@ fn root(x: f64) -> f64 {
 use libm::sqrt as root;
 
 macro_rules! scalar {
-    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, headroom: $headroom:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
+    ($t:ident, $bits:ident, $sqrt:path, $fabs:path, squares: $squares:expr, wide_range: $wide_range:expr, difference: $difference:expr, series: $artanh:expr, $ln:expr, $exp:expr) => {
         impl Real for $t {
             type Mask = bool;
             const MIN_POSITIVE: f64 = $t::MIN_POSITIVE as f64;
             const EXPONENTS: (f64, f64) = ($t::MIN_EXP as f64 + 20.0, $t::MAX_EXP as f64 - 20.0);
             const EPSILON: f64 = $t::EPSILON as f64;
             const SQUARES: (f64, f64) = $squares;
-            const HEADROOM: bool = $headroom;
+            const WIDE_RANGE: bool = $wide_range;
             const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;
@@ -135,7 +135,7 @@ macro_rules! scalar {
 }
 
 scalar!(
-    f64, u64, root, f64::abs, squares: (1e-90, 1e90), headroom: true,
+    f64, u64, root, f64::abs, squares: (1e-90, 1e90), wide_range: true,
     difference: |a, b, c, d| {
         let ((p, p_error), (q, q_error)) = (two_product(a, b), two_product(c, d));
         (p - q) + (p_error - q_error)
@@ -143,7 +143,7 @@ scalar!(
     series: HALF_ARTANH_F64, LN_F64, EXP_F64
 );
 scalar!(
-    f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15), headroom: false,
+    f32, u32, libm::sqrtf, f32::abs, squares: (1e-10, 1e15), wide_range: false,
     difference: |a, b, c, d| (f64::from(a) * f64::from(b) - f64::from(c) * f64::from(d)) as f32,
     series: HALF_ARTANH_F32, LN_F32, EXP_F32
 );

@@ -107,7 +107,7 @@ macro_rules! register {
             const EXPONENTS: (f64, f64) = <$t as Real>::EXPONENTS;
             const EPSILON: f64 = <$t as Real>::EPSILON;
             const SQUARES: (f64, f64) = <$t as Real>::SQUARES;
-            const HEADROOM: bool = <$t as Real>::HEADROOM;
+            const WIDE_RANGE: bool = <$t as Real>::WIDE_RANGE;
             const HALF_ARTANH: &'static [f64] = &$artanh;
             const LN: &'static [f64] = &$ln;
             const EXP: &'static [f64] = &$exp;

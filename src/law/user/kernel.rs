@@ -91,13 +91,13 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             other = x.mul_add(zero, other);
         }
         check = step.jacobian.mul_add(zero, wave_modulus.mul_add(zero, check)) + other;
-        let mut upright = zero.lt(step.jacobian);
+        let mut not_inverted = zero.lt(step.jacobian);
         if reads_old_gradient {
             let jacobian = determinant(&self.f_old);
             check = jacobian.mul_add(zero, check);
-            upright = upright & zero.lt(jacobian);
+            not_inverted = not_inverted & zero.lt(jacobian);
         }
-        (check.le(zero) & upright & self.usable & Failure::intact(self.failed), upright)
+        (check.le(zero) & not_inverted & self.usable & Failure::intact(self.failed), not_inverted)
     }
 
     /// Restores the old state where a step has not been taken, with 0 in place of what is not finite, sets the stress to 0, the wave
@@ -107,7 +107,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
         &self,
         outcome: &mut Outcome<R, S>,
         taken: R::Mask,
-        upright: R::Mask,
+        not_inverted: R::Mask,
         at_rest: R,
         reads_old_gradient: bool,
     ) {
@@ -135,7 +135,7 @@ impl<R: Real, S: Array<R>> Input<R, S> {
             finite = finite & is_finite(&self.f_old);
         }
         // Later lines take precedence.
-        let why = R::select(upright, code(status::OVERFLOW), code(status::INVERTED));
+        let why = R::select(not_inverted, code(status::OVERFLOW), code(status::INVERTED));
         let why = R::select(known, why, code(status::STATE_NOT_FINITE));
         let why = R::select(self.usable, why, code(status::FIBRE_DIRECTION));
         let why = R::select(finite, why, code(status::NOT_FINITE));
@@ -338,13 +338,13 @@ unsafe fn register<M: UserMaterial, T: Precision, R: Lanes<T>, const USUAL: bool
         } else {
             M::wave_modulus(constants, &step, &response).unwrap_or(zero)
         };
-        let (taken, upright) = input.taken(&step, &response, modulus, law.reads_old_gradient);
+        let (taken, not_inverted) = input.taken(&step, &response, modulus, law.reads_old_gradient);
         let mut outcome = Outcome::of(&response, modulus);
         if R::any(!taken) {
             if USUAL {
                 return None;
             }
-            input.restore(&mut outcome, taken, upright, at_rest, law.reads_old_gradient);
+            input.restore(&mut outcome, taken, not_inverted, at_rest, law.reads_old_gradient);
         }
         if USUAL || !points.stress[0].is_null() {
             let mut c = 0;

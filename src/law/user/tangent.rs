@@ -282,10 +282,10 @@ fn finish<M: UserMaterial>(
     at_rest: f64,
 ) -> Outcome<f64, M::State<f64>> {
     let old = M::DESCRIPTION.reads_old_gradient;
-    let (taken, upright) = input.taken(step, response, wave_modulus, old);
+    let (taken, not_inverted) = input.taken(step, response, wave_modulus, old);
     let mut outcome = Outcome::of(response, wave_modulus);
     if !taken {
-        input.restore(&mut outcome, taken, upright, at_rest, old);
+        input.restore(&mut outcome, taken, not_inverted, at_rest, old);
     }
     outcome
 }
