@@ -41,7 +41,7 @@ use crate::law::tangent::Measure;
 use crate::law::user::{User, UserMaterial};
 use nalgebra::{Matrix3, Vector3};
 
-use super::border::{properties, start_at_rest};
+use super::entry_points::{properties, start_at_rest};
 use super::environment::in_default_environment;
 
 /// The value that pnewdt is lowered to if a point cannot be evaluated. CalculiX passes −1 for no limit.

@@ -1,9 +1,9 @@
 //! The interfaces to host programs, one file for each; it begins with the host's order of arguments and components.
 
 pub mod abaqus;
-mod border;
 pub mod c;
 pub mod calculix;
+mod entry_points;
 pub mod environment;
 pub mod lsdyna;
 pub mod mgis;

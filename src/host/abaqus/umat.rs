@@ -6,7 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
-use crate::host::border::{Message, check_plane, check_pointers, entry, properties};
+use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;

@@ -3,7 +3,7 @@
 use libc::{c_char, size_t};
 
 use super::constants::TORON_ABI_VERSION;
-use crate::host::border::Message;
+use crate::host::entry_points::Message;
 use crate::law::error::Error;
 use crate::law::status;
 

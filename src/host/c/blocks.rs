@@ -8,7 +8,7 @@ use libc::{c_char, size_t};
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure};
 use super::constants::{TORON_LEVEL_BASELINE, TORON_TANGENT_NOMINAL};
 use super::prepared::{HyperelasticLaw, numbers};
-use crate::host::border::{Message, entry, of_points, properties};
+use crate::host::entry_points::{Message, entry, of_points, properties};
 use crate::host::structures::{read, structures};
 use crate::law::block::{Law, MOST, Pointers, Precision, Strides, components, components_mut, distances, raw_block_of};
 use crate::law::derivative::{NoTangent, SixBySix, Stress};

@@ -9,7 +9,7 @@ use super::arguments::{
     Layout, check_density, check_points, criterion, leading_dimension, level, measure_of, rotation,
 };
 use super::prepared::{LinearElasticLaw, numbers};
-use crate::host::border::{Message, entry, of_points, properties, store};
+use crate::host::entry_points::{Message, entry, of_points, properties, store};
 use crate::host::structures::{read, structures};
 use crate::law::block::Precision;
 use crate::law::block::linear::{LinearPointers, LinearStrides};

@@ -9,7 +9,7 @@ use libc::{c_char, size_t};
 use super::arguments::{Layout, check_density, check_points, leading_dimension, level, measure_of};
 use super::prepared::{AsNumbers, PreparedLaw, numbers};
 use super::tables::{TableRow, write_row};
-use crate::host::border::{Message, entry, look_up, of_points};
+use crate::host::entry_points::{Message, entry, look_up, of_points};
 use crate::host::structures::{Structure, read};
 use crate::law::block::{Precision, distances};
 use crate::law::description::Description;

@@ -8,7 +8,7 @@ use libc::{c_char, size_t};
 use super::arguments::{check_density, level, measure};
 use super::constants::TORON_LEVEL_BEST;
 use super::prepared::{HyperelasticLaw, numbers};
-use crate::host::border::{Message, entry, properties, store};
+use crate::host::entry_points::{Message, entry, properties, store};
 use crate::host::structures::{read, structures};
 use crate::law::derivative::{NineByNine, NoTangent, SixBySix, Stress};
 use crate::law::error::Error;

@@ -2,7 +2,7 @@
 
 use libc::{c_char, size_t};
 
-use crate::host::border::{Message, entry, properties};
+use crate::host::entry_points::{Message, entry, properties};
 use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;

@@ -3,7 +3,7 @@
 use libc::{c_char, size_t};
 
 use super::constants::{TORON_HYPERELASTIC, TORON_LINEAR_ELASTIC};
-use crate::host::border::{Message, look_up, name};
+use crate::host::entry_points::{Message, look_up, name};
 use crate::host::environment::in_default_environment;
 use crate::host::structures::{Structure, write};
 use crate::host::units::UnitSystem;

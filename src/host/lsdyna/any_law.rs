@@ -2,7 +2,7 @@
 
 use super::message::History;
 use super::{Elements, Umat, UmatVector, Utan, UtanVector, element_range, law};
-use crate::host::border::{check_pointers, from_entry, start_at_rest};
+use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
 use crate::law::interface::Points;

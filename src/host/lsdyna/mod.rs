@@ -28,7 +28,7 @@ use libc::{c_char, size_t};
 
 use message::History;
 
-use crate::host::border::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
+use crate::host::entry_points::{Message, check_pointers, entry, properties, stiffness_at_rest, store};
 use crate::law::block::Precision;
 use crate::law::description::Description;
 use crate::law::error::Error;

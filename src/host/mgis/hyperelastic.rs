@@ -3,7 +3,7 @@
 use core::cell::Cell;
 use core::slice;
 
-use crate::host::border;
+use crate::host::entry_points;
 use crate::law::derivative::{self, JaumannModulus, NineByNine, NoTangent, SixBySix};
 use crate::law::error::Error;
 use crate::law::failure::Failure;
@@ -111,7 +111,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
 /// The first property that is wrong, or a fibre direction that is neither in the plane nor normal to it.
 #[inline(never)]
 fn check_plane(properties: &[f64]) -> Result<(), Error> {
-    border::check_plane(&Hyperelastic::new(properties)?, properties)
+    entry_points::check_plane(&Hyperelastic::new(properties)?, properties)
 }
 
 /// Writes the results of a point to MGIS's arrays.

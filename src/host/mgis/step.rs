@@ -2,7 +2,7 @@
 
 use core::slice;
 
-use crate::host::border::check_plane;
+use crate::host::entry_points::check_plane;
 use crate::law::block::{components, components_mut};
 use crate::law::error::Error;
 use crate::law::failure::Failure;

@@ -2,7 +2,7 @@
 
 use core::ffi::c_char;
 
-use crate::host::border::{Message, entry};
+use crate::host::entry_points::{Message, entry};
 use crate::law::error::Error;
 use crate::law::status;
 use crate::law::wave_speed::check_density;

@@ -10,7 +10,7 @@ use crate::law::status;
 
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, Layout};
 use super::laws::Laws;
-use crate::host::border::{check_pointers, from_entry, start_at_rest};
+use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
 use crate::host::environment::in_default_environment;
 
 /// The solver's groups have no more elements; longer ones are evaluated in parts.

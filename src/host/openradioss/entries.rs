@@ -4,7 +4,7 @@ use core::slice;
 
 use libc::{c_char, size_t};
 
-use crate::host::border::{Message, check_pointers, entry};
+use crate::host::entry_points::{Message, check_pointers, entry};
 use crate::law::error::Error;
 use crate::law::status;
 

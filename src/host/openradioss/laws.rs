@@ -1,6 +1,6 @@
 //! The laws that a library has, and what starter and engine call for each.
 
-use crate::host::border::stiffness_at_rest;
+use crate::host::entry_points::stiffness_at_rest;
 use crate::law::block::Precision;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
