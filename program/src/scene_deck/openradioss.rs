@@ -107,7 +107,7 @@ pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String
     let Some(strike) = &model.strike else {
         let name = format!("{}.inc", model.name);
         let panel = file(output, name, |out| {
-            write!(out, "{}{cards}#include {mesh}\n", panel_header(model))?;
+            writeln!(out, "{}{cards}#include {mesh}", panel_header(model))?;
             supports(model, naming, &ids, out)
         })?;
         return Ok(vec![panel, mesh]);
