@@ -1,11 +1,12 @@
 //! What a deck is made of, whatever the host: mesh, parts, materials, supports, striker, contact and output, all in the deck's units.
 
 use toron::host::units::UnitSystem;
-use toron::law::parameters::Dimension;
+use toron::law::parameters::{Dimension, STRESS};
 
 use super::striker::Striker;
+use crate::common::error::Error;
 use crate::deck::material::Material;
-use crate::explicit::medium::Control;
+use crate::explicit::medium::{Control, Medium};
 
 /// One case of a scene.
 pub struct Model {
@@ -58,6 +59,8 @@ pub struct Support {
 /// What strikes, and how it is calculated.
 pub struct Strike {
     pub striker: Striker,
+    /// Of a yarn.
+    pub height: f64,
     /// Of yarns with one another, where there are several.
     pub contact: Option<Contact>,
     pub control: Control,
@@ -70,6 +73,8 @@ pub struct Strike {
     pub watched: Vec<u32>,
     /// Whether a material can fail.
     pub fails: bool,
+    /// What resists hourglass modes in our host, of each material: a modulus.
+    pub hourglass: Vec<f64>,
     /// A stable step at rest by the fastest wave and each element's least height.
     pub step: f64,
 }
@@ -100,6 +105,22 @@ impl Conversion {
     pub fn of(&self, value: f64, dimension: Dimension) -> f64 {
         self.from.scale(dimension).convert(value, &self.to.scale(dimension))
     }
+}
+
+/// The modulus with which our host resists hourglass modes, of each material.
+///
+/// # Errors
+/// A material that the host cannot use.
+pub fn hourglass(
+    materials: &[crate::material::model::Material],
+    control: Control,
+    conversion: Conversion,
+) -> Result<Vec<f64>, Error> {
+    let modulus = |material: &crate::material::model::Material| {
+        let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
+        Ok(conversion.of(medium.hourglass, STRESS))
+    };
+    materials.iter().map(modulus).collect()
 }
 
 /// The time between two animations.

@@ -1,7 +1,7 @@
 //! A woven panel, and a case of `toron fabric`, as the model of a deck.
 
-use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, step};
-use super::striker::{Striker, hemisphere};
+use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
+use super::striker::Striker;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
@@ -12,8 +12,6 @@ use crate::weave::model::Yarn;
 
 /// Corners of a woven element in the order of a deck's: its section where it starts, then the one where it ends.
 pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];
-/// What stands between the striker's quadrangles and its surface, as part of a yarn's height.
-const OFFSET: f64 = 0.25;
 /// Elements nearest to the striker's axis that are watched for failure.
 pub const WATCHED: usize = 100;
 
@@ -35,22 +33,18 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     }
     let length = |value| conversion.of(value, LENGTH);
     let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(f64::INFINITY, f64::min);
-    let (radius, offset) = (length(case.sphere.radius), OFFSET * length(height));
-    let centre = [0.0, 0.0, length(start(case, &panel)?)];
-    let (nodes, faces) = hemisphere(centre, radius - offset);
     let end = conversion.of(case.end, TIME);
     let strike = Strike {
         striker: Striker {
             shape: case.sphere.shape,
-            radius,
+            radius: length(case.sphere.radius),
             mass: share(case) * conversion.of(case.mass, MASS),
             velocity: -conversion.of(case.speed, SPEED),
             friction: case.sphere.friction,
-            centre,
-            offset,
-            nodes,
-            faces,
+            centre: [0.0, 0.0, length(start(case, &panel)?)],
+            side: 0.0,
         },
+        height: length(height),
         contact: Some(Contact {
             friction: case.mutual.friction,
             clearance: length(case.woven.geometry.weave.clearance),
@@ -62,6 +56,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         deflection: lowest_on_axis(&mesh.nodes, 2),
         watched: nearest(&mesh, 2, WATCHED),
         fails: case.zones.materials().iter().any(|material| material.can_fail()),
+        hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),
     };
     Ok(Model {

@@ -1,8 +1,8 @@
 //! A case of `toron impact` as the model of a deck: half of a yarn under a cylinder.
 
-use super::model::{Conversion, Mesh, Model, Part, Strike, Support, frame, step};
+use super::model::{Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::of_fabric::{SECTIONS, WATCHED, lowest_on_axis, nearest};
-use super::striker::{Striker, half_cylinder};
+use super::striker::Striker;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
@@ -10,8 +10,6 @@ use crate::impact::scene::{self, Case, Zones};
 
 /// The axis of the cylinder's motion.
 const DOWN: usize = 1;
-/// What stands between the striker's quadrangles and its surface, as part of the yarn's height.
-const OFFSET: f64 = 0.25;
 /// Length of the cylinder over the width of the yarn, which widens under it.
 const LENGTH_OVER_WIDTH: f64 = 4.0;
 
@@ -43,11 +41,8 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         support("mid-span", "half-length: the model is one half", 0..section, [true, false, false]),
         support("clamp", "half-length: the yarn is clamped there", last..last + section, [true; 3]),
     ];
-    let (radius, offset) = (length(cylinder.radius), OFFSET * length(case.yarn.height));
+    let radius = length(cylinder.radius);
     let top = mesh.nodes.iter().map(|node| node[DOWN]).fold(0.0, f64::max);
-    let centre = [0.0, top + radius, 0.0];
-    let side = 0.5 * LENGTH_OVER_WIDTH * length(case.yarn.width);
-    let (nodes, faces) = half_cylinder(centre, radius - offset, -side, side);
     let end = conversion.of(case.end, TIME);
     let strike = Strike {
         striker: Striker {
@@ -56,11 +51,10 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
             mass: 0.5 * conversion.of(mass, MASS),
             velocity: -conversion.of(case.speed, SPEED),
             friction: cylinder.friction,
-            centre,
-            offset,
-            nodes,
-            faces,
+            centre: [0.0, top + radius, 0.0],
+            side: 0.5 * LENGTH_OVER_WIDTH * length(case.yarn.width),
         },
+        height: length(case.yarn.height),
         contact: None,
         control: case.control,
         end,
@@ -69,6 +63,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         deflection: lowest_on_axis(&mesh.nodes, DOWN),
         watched: nearest(&mesh, DOWN, WATCHED),
         fails: case.zones.materials().iter().any(|material| material.can_fail()),
+        hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),
     };
     Ok(Model {

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::command::{Naming, file};
 use super::fields::number;
 use super::model::{COLLAPSED, Contact, Model, Part, STEP_FACTOR, Strike};
-use super::striker::Striker;
+use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::common::short_number::short;
 use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
@@ -27,6 +27,10 @@ const CONTACT_STEP: f64 = 0.02;
 const NONE: f64 = 1e-20;
 /// Viscosity of hourglass control: the solver's own.
 const HOURGLASS: f64 = 0.1;
+/// How far inside the striker's surface its shells lie, where the contact begins, over a yarn's height. A touch more, and nothing
+/// penetrates at the start.
+const GAP: f64 = 0.25;
+const SHELLS: f64 = 1.001;
 /// Of the striker's shells: density over that of the fibre, so that they do not set the step, and at most this part of its mass.
 const DENSITY_RATIO: f64 = 5.0;
 const MASS_OF_SHELLS: f64 = 0.2;
@@ -101,10 +105,12 @@ enum Group {
 /// A file cannot be written, or a material has no density.
 pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String>, Error> {
     let ids = Ids::of(model, naming);
-    let mesh = file(output, format!("{}_mesh.inc", model.name), |out| write_mesh(model, naming, &ids, out))?;
+    let shells = model.strike.as_ref().map(|strike| strike.striker.surface(SHELLS * GAP * strike.height));
+    let mesh =
+        file(output, format!("{}_mesh.inc", model.name), |out| write_mesh(model, shells.as_ref(), naming, &ids, out))?;
     let cards = cards(model, naming, &ids)?;
     // A panel alone is included in somebody's own model, which says when it begins and ends.
-    let Some(strike) = &model.strike else {
+    let (Some(strike), Some(shells)) = (&model.strike, &shells) else {
         let name = format!("{}.inc", model.name);
         let panel = file(output, name, |out| {
             writeln!(out, "{}{cards}#include {mesh}", panel_header(model))?;
@@ -116,9 +122,9 @@ pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String
         write!(out, "{}{cards}", header(model, strike))?;
         writeln!(out, "# Nodes, elements, groups and surfaces.\n#include {mesh}")?;
         supports(model, naming, &ids, out)?;
-        write_striker(model, &strike.striker, naming, &ids, out)?;
+        write_striker(model, strike, shells, naming, &ids, out)?;
         contacts(strike, naming, &ids, out)?;
-        histories(strike, naming, &ids, out)?;
+        histories(strike, ids.striker_node(shells.nodes.len() as u32), naming, &ids, out)?;
         writeln!(out, "/END")
     })?;
     let engine = file(output, format!("{}_0001.rad", model.name), |out| write_engine(model, strike, out))?;
@@ -217,15 +223,21 @@ fn part_card(id: u32, name: &str, property: u32, material: u32) -> String {
 }
 
 /// Nodes and elements of yarns and striker, groups and surfaces: all that is long.
-fn write_mesh(model: &Model, naming: &Naming, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
+fn write_mesh(
+    model: &Model,
+    shells: Option<&Surface>,
+    naming: &Naming,
+    ids: &Ids,
+    out: &mut impl Write,
+) -> io::Result<()> {
     let mesh = &model.mesh;
     writeln!(
         out,
         "# Included by the deck {}. Nodes of the yarns, then of the striker, its centre last.\n/NODE",
         model.name
     )?;
-    let striker = model.strike.as_ref().map(|strike| &strike.striker);
-    let of_striker = striker.into_iter().flat_map(|striker| striker.nodes.iter().chain([&striker.centre]));
+    let centre = model.strike.as_ref().map(|strike| &strike.striker.centre);
+    let of_striker = shells.into_iter().flat_map(|shells| &shells.nodes).chain(centre);
     for (number_of, place) in (ids.first..).zip(mesh.nodes.iter().chain(of_striker)) {
         let [x, y, z] = place.map(|x| number(x, 20));
         writeln!(out, "{number_of:>10}{x}{y}{z}")?;
@@ -256,9 +268,9 @@ fn write_mesh(model: &Model, naming: &Naming, ids: &Ids, out: &mut impl Write) -
     }
     writeln!(out, "/GRNOD/PART/{}\n{}yarns", ids.group(Group::Yarns), naming.prefix)?;
     numbers((0..ids.parts).map(|part| ids.part(part)), out)?;
-    let Some(striker) = striker else { return Ok(()) };
+    let Some(shells) = shells else { return Ok(()) };
     writeln!(out, "/SHELL/{}", ids.striker_part())?;
-    for (element, face) in (ids.element(ids.elements)..).zip(&striker.faces) {
+    for (element, face) in (ids.element(ids.elements)..).zip(&shells.faces) {
         let [a, b, c, d] = face.map(|node| ids.striker_node(node));
         writeln!(out, "{element:>10}{a:>10}{b:>10}{c:>10}{d:>10}")?;
     }
@@ -293,20 +305,28 @@ fn bcs(id: u32, name: &str, fixed: &str, group: u32) -> String {
 }
 
 /// A rigid body of shells.
-fn write_striker(model: &Model, striker: &Striker, naming: &Naming, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
-    let Striker { shape, radius, mass, velocity, offset, .. } = striker;
+fn write_striker(
+    model: &Model,
+    strike: &Strike,
+    shells: &Surface,
+    naming: &Naming,
+    ids: &Ids,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let striker = &strike.striker;
+    let (Striker { shape, radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
     let (what, fixed) = match shape {
         Shape::Sphere => ("sphere", "110 111"),
         Shape::Cylinder => ("cylinder across the yarn", "101 111"),
     };
     let prefix = &naming.prefix;
     let (material, part, centre) =
-        (ids.striker_material(), ids.striker_part(), ids.striker_node(striker.nodes.len() as u32));
+        (ids.striker_material(), ids.striker_part(), ids.striker_node(shells.nodes.len() as u32));
     let [group, centre_group] = [Group::Striker, Group::Centre].map(|group| ids.group(group));
     let yarn = &model.materials[0];
     let [bulk, shear] = yarn.bulk_and_shear();
     let modulus = bulk + 4.0 / 3.0 * shear;
-    let volume = striker.area() * 2.0 * offset;
+    let volume = shells.area() * 2.0 * offset;
     let density = (DENSITY_RATIO * yarn.density_if_any().unwrap_or_default()).min(MASS_OF_SHELLS * mass / volume);
     let wide = |value: f64| short(value, 19);
     writeln!(
@@ -314,7 +334,7 @@ fn write_striker(model: &Model, striker: &Striker, naming: &Naming, ids: &Ids, o
         "# The striker: half of a rigid {what} of radius {}, {} inside which its shells lie: the contact begins there.\n\
          # Modulus ({}) and density of the shells serve the contact and the step alone.",
         wide(*radius),
-        wide(*offset),
+        wide(offset),
         yarn.unit(STRESS)
     )?;
     write!(out, "/MAT/LAW1/{material}\n{prefix}striker\n")?;
@@ -389,7 +409,7 @@ fn contacts(strike: &Strike, naming: &Naming, ids: &Ids, out: &mut impl Write) -
         "# friction: the yarns' nodes, those within them too, for when the elements above them are gone, on the striker. Idel = 2:\n\
          # faces of deleted elements and nodes of none leave the contact, and what that bares stays in it."
     )?;
-    let Striker { friction, offset, .. } = strike.striker;
+    let (friction, offset) = (strike.striker.friction, GAP * strike.height);
     write!(out, "{}", type7(ids.first, &format!("{}striker", naming.prefix), [yarns, striker], friction, offset))?;
     let Some(Contact { friction, clearance }) = strike.contact else { return Ok(()) };
     writeln!(out, "# yarn-friction; the gap is [weave] clearance: nodes of the yarns on faces of the yarns.")?;
@@ -418,9 +438,8 @@ fn type7(id: u32, name: &str, [nodes, surface]: [u32; 2], friction: f64, gap: f6
 }
 
 /// What `toron compare` reads; the global energies are in every history.
-fn histories(strike: &Strike, naming: &Naming, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
+fn histories(strike: &Strike, centre: u32, naming: &Naming, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
     let prefix = &naming.prefix;
-    let centre = ids.striker_node(strike.striker.nodes.len() as u32);
     writeln!(
         out,
         "# Histories: the striker, the panel's deflection, the force between them, elements that may fail first (OFF)."
@@ -429,10 +448,10 @@ fn histories(strike: &Strike, naming: &Naming, ids: &Ids, out: &mut impl Write) 
     writeln!(out, "{centre:>10}{:>10}striker", 0)?;
     writeln!(out, "{:>10}{:>10}deflection", ids.node(strike.deflection), 0)?;
     let interfaces = 1 + u32::from(strike.contact.is_some());
-    writeln!(out, "/TH/INTER/{}\n{prefix}contacts\n{}", ids.first, columns(&["DEF"]))?;
+    writeln!(out, "/TH/INTER/{}\n{prefix}contacts\n{}", ids.first + 1, columns(&["DEF"]))?;
     numbers((0..interfaces).map(|i| ids.first + i), out)?;
     if strike.fails {
-        writeln!(out, "/TH/BRIC/{}\n{prefix}watched\n{}", ids.first, columns(&["OFF"]))?;
+        writeln!(out, "/TH/BRIC/{}\n{prefix}watched\n{}", ids.first + 2, columns(&["OFF"]))?;
         for &element in &strike.watched {
             writeln!(out, "{:>10}{:>10}watched", ids.element(element), 0)?;
         }

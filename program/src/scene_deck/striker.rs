@@ -19,9 +19,14 @@ pub struct Striker {
     pub friction: f64,
     /// Where its centre is, as it first touches.
     pub centre: [f64; 3],
-    /// How far within the radius the quadrangles lie: a host's contact may begin at a distance from them.
-    pub offset: f64,
+    /// Half of a cylinder's length.
+    pub side: f64,
+}
+
+/// What is met of it.
+pub struct Surface {
     pub nodes: Vec<[f64; 3]>,
+    /// Counterclockwise seen from outside.
     pub faces: Vec<[u32; 4]>,
 }
 
@@ -31,6 +36,17 @@ impl Striker {
         self.shape.direction()
     }
 
+    /// Its surface, so far inside the radius: a host's contact may begin at a distance from it.
+    pub fn surface(&self, inside: f64) -> Surface {
+        let radius = self.radius - inside;
+        match self.shape {
+            Shape::Sphere => hemisphere(self.centre, radius),
+            Shape::Cylinder => half_cylinder(self.centre, radius, self.side),
+        }
+    }
+}
+
+impl Surface {
     pub fn area(&self) -> f64 {
         let area = |face: &[u32; 4]| {
             let [a, b, c, d] = face.map(|node| nalgebra::Vector3::from(self.nodes[node as usize]));
@@ -41,7 +57,7 @@ impl Striker {
 }
 
 /// The half of a sphere about `centre` that has the lower z: five sides of a cube, of which four are halved, drawn to the radius.
-pub fn hemisphere(centre: [f64; 3], radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 4]>) {
+fn hemisphere(centre: [f64; 3], radius: f64) -> Surface {
     let (n, half) = (DIVISIONS as i64, DIVISIONS as i64 / 2);
     let mut numbers = std::collections::HashMap::new();
     let (mut nodes, mut faces) = (Vec::new(), Vec::new());
@@ -69,26 +85,26 @@ pub fn hemisphere(centre: [f64; 3], radius: f64) -> (Vec<[f64; 3]>, Vec<[u32; 4]
             faces.push([[n, a, low], [n, b, low], [n, b, high], [n, a, high]].map(&mut node));
         }
     }
-    (nodes, faces)
+    Surface { nodes, faces }
 }
 
-/// The half of a cylinder along z about `centre` that has the lower y, from one z to the other.
-pub fn half_cylinder(centre: [f64; 3], radius: f64, from: f64, to: f64) -> (Vec<[f64; 3]>, Vec<[u32; 4]>) {
+/// The half of a cylinder along z about `centre` that has the lower y.
+fn half_cylinder(centre: [f64; 3], radius: f64, side: f64) -> Surface {
     let around = 2 * DIVISIONS;
     let arc = std::f64::consts::PI / around as f64;
-    let along = ((to - from) / (arc * radius)).ceil().max(1.0) as usize;
+    let along = (2.0 * side / (arc * radius)).ceil().max(1.0) as usize;
     let mut nodes = Vec::new();
     for i in 0..=around {
         let (sine, cosine) = (arc * i as f64).sin_cos();
         for j in 0..=along {
-            let z = from + (to - from) * j as f64 / along as f64;
+            let z = side * (2.0 * j as f64 / along as f64 - 1.0);
             nodes.push([centre[0] - radius * cosine, centre[1] - radius * sine, z]);
         }
     }
     let number = |i: usize, j: usize| (i * (along + 1) + j) as u32;
     let face = |i: usize, j: usize| [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
     let faces = (0..around).flat_map(|i| (0..along).map(move |j| face(i, j))).collect();
-    (nodes, faces)
+    Surface { nodes, faces }
 }
 
 #[cfg(test)]
@@ -96,9 +112,9 @@ mod tests {
     use super::*;
 
     /// Every face looks away from the axis or the centre.
-    fn check(nodes: &[[f64; 3]], faces: &[[u32; 4]], from: impl Fn(nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64>) {
-        for face in faces {
-            let corners = face.map(|node| nalgebra::Vector3::from(nodes[node as usize]));
+    fn check(surface: &Surface, from: impl Fn(nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64>) {
+        for face in &surface.faces {
+            let corners = face.map(|node| nalgebra::Vector3::from(surface.nodes[node as usize]));
             let normal = (corners[2] - corners[0]).cross(&(corners[3] - corners[1]));
             assert!(normal.dot(&from(corners.iter().sum::<nalgebra::Vector3<f64>>() / 4.0)) > 0.0, "{corners:?}");
         }
@@ -107,33 +123,22 @@ mod tests {
     #[test]
     fn a_hemisphere_is_closed_below_and_looks_outwards() {
         let centre = [0.0, 0.0, 3.0];
-        let (nodes, faces) = hemisphere(centre, 2.0);
-        check(&nodes, &faces, |place| place - nalgebra::Vector3::from(centre));
-        assert_eq!(faces.len(), 3 * DIVISIONS * DIVISIONS);
-        for node in &nodes {
+        let surface = hemisphere(centre, 2.0);
+        check(&surface, |place| place - nalgebra::Vector3::from(centre));
+        assert_eq!(surface.faces.len(), 3 * DIVISIONS * DIVISIONS);
+        for node in &surface.nodes {
             let from = nalgebra::Vector3::from(*node) - nalgebra::Vector3::from(centre);
             assert!((from.norm() - 2.0).abs() < 1e-12 && from.z < 1e-12);
         }
-        // Of a closed half of a sphere: one more node than faces, and half of those on the rim.
-        assert_eq!(nodes.len(), faces.len() + 1 + 4 * DIVISIONS / 2);
-        let striker = Striker {
-            shape: Shape::Sphere,
-            radius: 2.0,
-            mass: 1.0,
-            velocity: -1.0,
-            friction: 0.0,
-            centre,
-            offset: 0.0,
-            nodes,
-            faces,
-        };
-        assert!((striker.area() / (8.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{}", striker.area());
+        // Of a disc of quadrangles: one more node than faces, and half of those on the rim.
+        assert_eq!(surface.nodes.len(), surface.faces.len() + 1 + 2 * DIVISIONS);
+        assert!((surface.area() / (8.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{}", surface.area());
     }
 
     #[test]
     fn half_a_cylinder_looks_outwards() {
-        let (nodes, faces) = half_cylinder([0.0, 1.5, 0.0], 1.1, -0.4, 0.4);
-        check(&nodes, &faces, |place| nalgebra::Vector3::new(place.x, place.y - 1.5, 0.0));
-        assert!(nodes.iter().all(|node| node[1] <= 1.5 + 1e-12));
+        let surface = half_cylinder([0.0, 1.5, 0.0], 1.1, 0.4);
+        check(&surface, |place| nalgebra::Vector3::new(place.x, place.y - 1.5, 0.0));
+        assert!(surface.nodes.iter().all(|node| node[1] <= 1.5 + 1e-12 && node[2].abs() <= 0.4));
     }
 }
