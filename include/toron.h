@@ -1056,8 +1056,8 @@ typedef struct toron_vumat_f64 {
   size_t size;
   /*
    Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (≥ 11, linear law ≥ 10) and of
-   properties (11, linear law 10).
+   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
+   more) and of properties (the law's).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1116,8 +1116,8 @@ typedef struct toron_vumat_f32 {
   size_t size;
   /*
    Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
-   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (≥ 11, linear law ≥ 10) and of
-   properties (11, linear law 10).
+   caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
+   more) and of properties (the law's).
    */
   int32_t nblock;
   int32_t ndir;

@@ -8,6 +8,7 @@
 //! - what a point costs (`toron bench`): [`mod@bench`];
 //! - tables of properties and presets (`toron params`): [`params`];
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
+//! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
@@ -36,6 +37,7 @@ pub mod material;
 mod own_program;
 pub mod params;
 pub mod picture;
+pub mod scene_deck;
 pub mod weave;
 
 pub use own_program::of_law;

@@ -10,7 +10,7 @@ use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
-    bench, cell, command_line, deck, eval, fabric, fibres, identify, impact, load_path, params, weave,
+    bench, cell, command_line, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck, weave,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
@@ -60,8 +60,10 @@ enum Command {
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
         /// Go on from the checkpoints in that directory.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "host")]
         restart: bool,
+        #[command(flatten)]
+        deck: scene_deck::command::Arguments,
     },
     /// Strike a yarn whose fibres are rows of beads, in LAMMPS; write histories, plots, pictures and a table of them.
     Fibres(fibres::command::Arguments),
@@ -83,6 +85,8 @@ enum Command {
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
+        #[command(flatten)]
+        deck: scene_deck::command::Arguments,
     },
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
     Cell {
@@ -102,6 +106,8 @@ enum Command {
         /// Where the files go.
         #[arg(short, long, default_value = "toron-out")]
         output: PathBuf,
+        #[command(flatten)]
+        deck: scene_deck::command::Arguments,
     },
     /// Print the completions of this program's arguments for a shell.
     Completions {
@@ -134,13 +140,22 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
-        Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),
+        Command::Fabric { scene, output, restart, deck } => match deck.host {
+            Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),
+            None => fabric::command::run(&scene, &output, restart),
+        },
         Command::Fibres(arguments) => fibres::command::run(&arguments)
             .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
-        Command::Impact { scene, output } => impact::command::run(&scene, &output),
+        Command::Impact { scene, output, deck } => match deck.host {
+            Some(host) => scene_deck::command::impact(&scene, &output, host, &deck),
+            None => impact::command::run(&scene, &output),
+        },
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),
-        Command::Weave { scene, output } => weave::command::run(&scene, &output),
+        Command::Weave { scene, output, deck } => match deck.host {
+            Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
+            None => weave::command::run(&scene, &output),
+        },
         Command::Completions { shell } => {
             completions(shell);
             Ok(())

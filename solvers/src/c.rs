@@ -22,7 +22,7 @@ macro_rules! c {
                 const POINTS: &'static str = concat!($name, "_points_", stringify!($t));
             }
 
-            static DESCRIPTION: $crate::toron::law::description::Description = $crate::description!($law, $t);
+            static DESCRIPTION: $crate::toron::law::description::Description = <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::law::interface::Law<$t>>::DESCRIPTION;
 
             // SAFETY of each: what the header asks of the caller.
             #[unsafe(export_name = concat!($name, "_prepare_", stringify!($t)))]

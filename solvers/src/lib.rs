@@ -76,15 +76,6 @@ macro_rules! export {
     };
 }
 
-/// The description of a law.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! description {
-    ($law:ty, $t:ident) => {
-        <<$law as $crate::toron::host::Material<$t>>::Law as $crate::toron::law::interface::Law<$t>>::DESCRIPTION
-    };
-}
-
 /// Checks names and numbers of a list of laws at compile time.
 #[doc(hidden)]
 pub const fn assert_distinct(names: &[&str], numbers: &[i32]) {

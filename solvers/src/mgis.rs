@@ -8,12 +8,14 @@ macro_rules! mgis {
     (f64; $($law:ty as $name:literal, user $number:literal;)+) => {
         $(
             const _: () = {
-                const PROPERTIES: usize = $crate::description!($law, f64).properties.len();
-                const STATE: usize = $crate::description!($law, f64).state.len();
-                static PROPERTY_NAMES: [[u8; $crate::toron::host::mgis::symbols::NAME]; PROPERTIES] =
-                    $crate::toron::host::mgis::symbols::property_names($crate::description!($law, f64).properties);
-                static STATE_NAMES: [[u8; $crate::toron::host::mgis::symbols::NAME]; STATE] =
-                    $crate::toron::host::mgis::symbols::state_names($crate::description!($law, f64).state);
+                use $crate::toron::host::mgis::symbols as __toron;
+
+                const LAW: $crate::toron::law::description::Description =
+                    <<$law as $crate::toron::host::Material<f64>>::Law as $crate::toron::law::interface::Law<f64>>::DESCRIPTION;
+                const PROPERTIES: usize = LAW.properties.len();
+                const STATE: usize = LAW.state.len();
+                static PROPERTY_NAMES: [[u8; __toron::NAME]; PROPERTIES] = __toron::property_names(LAW.properties);
+                static STATE_NAMES: [[u8; __toron::NAME]; STATE] = __toron::state_names(LAW.state);
                 const NAME_OF_BEHAVIOUR: &::core::ffi::CStr =
                     match ::core::ffi::CStr::from_bytes_with_nul(concat!($name, "\0").as_bytes()) {
                         Ok(name) => name,
@@ -22,10 +24,10 @@ macro_rules! mgis {
 
                 // A behaviour of finite strain, from F to the Cauchy stress, isotropic to the host.
                 $crate::mgis! { @ $name, "mfront_mkt", MATERIAL_KNOWLEDGE_TYPE: u16 = 1 }
-                $crate::mgis! { @ $name, "mfront_interface", INTERFACE: $crate::toron::host::mgis::symbols::Text = $crate::toron::host::mgis::symbols::Text::new(c"Generic") }
-                $crate::mgis! { @ $name, "mfront_ept", ENTRY_POINT: $crate::toron::host::mgis::symbols::Text = $crate::toron::host::mgis::symbols::Text::new(NAME_OF_BEHAVIOUR) }
+                $crate::mgis! { @ $name, "mfront_interface", INTERFACE: __toron::Text = __toron::Text::new(c"Generic") }
+                $crate::mgis! { @ $name, "mfront_ept", ENTRY_POINT: __toron::Text = __toron::Text::new(NAME_OF_BEHAVIOUR) }
                 $crate::mgis! { @ $name, "api_version", API_VERSION: u16 = 1 }
-                $crate::mgis! { @ $name, "src", SOURCE: $crate::toron::host::mgis::symbols::Text = $crate::toron::host::mgis::symbols::Text::new(c"toron") }
+                $crate::mgis! { @ $name, "src", SOURCE: __toron::Text = __toron::Text::new(c"toron") }
                 $crate::mgis! { @ $name, "BehaviourType", BEHAVIOUR_TYPE: u16 = 2 }
                 $crate::mgis! { @ $name, "BehaviourKinematic", KINEMATIC: u16 = 3 }
                 $crate::mgis! { @ $name, "SymmetryType", SYMMETRY: u16 = 0 }
@@ -34,39 +36,39 @@ macro_rules! mgis {
                 $crate::mgis! { @ $name, "requiresThermalExpansionCoefficientTensor", NEEDS_EXPANSION: u16 = 0 }
                 $crate::mgis! { @ $name, "nModellingHypotheses", HYPOTHESIS_COUNT: u16 = 3 }
                 $crate::mgis! {
-                    @ $name, "ModellingHypotheses", HYPOTHESES: [$crate::toron::host::mgis::symbols::Text; 3] =
-                        [$crate::toron::host::mgis::symbols::Text::new(c"Tridimensional"), $crate::toron::host::mgis::symbols::Text::new(c"PlaneStrain"), $crate::toron::host::mgis::symbols::Text::new(c"Axisymmetrical")]
+                    @ $name, "ModellingHypotheses", HYPOTHESES: [__toron::Text; 3] =
+                        [__toron::Text::new(c"Tridimensional"), __toron::Text::new(c"PlaneStrain"), __toron::Text::new(c"Axisymmetrical")]
                 }
 
                 $crate::mgis! { @ $name, "nGradients", GRADIENT_COUNT: u16 = 1 }
-                $crate::mgis! { @ $name, "Gradients", GRADIENTS: [$crate::toron::host::mgis::symbols::Text; 1] = [$crate::toron::host::mgis::symbols::Text::new(c"DeformationGradient")] }
+                $crate::mgis! { @ $name, "Gradients", GRADIENTS: [__toron::Text; 1] = [__toron::Text::new(c"DeformationGradient")] }
                 $crate::mgis! { @ $name, "GradientsTypes", GRADIENT_TYPES: [i32; 1] = [3] }
                 $crate::mgis! { @ $name, "nThermodynamicForces", FORCE_COUNT: u16 = 1 }
-                $crate::mgis! { @ $name, "ThermodynamicForces", FORCES: [$crate::toron::host::mgis::symbols::Text; 1] = [$crate::toron::host::mgis::symbols::Text::new(c"Stress")] }
+                $crate::mgis! { @ $name, "ThermodynamicForces", FORCES: [__toron::Text; 1] = [__toron::Text::new(c"Stress")] }
                 $crate::mgis! { @ $name, "ThermodynamicForcesTypes", FORCE_TYPES: [i32; 1] = [1] }
                 $crate::mgis! { @ $name, "nTangentOperatorBlocks", BLOCK_NAME_COUNT: u16 = 2 }
                 $crate::mgis! {
-                    @ $name, "TangentOperatorBlocks", BLOCKS: [$crate::toron::host::mgis::symbols::Text; 2] =
-                        [$crate::toron::host::mgis::symbols::Text::new(c"Stress"), $crate::toron::host::mgis::symbols::Text::new(c"DeformationGradient")]
+                    @ $name, "TangentOperatorBlocks", BLOCKS: [__toron::Text; 2] =
+                        [__toron::Text::new(c"Stress"), __toron::Text::new(c"DeformationGradient")]
                 }
 
                 $crate::mgis! { @ $name, "nMaterialProperties", PROPERTY_COUNT: u16 = PROPERTIES as u16 }
                 $crate::mgis! {
-                    @ $name, "MaterialProperties", PROPERTY_LIST: [$crate::toron::host::mgis::symbols::Text; PROPERTIES] = $crate::toron::host::mgis::symbols::texts(&PROPERTY_NAMES)
+                    @ $name, "MaterialProperties", PROPERTY_LIST: [__toron::Text; PROPERTIES] = __toron::texts(&PROPERTY_NAMES)
                 }
                 $crate::mgis! { @ $name, "nInternalStateVariables", STATE_COUNT: u16 = STATE as u16 }
-                $crate::mgis! { @ $name, "InternalStateVariables", STATE_LIST: [$crate::toron::host::mgis::symbols::Text; STATE] = $crate::toron::host::mgis::symbols::texts(&STATE_NAMES) }
+                $crate::mgis! { @ $name, "InternalStateVariables", STATE_LIST: [__toron::Text; STATE] = __toron::texts(&STATE_NAMES) }
                 $crate::mgis! { @ $name, "InternalStateVariablesTypes", STATE_TYPES: [i32; STATE] = [0; STATE] }
                 $crate::mgis! { @ $name, "ComputesInternalEnergy", STORES_ENERGY: u16 = 1 }
                 $crate::mgis! { @ $name, "ComputesDissipatedEnergy", DISSIPATES_ENERGY: u16 = 0 }
 
                 // None of these; the lists must exist all the same. MGIS and MTest themselves add the temperature.
                 $crate::mgis! { @ $name, "nExternalStateVariables", EXTERNAL_COUNT: u16 = 0 }
-                $crate::mgis! { @ $name, "ExternalStateVariables", EXTERNAL_LIST: [$crate::toron::host::mgis::symbols::Text; 1] = [$crate::toron::host::mgis::symbols::Text::NONE] }
+                $crate::mgis! { @ $name, "ExternalStateVariables", EXTERNAL_LIST: [__toron::Text; 1] = [__toron::Text::NONE] }
                 $crate::mgis! { @ $name, "ExternalStateVariablesTypes", EXTERNAL_TYPES: [i32; 1] = [0] }
                 $crate::mgis! { @ $name, "TemperatureRemovedFromExternalStateVariables", TEMPERATURE_REMOVED: u16 = 1 }
                 $crate::mgis! { @ $name, "nParameters", PARAMETER_COUNT: u16 = 0 }
-                $crate::mgis! { @ $name, "Parameters", PARAMETER_LIST: [$crate::toron::host::mgis::symbols::Text; 1] = [$crate::toron::host::mgis::symbols::Text::NONE] }
+                $crate::mgis! { @ $name, "Parameters", PARAMETER_LIST: [__toron::Text; 1] = [__toron::Text::NONE] }
                 $crate::mgis! { @ $name, "ParametersTypes", PARAMETER_TYPES: [i32; 1] = [0] }
                 $crate::mgis! { @ $name, "nInitializeFunctions", INITIALIZER_COUNT: u16 = 0 }
                 $crate::mgis! { @ $name, "nPostProcessings", POST_PROCESSING_COUNT: u16 = 0 }

@@ -223,7 +223,7 @@ impl<R: Real> Deformed<'_, R> {
         let on_e = if measure == Measure::Jaumann { half.mul_add(f.tension, -on_p) } else { -on_p };
         let mut with_one = multiple(on_e, e);
         for diagonal in with_one.iter_mut().take(3) {
-            *diagonal = *diagonal + on_p;
+            *diagonal += on_p;
         }
         if measure != Measure::Jaumann {
             with_one = added(&with_one, -y_d, d);

@@ -998,14 +998,15 @@ fn any_law<T: Number>() -> impl Strategy<Value = (Hyperelastic<T>, T)> {
     })
 }
 
-/// Whether the scalar law gives this status, or would for entries of F a few roundings away.
+/// Whether the scalar law gives this status, or would for entries of F or of the fibre direction a few roundings away.
 fn could_be<T: Number>(law: &Hyperelastic<T>, input: &Input<T>, own: bool, code: i32) -> bool {
     let code_of = |input: &Input<T>| Output::along(law, own.then_some(input.fibre), input, T::splat(1.0)).status;
     code_of(input) == code
-        || (0..18).any(|k| {
+        || (0..24).any(|k| {
             let mut input = *input;
             let sign = if k % 2 == 0 { 8.0 } else { -8.0 };
-            input.f[k / 2] = input.f[k / 2] * T::splat(1.0 + sign * T::ROUNDING);
+            let moved = if k < 18 { &mut input.f[k / 2] } else { &mut input.fibre[(k - 18) / 2] };
+            *moved *= T::splat(1.0 + sign * T::ROUNDING);
             code_of(&input) == code
         })
 }

@@ -8,6 +8,7 @@ pub const ENERGY: Dimension = Dimension { mass: 1, length: 2, time: -2, name: "e
 /// Newton.
 pub const FORCE: Dimension = Dimension { mass: 1, length: 1, time: -2, name: "force" };
 
+pub const MASS: Dimension = Dimension { mass: 1, length: 0, time: 0, name: "mass" };
 pub const LENGTH: Dimension = Dimension { mass: 0, length: 1, time: 0, name: "length" };
 pub const TIME: Dimension = Dimension { mass: 0, length: 0, time: 1, name: "time" };
 /// A pressure by the depth of a contact.

@@ -8,6 +8,7 @@ use toron::host::units::UnitSystem;
 use super::abaqus::{self, Solver};
 use super::ls_dyna::{self, Fibre, NUMBERS};
 use super::material::Material;
+use super::openradioss::FibreFrom;
 use super::{calculix, mtest, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
@@ -98,7 +99,7 @@ pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>
         Host::Abaqus => abaqus::card(&material, Solver::Both),
         Host::AbaqusStandard => abaqus::card(&material, Solver::Standard),
         Host::AbaqusExplicit => abaqus::card(&material, Solver::Explicit),
-        Host::Openradioss => openradioss::card(&material, id),
+        Host::Openradioss => openradioss::card(&material, id, FibreFrom::Card),
         Host::Calculix => Ok(calculix::card(&material)),
         Host::Mtest => Ok(mtest::card(&material)),
     };

@@ -12,7 +12,7 @@ use crate::common::error::Error;
 use crate::common::units::unit;
 use crate::material::fibre_wave::FibreWave;
 use crate::material::laws::LawName;
-use crate::material::model::Law;
+use crate::material::model::{self, Law};
 use crate::material::preset::Preset;
 
 /// The columns of a number in cards that have room enough: twelve digits.
@@ -32,6 +32,9 @@ pub struct Material {
     /// In the order of the law's table.
     pub values: Vec<f64>,
     density: Option<f64>,
+    /// Of the linear elastic law: what its axes follow, and by what it fails.
+    pub frame: Rotation,
+    pub criterion: Criterion,
 }
 
 impl Material {
@@ -51,7 +54,36 @@ impl Material {
         let place = preset.file().unwrap_or(&name).to_string();
         let (law, density) = (preset.law, preset.density_in(units));
         let bulk_and_shear = prepared.bulk_and_shear();
-        Ok(Material { name, place, source, units: *units, law, bulk_and_shear, values, density })
+        let (frame, criterion) = (Rotation::Fibre, Criterion::LargestPrincipal);
+        Ok(Material { name, place, source, units: *units, law, bulk_and_shear, values, density, frame, criterion })
+    }
+
+    /// A scene's material, whose values are in the units `from`.
+    ///
+    /// # Errors
+    /// The law refuses the values in the deck's units.
+    pub fn of_scene(material: &model::Material, from: &UnitSystem, units: &UnitSystem) -> Result<Material, Error> {
+        let convert = |value: f64, dimension| from.scale(dimension).convert(value, &units.scale(dimension));
+        let table = material.table();
+        let values: Vec<f64> =
+            material.values().iter().zip(table).map(|(&value, row)| convert(value, row.dimension)).collect();
+        let law = material.law.with(&values).map_err(|error| Error::Input(format!("{}: {error}", material.name())))?;
+        let (frame, criterion) = match law {
+            Law::LinearElastic { frame, criterion, .. } => (frame, criterion),
+            Law::Hyperelastic { .. } | Law::Own(_) => (Rotation::Fibre, Criterion::LargestPrincipal),
+        };
+        Ok(Material {
+            name: material.label.clone(),
+            place: material.label.clone(),
+            source: material.name(),
+            units: *units,
+            law: law.name(),
+            bulk_and_shear: law.bulk_and_shear(),
+            values,
+            density: material.density.map(|density| convert(density, DENSITY)),
+            frame,
+            criterion,
+        })
     }
 
     pub fn interface(&self) -> Interface {

@@ -1,11 +1,11 @@
 //! `toron deck`: a material's card, ready to be pasted into a solver's deck. A file for each host; what they share, the material
 //! and its comments, is in `material`, and how each law is found by each host in `interface`.
 
-mod abaqus;
+pub mod abaqus;
 mod calculix;
 pub mod command;
 mod interface;
-mod ls_dyna;
-mod material;
+pub mod ls_dyna;
+pub mod material;
 mod mtest;
-mod openradioss;
+pub mod openradioss;

@@ -43,7 +43,7 @@ fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
 }
 
 /// The height at which the sphere touches the panel.
-fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
+pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
     let start = first_touch(panel, case.sphere.radius);
     if !start.is_finite() {
         let radius = number(case.sphere.radius);
@@ -119,7 +119,7 @@ fn struck_surface(mesh: &Mesh, outer: &[f64]) -> Vec<f64> {
 }
 
 /// The number of the medium of an element with these corners.
-fn zone(zones: &Zones, corners: [[f64; 3]; 8]) -> usize {
+pub fn zone(zones: &Zones, corners: [[f64; 3]; 8]) -> usize {
     let Zones::Two(_, radius) = zones else { return 0 };
     let [x, y] = [0, 1].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>());
     usize::from(x.hypot(y) > *radius)

@@ -246,7 +246,7 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
             None => zero,
         };
         for c in energies {
-            energy = energy + at!(block.state_new, block, c, i);
+            energy += at!(block.state_new, block, c, i);
         }
         let specific = energy / (*block.density.add(i) * volume);
         // If the deformation or the density is invalid, the energy keeps its old value.

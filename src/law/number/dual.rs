@@ -4,7 +4,7 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::elementary;
-use super::real::Real;
+use super::real::{Real, assigning};
 
 /// x + x′ ε with ε² = 0.
 ///
@@ -61,6 +61,8 @@ impl<R: Real> Div for Dual<R> {
         Dual::new(value, (self.slope - value * b.slope) / b.value)
     }
 }
+
+assigning! { [R: Real] Dual<R> }
 
 impl<R: Real> Neg for Dual<R> {
     type Output = Self;

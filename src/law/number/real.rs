@@ -4,16 +4,56 @@
 //! mathematics, operation by operation. Decisions are masks and selects, never branches on a point's value.
 
 use core::mem::MaybeUninit;
-use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
 use super::elementary;
+
+/// The operators that assign, of a number type that has the others: `assigning! { [R: Real] Dual<R> }`.
+macro_rules! assigning {
+    ([$($parameters:tt)*] $number:ty) => {
+        impl<$($parameters)*> core::ops::AddAssign for $number {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl<$($parameters)*> core::ops::SubAssign for $number {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+        impl<$($parameters)*> core::ops::MulAssign for $number {
+            #[inline(always)]
+            fn mul_assign(&mut self, other: Self) {
+                *self = *self * other;
+            }
+        }
+        impl<$($parameters)*> core::ops::DivAssign for $number {
+            #[inline(always)]
+            fn div_assign(&mut self, other: Self) {
+                *self = *self / other;
+            }
+        }
+    };
+}
+pub(super) use assigning;
 
 /// A real number, or several of them side by side; what a law's formulas are written over. Documented is what formulas need; the rest is
 /// what the library's own are made of.
 ///
 /// `mul_add` may be fused where the processor does so; every other operation is the correctly rounded one of IEEE 754.
 pub trait Real:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
 {
     /// The result of a comparison, for each lane.
     type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;

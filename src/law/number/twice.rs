@@ -2,7 +2,7 @@
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::real::{Lanes, Real};
+use super::real::{Lanes, Real, assigning};
 
 /// Two registers side by side.
 #[derive(Clone, Copy)]
@@ -21,6 +21,8 @@ macro_rules! operators {
 }
 
 operators! { Add add Sub sub Mul mul Div div BitAnd bitand BitOr bitor }
+
+assigning! { [R: Real] Twice<R> }
 
 impl<X: Neg<Output = X>> Neg for Twice<X> {
     type Output = Self;

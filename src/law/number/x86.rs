@@ -10,7 +10,7 @@
 use core::arch::x86_64::*;
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use super::real::{Lanes, Real, Single};
+use super::real::{Lanes, Real, Single, assigning};
 use super::series::{EXP_F32, EXP_F64, HALF_ARTANH_F32, HALF_ARTANH_F64, LN_F32, LN_F64};
 
 /// A register type with its arithmetic. `$f` is the register of numbers, `$i` the one of their bits.
@@ -74,6 +74,7 @@ macro_rules! register {
                 $name(unsafe { $div(self.0, other.0) })
             }
         }
+        assigning! { [] $name }
         impl Neg for $name {
             type Output = Self;
             #[inline(always)]

@@ -1,0 +1,160 @@
+//! The arguments of `--deck`, and the files that it writes.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+use toron::host::units::UnitSystem;
+
+use super::model::{Conversion, Model};
+use super::{of_fabric, of_impact, openradioss};
+use crate::common::console::{print, print_error};
+use crate::common::error::Error;
+use crate::common::folder;
+use crate::common::run_directory::file_error;
+use crate::common::units::number;
+use crate::{fabric, impact, weave};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Host {
+    Openradioss,
+}
+
+#[derive(Args, Clone, Debug)]
+pub struct Arguments {
+    /// Write the scene as the whole deck of this solver, instead of running it.
+    #[arg(long = "deck", value_name = "HOST", value_enum)]
+    pub host: Option<Host>,
+    /// The deck's units, for instance mm-tonne-s; without it, the scene's.
+    #[arg(long, requires = "host")]
+    units: Option<String>,
+    /// The number of the first node, element, part, set, ...; those of a deck follow it.
+    #[arg(long, requires = "host", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=90_000_000))]
+    first_id: u32,
+    /// What names of files, parts and sets begin with.
+    #[arg(long, requires = "host", default_value = "")]
+    prefix: String,
+}
+
+/// What the writers take besides the model.
+#[derive(Clone, Debug)]
+pub struct Naming {
+    /// The least number of every kind.
+    pub first: u32,
+    pub prefix: String,
+}
+
+/// The decks of a scene of `toron fabric`.
+///
+/// # Errors
+/// The input, an argument, or a file that cannot be written.
+pub fn fabric(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
+    let scene = fabric::scene::Scene::read(path)?;
+    let conversion = arguments.conversion(scene.units)?;
+    let models = scene.cases.iter().map(|case| of_fabric::of_case(case, conversion));
+    arguments.write(models, &scene.title, &format!("toron fabric {}", path.display()), host, output)
+}
+
+/// The decks of a scene of `toron impact`.
+///
+/// # Errors
+/// The input, an argument, or a file that cannot be written.
+pub fn impact(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
+    let scene = impact::scene::Scene::read(path)?;
+    let conversion = arguments.conversion(scene.units)?;
+    let models = scene.cases.iter().map(|case| of_impact::of_case(case, conversion));
+    arguments.write(models, &scene.title, &format!("toron impact {}", path.display()), host, output)
+}
+
+/// The panel of a scene of `toron weave`, to enter a model of one's own.
+///
+/// # Errors
+/// The input, no material, an argument, or a file that cannot be written.
+pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> Result<(), Error> {
+    let scene = weave::reader::Scene::read(path)?;
+    let conversion = arguments.conversion(scene.units)?;
+    let material = scene.material.as_ref().ok_or_else(|| {
+        Error::Input(format!(
+            "{}: [material] is missing, which a deck needs; allowed: a table with a preset",
+            path.display()
+        ))
+    })?;
+    let models = std::iter::once_with(|| of_fabric::of_panel(&scene.woven.model(), material, conversion));
+    arguments.write(models, &scene.title, &format!("toron weave {}", path.display()), host, output)
+}
+
+impl Arguments {
+    fn conversion(&self, from: UnitSystem) -> Result<Conversion, Error> {
+        let to = match &self.units {
+            None => from,
+            Some(name) => UnitSystem::parse(name)
+                .ok_or_else(|| Error::Input(format!("--units {name}; allowed: {}", UnitSystem::ALLOWED)))?,
+        };
+        Ok(Conversion { from, to })
+    }
+
+    /// Writes one model after another: only one is in the memory.
+    fn write(
+        &self,
+        models: impl Iterator<Item = Result<Model, Error>>,
+        title: &str,
+        command: &str,
+        host: Host,
+        output: &Path,
+    ) -> Result<(), Error> {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+        if !self.prefix.chars().all(plain) {
+            return Err(Error::Input(format!("--prefix {}; allowed: letters, digits and - _", self.prefix)));
+        }
+        folder::create(output)?;
+        let naming = Naming { first: self.first_id, prefix: self.prefix.clone() };
+        for model in models {
+            let model = model?;
+            let model = Model {
+                title: ascii(title),
+                source: ascii(command),
+                name: format!("{}{}", self.prefix, model.name),
+                ..model
+            };
+            let files = match host {
+                Host::Openradioss => openradioss::write(&model, &naming, output)?,
+            };
+            print(&report(&model, &files));
+            for warning in model.materials.iter().filter_map(|material| material.unit_warning()) {
+                print_error(&format!("toron: warning: {warning}\n"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn report(model: &Model, files: &[String]) -> String {
+    let (nodes, elements, parts) = (model.mesh.nodes.len(), model.mesh.elements.len(), model.parts.len());
+    let mass = format!("{} {}", number(model.mass()), model.units.names()[1]);
+    format!("{}: {elements} elements, {nodes} nodes, {parts} parts, {mass}: {}\n", model.name, files.join(", "))
+}
+
+/// Solvers read bytes: other letters of a title would make lines longer than they look.
+fn ascii(text: &str) -> String {
+    text.replace('µ', "u").chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '?' }).collect()
+}
+
+/// Writes a file of the deck as a stream; returns its name.
+///
+/// # Errors
+/// It cannot be written.
+pub fn file(
+    output: &Path,
+    name: String,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<String, Error> {
+    let place = output.join(&name);
+    let written = File::create(&place).and_then(|file| {
+        let mut file = BufWriter::with_capacity(1 << 20, file);
+        write(&mut file)?;
+        file.flush()
+    });
+    written.map_err(|error| file_error(&place, &error))?;
+    Ok(name)
+}

@@ -1,0 +1,174 @@
+//! A woven panel, and a case of `toron fabric`, as the model of a deck.
+
+use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
+use super::striker::Striker;
+use crate::common::error::Error;
+use crate::common::units::{LENGTH, MASS, SPEED, TIME};
+use crate::deck::material::Material;
+use crate::fabric::model::{check, share, start, zone};
+use crate::fabric::scene::Case;
+use crate::weave::model as woven;
+use crate::weave::model::Yarn;
+
+/// Corners of a woven element in the order of a deck's: its section where it starts, then the one where it ends.
+pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];
+/// Elements nearest to the striker's axis that are watched for failure.
+pub const WATCHED: usize = 100;
+
+/// # Errors
+/// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
+pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
+    check(case)?;
+    let panel = case.woven.model();
+    let Conversion { from, to } = conversion;
+    let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
+    let materials = materials.collect::<Result<Vec<_>, _>>()?;
+    let corners = |element: usize| panel.elements[element].map(|node| panel.nodes[node as usize]);
+    let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
+    let parts = parts(&panel, &names, |element| zone(&case.zones, corners(element)));
+    let mesh = mesh(&panel, conversion);
+    let mut supports = symmetry(&panel);
+    if case.held {
+        supports.push(rim(&panel));
+    }
+    let length = |value| conversion.of(value, LENGTH);
+    let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(f64::INFINITY, f64::min);
+    let end = conversion.of(case.end, TIME);
+    let strike = Strike {
+        striker: Striker {
+            shape: case.sphere.shape,
+            radius: length(case.sphere.radius),
+            mass: share(case) * conversion.of(case.mass, MASS),
+            velocity: -conversion.of(case.speed, SPEED),
+            friction: case.sphere.friction,
+            centre: [0.0, 0.0, length(start(case, &panel)?)],
+            side: 0.0,
+        },
+        height: length(height),
+        contact: Some(Contact {
+            friction: case.mutual.friction,
+            clearance: length(case.woven.geometry.weave.clearance),
+        }),
+        control: case.control,
+        end,
+        sample: conversion.of(case.sample, TIME),
+        frame: frame(end, case.frames),
+        deflection: lowest_on_axis(&mesh.nodes, 2),
+        watched: nearest(&mesh, 2, WATCHED),
+        fails: case.zones.materials().iter().any(|material| material.can_fail()),
+        hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
+        step: step(&mesh, &parts, &materials),
+    };
+    Ok(Model {
+        title: String::new(),
+        source: String::new(),
+        name: case.name.clone(),
+        units: to,
+        mesh,
+        parts,
+        materials,
+        supports,
+        strike: Some(strike),
+    })
+}
+
+/// A panel alone, which nothing strikes.
+///
+/// # Errors
+/// The deck's units cannot have the material.
+pub fn of_panel(
+    panel: &woven::Model,
+    material: &crate::material::model::Material,
+    conversion: Conversion,
+) -> Result<Model, Error> {
+    let Conversion { from, to } = conversion;
+    let material = Material::of_scene(material, &from, &to)?;
+    let mut supports = symmetry(panel);
+    supports.push(Support { fixed: [false; 3], ..rim(panel) });
+    Ok(Model {
+        title: String::new(),
+        source: String::new(),
+        name: "weave".to_string(),
+        units: to,
+        mesh: mesh(panel, conversion),
+        parts: parts(panel, &[&material.name], |_| 0),
+        materials: vec![material],
+        supports,
+        strike: None,
+    })
+}
+
+fn mesh(panel: &woven::Model, conversion: Conversion) -> Mesh {
+    Mesh {
+        nodes: panel.nodes.iter().map(|node| node.map(|x| conversion.of(x, LENGTH))).collect(),
+        elements: panel.elements.iter().map(|element| SECTIONS.map(|corner| element[corner])).collect(),
+        fibre: panel.fibre.clone(),
+        straight: false,
+        faces: panel.faces.iter().map(|face| face.nodes).collect(),
+    }
+}
+
+/// A part for each yarn, or for each of its materials; named by both then.
+fn parts(panel: &woven::Model, materials: &[&str], zone: impl Fn(usize) -> usize) -> Vec<Part> {
+    let mut parts = Vec::new();
+    for yarn in &panel.yarns {
+        for (material, of_material) in materials.iter().enumerate() {
+            let elements = yarn.elements.clone().filter(|&element| zone(element) == material);
+            let elements: Vec<u32> = elements.map(|element| element as u32).collect();
+            if elements.is_empty() {
+                continue;
+            }
+            let name = name(yarn);
+            let name = if materials.len() > 1 { format!("{name}-{of_material}") } else { name };
+            parts.push(Part { name, material, elements });
+        }
+    }
+    parts
+}
+
+/// As `warp-3`, `weft-m2`: a name may have no sign.
+fn name(yarn: &Yarn) -> String {
+    let sign = if yarn.number < 0 { "m" } else { "" };
+    format!("{}-{sign}{}", yarn.family.name(), yarn.number.abs())
+}
+
+fn symmetry(panel: &woven::Model) -> Vec<Support> {
+    let key = "[weave.panel] part = \"quarter\"";
+    let planes = [("on-x-0", &panel.on_x, [true, false, false]), ("on-y-0", &panel.on_y, [false, true, false])];
+    let planes = planes.into_iter().filter(|(_, nodes, _)| !nodes.is_empty());
+    planes.map(|(name, nodes, fixed)| Support { name, key, nodes: nodes.clone(), fixed }).collect()
+}
+
+fn rim(panel: &woven::Model) -> Support {
+    Support { name: "rim", key: "rim", nodes: panel.rim.clone(), fixed: [true; 3] }
+}
+
+/// Of the nodes nearest to the axis through the origin, the last one that a striker from above would meet.
+pub fn lowest_on_axis(nodes: &[[f64; 3]], axis: usize) -> u32 {
+    let key = |node: &[f64; 3]| (distance(node, axis), node[axis]);
+    let order = |(_, a): &(usize, &[f64; 3]), (_, b): &(usize, &[f64; 3])| {
+        let ([a, low], [b, high]) = (<[f64; 2]>::from(key(a)), <[f64; 2]>::from(key(b)));
+        a.total_cmp(&b).then(low.total_cmp(&high))
+    };
+    nodes.iter().enumerate().min_by(order).map_or(0, |(number, _)| number as u32)
+}
+
+/// The elements nearest to that axis.
+pub fn nearest(mesh: &Mesh, axis: usize, count: usize) -> Vec<u32> {
+    let distance = |element: usize| {
+        let corners = mesh.corners(element);
+        distance(&[0, 1, 2].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>()), axis)
+    };
+    let mut found: Vec<(f64, u32)> = (0..mesh.elements.len()).map(|i| (distance(i), i as u32)).collect();
+    let count = count.min(found.len());
+    if count < found.len() {
+        found.select_nth_unstable_by(count, |a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    }
+    let mut elements: Vec<u32> = found[..count].iter().map(|&(_, element)| element).collect();
+    elements.sort_unstable();
+    elements
+}
+
+fn distance(place: &[f64; 3], axis: usize) -> f64 {
+    place[(axis + 1) % 3].hypot(place[(axis + 2) % 3])
+}
