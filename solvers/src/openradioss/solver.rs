@@ -44,14 +44,19 @@ pub fn stop(message: &str) {
     }
 }
 
-/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no such routine.
-pub fn nodes<T: Real>(elements: usize) -> Vec<T> {
-    let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
-    let mut coordinates = vec![T::splat(0.0); elements * 8 * 3];
-    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls it.
+/// The engine's routines for what the nodes of its current group have.
+pub const COORDINATES: &CStr = c"mat_solid_get_nod_x_";
+pub const VELOCITIES: &CStr = c"mat_solid_get_nod_v_";
+
+/// The vectors of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine of this name.
+pub fn of_nodes<T: Real>(name: &CStr, elements: usize) -> Vec<T> {
+    let Some(get) = routine(name) else { return Vec::new() };
+    let mut vectors = vec![T::splat(0.0); elements * 8 * 3];
+    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine, and the one of velocities, write 24 numbers for each element of the group that
+    // calls it.
     unsafe {
         let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
-        get(coordinates.as_mut_ptr());
+        get(vectors.as_mut_ptr());
     }
-    coordinates
+    vectors
 }
