@@ -1,6 +1,14 @@
 /* The library that the solver loads by itself, in a program that has the starter's routines and not the engine's. */
 #include "solver.h"
 
+/* What the starter's reader is reading. */
+void cpp_current_option_(int *id, int *unit, int *include, char *key, int *key_length, char *title, int *title_length)
+{
+    *id = 12, *unit = *include = 0;
+    *key_length = sprintf(key, "/MAT/USER01");
+    *title_length = sprintf(title, "warp yarns");
+}
+
 /* The thesis's yarn in N, mm, s; the last value is an option. */
 static const double yarn[12] = {82341, 1055, 2.2, 649.74, 0, 0.0458, 1.8, 0, 1, 0, 0, 0};
 static const double linear[13] = {79414, 794, 126, 3637, 1, 0, 0, 0, 0, 0, 0, 0, 0};
@@ -42,14 +50,14 @@ static void refusals(void)
     memcpy(wrong, yarn, sizeof yarn);
     wrong[2] = 0.5;
     read_card(1, card_of(wrong, 12));
-    STOPPED_WITH("/MAT/USER01", "property 3 (p, transverse compaction exponent) is 0.5", "> 1, at most 40");
+    STOPPED_WITH("/MAT/USER01/12 (warp yarns): ", "property 3 (p, transverse compaction exponent) is 0.5", "> 1, at most 40");
     memcpy(wrong, yarn, sizeof yarn);
     wrong[11] = 3;
     read_card(1, card_of(wrong, 12));
     STOPPED_WITH("fibre_from", "3.0", "0 (the fibre direction of the card), 1", "2 (");
     wrong[11] = 0, wrong[12] = 4;
     read_card(1, card_of(wrong, 13));
-    STOPPED_WITH("step", "4.0", "1 (from the fastest wave");
+    STOPPED_WITH("step", "4.0", "1 (from waves by their direction");
     double long_card[14];
     memcpy(long_card, yarn, sizeof yarn);
     long_card[12] = 0, long_card[13] = 4;

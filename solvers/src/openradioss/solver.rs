@@ -60,3 +60,19 @@ pub fn of_nodes<T: Real>(name: &CStr, elements: usize) -> Vec<T> {
     }
     vectors
 }
+
+/// Number and title of what the starter is reading; `None` if it has no such routine.
+pub fn current_option() -> Option<(i32, String)> {
+    let get = routine(c"cpp_current_option_")?;
+    let (mut id, mut unit, mut include, mut key_length, mut title_length) = (0, 0, 0, 0, 0);
+    let (mut key, mut title) = ([0_u8; 500], [0_u8; 500]);
+    // SAFETY: `cpp_current_option_(ID, UID, includeId, KEY, SKEY, TITR, STITR)` of the starter's reader; it writes at most 100
+    // characters of the keyword and 500 of the title.
+    unsafe {
+        type Get = unsafe extern "C" fn(*mut i32, *mut i32, *mut i32, *mut u8, *mut i32, *mut u8, *mut i32);
+        let get: Get = std::mem::transmute(get);
+        get(&mut id, &mut unit, &mut include, key.as_mut_ptr(), &mut key_length, title.as_mut_ptr(), &mut title_length);
+    }
+    let title = title.get(..usize::try_from(title_length).ok()?)?;
+    Some((id, String::from_utf8_lossy(title).trim().to_string()))
+}

@@ -47,7 +47,7 @@ pub static OPTIONS: [CardOption; 3] = [
 pub static STEP: CardOption = CardOption {
     name: "step",
     greatest: 1,
-    allowed: "0 (SOUNDSP from waves by their direction, where that is possible), 1 (from the fastest wave of any direction)",
+    allowed: "0 (SOUNDSP from the fastest wave of any direction), 1 (from waves by their direction, where that is possible)",
 };
 
 /// Where the fibre direction of a point comes from.
@@ -179,7 +179,7 @@ impl<'a, T: Precision> Card<'a, T> {
             },
             rotation: if frame == 0 { Rotation::Fibre } else { Rotation::Polar },
             criterion: if criterion == 0 { Criterion::LargestPrincipal } else { Criterion::FibreStress },
-            by_direction: layout.has_step && options.last().is_some_and(|&step| whole(step) == 0),
+            by_direction: layout.has_step && options.last().is_some_and(|&step| whole(step) == 1),
         })
     }
 }

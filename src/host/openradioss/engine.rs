@@ -151,6 +151,10 @@ const NO_GRADIENT_IN_SINGLE: &str = "the solver passes no deformation gradient (
 const OTHER_AXES: &str = "F is not in the global axes, as the nodes' velocities show; the elements of this material need \
     /PROP/TYPE14 (not TYPE6) with Isolid = 1, Ismstr = 10, Iframe = 1";
 
+/// What the run stops with if fibre_from is 1 and elements are flat in the direction of the fibre: yarns are meshed with long ones.
+const NODE_ORDER: &str = "fibre_from = 1, and this group's elements are less than half as long from nodes 1 to 4 to nodes 5 to 8 as across: \
+    nodes 1 to 4 must be a section of the yarn; if they are, give the directions as initial values (fibre_from = 2)";
+
 /// The diagonal of F = 1, where the other precision's numbers are read.
 const OF_DOUBLE: &str = "the solver's numbers are of double precision, and this is the library for single precision: use \
     libtoron_openradioss.so";
@@ -276,11 +280,16 @@ impl<T: Precision> Group<T> {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
         }
         let rows = [0, 1, 2].map(|c| self.row(card.layout().fibre() + c));
+        let mut extents = [0.0; 3];
         for i in 0..self.count() {
             // SAFETY: the caller's promise, i below NEL.
             unsafe {
                 if from_nodes {
-                    let direction = self.along_the_yarn(i);
+                    let jacobian = Brick(self.of_nodes(self.nodes, i)).jacobian([0.0; 3]);
+                    let lengths = jacobian.map(|half| libm::sqrt(dot(half, half)));
+                    extents.iter_mut().zip(lengths).for_each(|(sum, length)| *sum += length);
+                    let ([_, _, way], [_, _, length]) = (jacobian, lengths);
+                    let direction = way.map(|x| x / length);
                     rows.into_iter().zip(direction).for_each(|(row, m)| *row.add(i) = T::splat(m));
                 }
                 let m = rows.map(|row| (*row.add(i)).into());
@@ -290,15 +299,13 @@ impl<T: Precision> Group<T> {
                 }
             }
         }
+        let [first, second, along] = extents;
+        if 2.0 * along < first.min(second) {
+            // SAFETY: there is a first element, since a group that has none is not initialised.
+            let number = unsafe { self.number(0) };
+            return Err(Error::ElementSetting { code: status::FIBRE_DIRECTION, number, text: NODE_ORDER });
+        }
         Ok(())
-    }
-
-    /// The unit vector from the centre of nodes 1 to 4 of element `i` to that of nodes 5 to 8; no number if the two coincide.
-    unsafe fn along_the_yarn(&self, i: usize) -> [f64; 3] {
-        // SAFETY: the caller's promise.
-        let [_, _, way] = Brick(unsafe { self.of_nodes(self.nodes, i) }).jacobian([0.0; 3]);
-        let length = libm::sqrt(dot(way, way));
-        way.map(|x| x / length)
     }
 
     /// Sets the latch of points that others have taken out: their OFF is below 1. The solver scales F − 1 by OFF, so that what
