@@ -11,7 +11,7 @@ use toron::host::abaqus::{self, ExplicitLaw, StandardLaw, Vumat};
 use toron::host::c::{ListedPoints, Named, PreparedOf, listed_block, listed_prepare};
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::lsdyna::{self, UmatVector, UserRoutines, UtanVector};
-use toron::host::openradioss::{Group, Laws, Material, evaluate, read};
+use toron::host::openradioss::{Group, Laws, Material, Motion, evaluate, read};
 use toron::law::interface::{Law, Points};
 use toron::law::status;
 use toron::law::stress::{components, matrix};
@@ -466,6 +466,7 @@ fn openradioss<M: Tried>() {
             uvar: uvar.as_mut_ptr(),
             off: off.as_mut_ptr(),
             nodes: null(),
+            motion: Motion::unknown(),
         };
         // SAFETY: the arrays have the sizes that the structure tells.
         unsafe { evaluate(&M::LAWS, &group) }.expect("a group that is right");

@@ -14,8 +14,8 @@ static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 /* ---- Nodes: those of a brick whose sections are apart along `axis`, which turns with the element. */
 
-static _Thread_local const group *current;
 static _Thread_local int without_length;
+static _Thread_local double stretched = 1;
 
 static void axis_of(int element, double axis[3])
 {
@@ -34,11 +34,33 @@ void mat_solid_get_nod_x_(real *x)
         axis_of(i, axis);
         for (int node = 0; node < 8; node++)
             for (int c = 0; c < 3; c++) {
-                double across = c == 2 ? corner[node % 4][0] : corner[node % 4][1] * (c == 0 ? -axis[1] : axis[0]);
-                double along = node < 4 || i == without_length - 1 ? 0 : axis[c];
+                double across = c == 2 ? -corner[node % 4][0] : corner[node % 4][1] * (c == 0 ? -axis[1] : axis[0]);
+                double along = node < 4 || i == without_length - 1 ? 0 : stretched * axis[c];
                 x[i + n * (node + 8 * c)] = (real)(0.5 * across + along);
             }
     }
+    fesetenv(&environment);
+}
+
+/* The nodes' velocities, of a uniform gradient, row by row, and a translation. */
+static _Thread_local double gradient[9];
+
+void mat_solid_get_nod_v_(real *v)
+{
+    const int n = current->nel;
+    fenv_t environment;
+    feholdexcept(&environment);
+    real *x = malloc(sizeof(real) * 24 * (size_t)n);
+    mat_solid_get_nod_x_(x);
+    for (int i = 0; i < n; i++)
+        for (int node = 0; node < 8; node++)
+            for (int c = 0; c < 3; c++) {
+                double sum = 5000;
+                for (int k = 0; k < 3; k++)
+                    sum += gradient[3 * c + k] * (double)x[i + n * (node + 8 * k)];
+                v[i + n * (node + 8 * c)] = (real)sum;
+            }
+    free(x);
     fesetenv(&environment);
 }
 
@@ -111,7 +133,6 @@ static void run_yarn(int nel, size_t length, int fibre_from, const double direct
     material m = read_card(1, card_of(card, 12));
     CHECK(stops == 0, "%s", said);
     group g = new_group(&m, 1, nel, length);
-    current = &g;
     yarn_answer *before = calloc((size_t)nel, sizeof *before);
     int failed = 0;
     for (int step = 0; step < 20; step++) {
@@ -158,7 +179,6 @@ static void run_linear(int nel, size_t length, int frame, int fibre_from)
     material m = read_card(2, card_of(card, 13));
     CHECK(stops == 0, "%s", said);
     group g = new_group(&m, 2, nel, length);
-    current = &g;
     enum { COUNT = TORON_LINEAR_ELASTIC_STATE };
     real(*states)[COUNT] = calloc((size_t)nel, sizeof *states), (*f_old)[9] = calloc((size_t)nel, sizeof *f_old);
     for (int step = 0; step < 20; step++) {
@@ -275,11 +295,15 @@ static void stopped(void)
     card[11] = 1;
     m = read_card(1, card_of(card, 12));
     g = new_group(&m, 1, 5, MVSIZ);
-    current = &g;
     without_length = 3;
     cycle(&g);
     STOPPED_WITH("element 5002", "fibre direction");
     without_length = 0;
+    stretched = 0.3; /* nodes 1 to 4 are no section of the yarn: fibre across flat elements */
+    g = new_group(&m, 1, 5, MVSIZ);
+    cycle(&g);
+    STOPPED_WITH("/MAT/USER01/7: element 5000", "fibre_from = 1", "nodes 1 to 4 must be a section");
+    stretched = 1;
 
     card[11] = 2;
     m = read_card(1, card_of(card, 12));
@@ -301,7 +325,7 @@ static void stopped(void)
     other.nuparam = 12;
     g = new_group(&other, 1, 2, MVSIZ);
     cycle(&g);
-    STOPPED_WITH("NUPARAM: 12 given, 13 needed");
+    STOPPED_WITH("NUPARAM: 12 given, 14 needed");
     other = m;
     other.uparam[0] = 5;
     g = new_group(&other, 5, 2, MVSIZ);
@@ -314,6 +338,113 @@ static void stopped(void)
     STOPPED_WITH("density", "0.0");
     routine("eng_get_lawc_user_var_")();
     STOPPED_WITH("shells");
+}
+
+/* Elements of which F and strain rates are in axes that turn with them. */
+static void other_axes(void)
+{
+    material m = read_card(1, card_of(yarn, 12));
+    enum { NEL = 3 };
+    const double rates[9] = {1000, 200, 0, -300, -400, 50, 0, 90, 20};
+    memcpy(gradient, rates, sizeof gradient);
+    group g = new_group(&m, 1, NEL, MVSIZ);
+    g.step = (real)1e-8;
+    const double global[6] = {1000, -400, 20, -100, 140, 0}, turned[6] = {-400, 1000, 20, 100, 0, 140};
+    for (int i = 0; i < NEL; i++)
+        for (int c = 0; c < 6; c++)
+            g.rate[c][i] = (real)global[c];
+    for (int step = 0; step < 200; step++)
+        cycle(&g);
+    CHECK(stops == 0, "%s", said);
+    for (int c = 0; c < 6; c++) {
+        g.rate[c][1] = (real)turned[c];
+        g.rate[c][0] = 0; /* an element that is out, of which the solver passes what it likes */
+    }
+    g.off[0] = 0;
+    int cycles = 0;
+    for (; stops == 0 && cycles < 100; cycles++)
+        cycle(&g);
+    CHECK(cycles <= 64, "after %d cycles", cycles);
+    STOPPED_WITH("/MAT/USER01/7: element 5001", "not in the global axes", "TYPE14", "Isolid = 1", "Iframe = 1");
+    memset(gradient, 0, sizeof gradient);
+}
+
+/* The library of the other precision: what it reads in the first cycle, where F is 1. */
+static void other_precision(void)
+{
+    material m = read_card(1, card_of(yarn, 12));
+    group g = new_group(&m, 1, 2, MVSIZ);
+    for (int c = 0; c < 9; c++) {
+        const double value = c < 3;
+        const float twice[2] = {(float)value, (float)value};
+        if (sizeof(real) == sizeof(float)) /* an array of double precision, of which half of a number is read */
+            memcpy(g.f[c], &value, sizeof value);
+        else
+            for (int i = 0; i < 2; i++)
+                memcpy(&g.f[c][i], twice, sizeof twice);
+    }
+    cycle(&g);
+    STOPPED_WITH("precision", sizeof(real) == sizeof(float) ? "use libtoron_openradioss.so" : "use libtoron_openradioss_sp.so");
+}
+
+/* SOUNDSP of flat elements at rest, by the waves' directions and by the fastest wave. */
+static void steps(void)
+{
+    double card[13];
+    memcpy(card, yarn, sizeof yarn);
+    card[11] = 1;
+    for (int by_direction = 0; by_direction < 2; by_direction++) {
+        card[12] = by_direction;
+        material m = read_card(1, card_of(card, 13));
+        CHECK(stops == 0, "%s", said);
+        group g = new_group(&m, 1, 2, MVSIZ);
+        const double along = 82341, across = 0.25 * 1.2 * 2.2 * 1055 + 0.75 * 649.74;
+        double expected[2];
+        for (int i = 0; i < 2; i++) {
+            real x[48];
+            current = &g;
+            mat_solid_get_nod_x_(x);
+            double c[3][3]; /* the ways between the centres of opposite faces */
+            static const int faces[3][2][4] = {{{0, 3, 7, 4}, {1, 2, 6, 5}}, {{0, 1, 5, 4}, {3, 2, 6, 7}}, {{0, 1, 2, 3}, {4, 5, 6, 7}}};
+            for (int k = 0; k < 3; k++)
+                for (int j = 0; j < 3; j++) {
+                    c[k][j] = 0;
+                    for (int node = 0; node < 4; node++)
+                        c[k][j] += 0.25 * ((double)x[i + 2 * (faces[k][1][node] + 8 * j)] - (double)x[i + 2 * (faces[k][0][node] + 8 * j)]);
+                }
+            double dual[3][3], volume = 0, largest = 0, square = 0;
+            for (int k = 0; k < 3; k++) {
+                const double *a = c[(k + 1) % 3], *b = c[(k + 2) % 3];
+                double face = 0;
+                for (int j = 0; j < 3; j++) {
+                    dual[k][j] = a[(j + 1) % 3] * b[(j + 2) % 3] - a[(j + 2) % 3] * b[(j + 1) % 3];
+                    face += dual[k][j] * dual[k][j];
+                }
+                largest = fmax(largest, sqrt(face));
+            }
+            for (int j = 0; j < 3; j++)
+                volume += c[0][j] * dual[0][j];
+            double size = 0;
+            for (int j = 0; j < 3; j++)
+                size += c[2][j] * c[2][j];
+            for (int k = 0; k < 3; k++) {
+                double on_fibre = 0;
+                for (int j = 0; j < 3; j++) {
+                    on_fibre += 2 * dual[k][j] / volume * c[2][j] / sqrt(size);
+                    square += across * pow(2 * dual[k][j] / volume, 2);
+                }
+                square += along * on_fibre * on_fibre;
+            }
+            g.volume[i] = (real)volume;
+            expected[i] = volume / largest * 0.5 * sqrt(square / 1351.4);
+        }
+        cycle(&g);
+        CHECK(stops == 0, "%s", said);
+        for (int i = 0; i < 2; i++) {
+            const double fastest = sqrt(82341 / 1351.4), wanted = by_direction ? fmin(expected[i], fastest) : fastest;
+            CHECK(fabs((double)g.ssp[i] / wanted - 1) < 1e-5, "SOUNDSP %g, not %g", (double)g.ssp[i], wanted);
+        }
+    }
 }
 
 /* ---- Threads, each with groups of both laws, whose calls interleave */
@@ -397,6 +528,9 @@ int main(int argc, char **argv)
     }
     taken_out();
     stopped();
+    other_axes();
+    other_precision();
+    steps();
     threads();
     return finish();
 }

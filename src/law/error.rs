@@ -33,6 +33,8 @@ pub enum Error {
     Element { code: i32, number: i64 },
     /// A setting of the host's model is wrong; the text says what is to be set.
     Setting { code: i32, text: &'static str },
+    /// The same, as an element shows it: by its number in the host's model.
+    ElementSetting { code: i32, number: i64, text: &'static str },
     /// A structure that is longer than this version of the library knows, and not 0 there.
     UnknownField { structure: &'static str, offset: usize, known: usize },
     /// An error that its status code describes completely.
@@ -48,6 +50,7 @@ impl Error {
             | Error::Point { code, .. }
             | Error::Element { code, .. }
             | Error::Setting { code, .. }
+            | Error::ElementSetting { code, .. }
             | Error::Range { code, .. }
             | Error::Direction { code, .. }
             | Error::Plain(code) => code,
@@ -159,6 +162,12 @@ impl Error {
                 Error::Plain(code).describe(sink);
             }
             Error::Setting { text, .. } => sink(text),
+            Error::ElementSetting { number, text, .. } => {
+                sink("element ");
+                describe_integer(number, sink);
+                sink(": ");
+                sink(text);
+            }
             Error::UnknownField { structure, offset, known } => {
                 sink("byte ");
                 describe_integer(offset as i64, sink);

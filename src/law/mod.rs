@@ -26,4 +26,5 @@ pub(crate) mod tangent;
 mod tests;
 pub mod user;
 pub mod voigt;
+pub mod wave_bounds;
 pub mod wave_speed;

@@ -10,7 +10,7 @@ use super::medium::{Entry, Medium};
 use super::solid::{self, SOLID_VON_MISES, SOLID_WORK};
 use super::stress::{Points, nominal_stress};
 use super::viscosity::Viscosity;
-use super::wave_bounds::Section;
+use super::wave_bounds::{Section, bounds_at};
 use crate::entries::blocks::{LinearFrame, LinearSolverBlock, SolverBlock, linear_elastic_block};
 use crate::entries::hosts::Given;
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE};
@@ -297,7 +297,7 @@ impl<T: Number> ElementBlock<T> {
             let speed = Lanes::at(&scratch.wave_speed, first);
             let spread = Lanes::at(&scratch.measures.spread, first);
             let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
-            let bulk = match medium.bounds.at(f, stress, &section, self.shapes.stride, first) {
+            let bulk = match bounds_at(&medium.bounds, f, stress, &section, self.shapes.stride, first) {
                 None => speed * speed * spread,
                 Some([along, across]) => {
                     (along * Lanes::at(&scratch.measures.spread_along, first) + across * spread) * per_density

@@ -3,12 +3,13 @@
 
 use super::lanes::Number;
 use super::solid::{SOLID_FAILED, SOLID_STATE, Solid};
-use super::wave_bounds::WaveBounds;
+use super::wave_bounds::wave_bounds;
 use crate::common::error::Error;
 use crate::entries::blocks::{LinearFrame, prepared, prepared_linear};
 use crate::material::model::{Law, Material};
 use toron::host::c::{HyperelasticLaw, LinearElasticLaw, TORON_CRITERION_FIBRE, TORON_CRITERION_PRINCIPAL};
 use toron::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
+use toron::law::wave_bounds::WaveBounds;
 use toron::law::{description, hyperelastic, linear_elastic};
 use toron::{Criterion, Rotation};
 
@@ -105,7 +106,7 @@ impl<T: Number> Medium<T> {
             density,
             control,
             hourglass: control.hourglass * distortion,
-            bounds: if control.by_direction { WaveBounds::of(material) } else { WaveBounds::Isotropic },
+            bounds: if control.by_direction { wave_bounds(material) } else { WaveBounds::Isotropic },
             fails: material.can_fail(),
             strength,
             wave_speed: (along / density).sqrt(),

@@ -7,9 +7,9 @@ use std::thread::LocalKey;
 
 use toron::host::c::TORON_MESSAGE_CAPACITY;
 use toron::host::openradioss::entries::{group_of_f32, group_of_f64};
-use toron::host::openradioss::{Group, Laws, MyReal, needs_nodes};
+use toron::host::openradioss::{Group, Laws, Motion, MyReal, compares_axes, needs_nodes};
 
-use super::solver::{nodes, stop};
+use super::solver::{COORDINATES, VELOCITIES, of_nodes, stop};
 
 /// What the first calls pass.
 #[derive(Clone, Copy)]
@@ -18,6 +18,8 @@ pub struct Remembered<T> {
     /// The number of the material in the model, and nn of `/MAT/USERnn`.
     material: i32,
     number: i32,
+    /// NCYCLE.
+    cycle: i32,
 }
 
 impl<T: MyReal> Remembered<T> {
@@ -38,8 +40,9 @@ impl<T: MyReal> Remembered<T> {
             uvar: null_mut(),
             off: null_mut(),
             nodes: null(),
+            motion: Motion::unknown(),
         };
-        Remembered { group, material: 0, number: 0 }
+        Remembered { group, material: 0, number: 0, cycle: 0 }
     }
 }
 
@@ -79,10 +82,10 @@ fn remember<T: Engine>(change: impl FnOnce(&mut Remembered<T>)) {
 }
 
 /// The first call.
-pub fn begin<T: Engine>(material: i32, density: *const T) {
+pub fn begin<T: Engine>(cycle: i32, material: i32, density: *const T, strain_rate: [*const T; 6]) {
     let nothing = Remembered::nothing();
-    let group = Group { density, ..nothing.group };
-    T::remembered().set(Some(Remembered { material, group, ..nothing }));
+    let group = Group { density, motion: Motion { strain_rate, ..nothing.group.motion }, ..nothing.group };
+    T::remembered().set(Some(Remembered { cycle, material, group, ..nothing }));
 }
 
 /// The second call.
@@ -103,12 +106,17 @@ pub fn group<T: Engine>(number: i32, fill: impl FnOnce(&mut Group<T>)) {
 /// # Safety
 /// The solver's promise: the arrays have the solver's vector length, and those of the calls before are still valid.
 pub unsafe fn evaluate<T: Engine>(laws: &Laws<T>, stress: [*mut T; 6]) {
-    let Remembered { group, material, number } = T::remembered().take().unwrap_or_else(Remembered::nothing);
+    let Remembered { group, material, number, cycle } = T::remembered().take().unwrap_or_else(Remembered::nothing);
+    let group = Group { stress, ..group };
     let elements = usize::try_from(group.elements).unwrap_or(0);
+    let compares = compares_axes(cycle);
+    let ask = |name, needed: bool| if needed { of_nodes(name, elements) } else { Vec::new() };
     // SAFETY: the solver's promise.
-    let coordinates = if unsafe { needs_nodes(laws, &group) } { nodes(elements) } else { Vec::new() };
-    let nodes = if coordinates.is_empty() { null() } else { coordinates.as_ptr() };
-    let group = Group { stress, nodes, ..group };
+    let coordinates = ask(COORDINATES, compares || unsafe { needs_nodes(laws, &group) });
+    let velocities = ask(VELOCITIES, compares);
+    let array = |values: &Vec<T>| if values.is_empty() { null() } else { values.as_ptr() };
+    let motion = Motion { velocities: array(&velocities), ..group.motion };
+    let group = Group { nodes: array(&coordinates), motion, ..group };
     let mut text = [0_u8; TORON_MESSAGE_CAPACITY];
     // SAFETY: the solver's promise; the text has the size passed.
     let status = unsafe { T::EVALUATE(laws, &group, text.as_mut_ptr().cast::<c_char>(), text.len()) };

@@ -44,14 +44,35 @@ pub fn stop(message: &str) {
     }
 }
 
-/// The coordinates of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no such routine.
-pub fn nodes<T: Real>(elements: usize) -> Vec<T> {
-    let Some(get) = routine(c"mat_solid_get_nod_x_") else { return Vec::new() };
-    let mut coordinates = vec![T::splat(0.0); elements * 8 * 3];
-    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine writes 24 numbers for each element of the group that calls it.
+/// The engine's routines for what the nodes of its current group have.
+pub const COORDINATES: &CStr = c"mat_solid_get_nod_x_";
+pub const VELOCITIES: &CStr = c"mat_solid_get_nod_v_";
+
+/// The vectors of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine of this name.
+pub fn of_nodes<T: Real>(name: &CStr, elements: usize) -> Vec<T> {
+    let Some(get) = routine(name) else { return Vec::new() };
+    let mut vectors = vec![T::splat(0.0); elements * 8 * 3];
+    // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine, and the one of velocities, write 24 numbers for each element of the group that
+    // calls it.
     unsafe {
         let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
-        get(coordinates.as_mut_ptr());
+        get(vectors.as_mut_ptr());
     }
-    coordinates
+    vectors
+}
+
+/// Number and title of what the starter is reading; `None` if it has no such routine.
+pub fn current_option() -> Option<(i32, String)> {
+    let get = routine(c"cpp_current_option_")?;
+    let (mut id, mut unit, mut include, mut key_length, mut title_length) = (0, 0, 0, 0, 0);
+    let (mut key, mut title) = ([0_u8; 500], [0_u8; 500]);
+    // SAFETY: `cpp_current_option_(ID, UID, includeId, KEY, SKEY, TITR, STITR)` of the starter's reader; it writes at most 100
+    // characters of the keyword and 500 of the title.
+    unsafe {
+        type Get = unsafe extern "C" fn(*mut i32, *mut i32, *mut i32, *mut u8, *mut i32, *mut u8, *mut i32);
+        let get: Get = std::mem::transmute(get);
+        get(&mut id, &mut unit, &mut include, key.as_mut_ptr(), &mut key_length, title.as_mut_ptr(), &mut title_length);
+    }
+    let title = title.get(..usize::try_from(title_length).ok()?)?;
+    Some((id, String::from_utf8_lossy(title).trim().to_string()))
 }

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use toron::host::environment::in_default_environment;
 use toron::host::openradioss::{Laws, MyReal, listing, read};
 
-use super::solver::stop;
+use super::solver::{current_option, stop};
 
 /// A field of the card.
 const COLUMNS: usize = 20;
@@ -45,7 +45,10 @@ pub fn material<T: MyReal + FromStr>(
     let (material, listing) = match material {
         Ok(material) => material,
         Err(message) => {
-            stop(&format!("/MAT/USER{number:02}: {message}"));
+            // The starter reads the card of this material.
+            let (id, title) =
+                current_option().map_or_else(Default::default, |(id, title)| (format!("/{id}"), format!(" ({title})")));
+            stop(&format!("/MAT/USER{number:02}{id}{title}: {message}"));
             return None;
         }
     };

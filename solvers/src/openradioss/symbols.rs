@@ -56,14 +56,14 @@ macro_rules! openradioss_symbols {
                 }
             }
 
-            /// The first call: the material's number in the model, and the density.
+            /// The first call: the cycle, the material's number in the model, the strain rates and the density.
             ///
             /// # Safety
-            /// The solver's promise: `material` is an integer, and `density` is valid until the fourth call.
+            /// The solver's promise: `cycle` and `material` are integers, and the arrays are valid until the fourth call.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn eng_get_law_user_var_(
-                _cycle: *const i32,
+                cycle: *const i32,
                 material: *const i32,
                 _iptr: *const i32,
                 _ipts: *const i32,
@@ -83,12 +83,12 @@ macro_rules! openradioss_symbols {
                 _old_stress_xy: *const $t,
                 _old_stress_yz: *const $t,
                 _old_stress_zx: *const $t,
-                _strain_rate_xx: *const $t,
-                _strain_rate_yy: *const $t,
-                _strain_rate_zz: *const $t,
-                _strain_rate_xy: *const $t,
-                _strain_rate_yz: *const $t,
-                _strain_rate_zx: *const $t,
+                strain_rate_xx: *const $t,
+                strain_rate_yy: *const $t,
+                strain_rate_zz: *const $t,
+                strain_rate_xy: *const $t,
+                strain_rate_yz: *const $t,
+                strain_rate_zx: *const $t,
                 _strain_xx: *const $t,
                 _strain_yy: *const $t,
                 _strain_zz: *const $t,
@@ -103,8 +103,11 @@ macro_rules! openradioss_symbols {
                 _strain_increment_zx: *const $t,
                 density: *const $t,
             ) {
+                let strain_rate =
+                    [strain_rate_xx, strain_rate_yy, strain_rate_zz, strain_rate_xy, strain_rate_yz, strain_rate_zx];
                 // SAFETY: the solver's promise.
-                $crate::openradioss::engine::begin::<$t>(unsafe { *material }, density);
+                let (cycle, material) = unsafe { (*cycle, *material) };
+                $crate::openradioss::engine::begin::<$t>(cycle, material, density, strain_rate);
             }
 
             /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's vector length.
@@ -155,10 +158,10 @@ macro_rules! openradioss_symbols {
                 _npf: *const i32,
                 _tf: *const $t,
                 time: *const $t,
-                _time_step: *const $t,
+                time_step: *const $t,
                 uparam: *const $t,
                 _rho: *const $t,
-                _volume: *const $t,
+                volume: *const $t,
                 _eint: *const $t,
                 ngl: *const i32,
                 soundsp: *mut $t,
@@ -167,11 +170,14 @@ macro_rules! openradioss_symbols {
                 off: *mut $t,
             ) {
                 // SAFETY: the solver's promise.
-                let (nel, nuparam, nuvar, number, time) = unsafe { (*nel, *nuparam, *nuvar, *number, *time) };
+                let (nel, nuparam, nuvar, number) = unsafe { (*nel, *nuparam, *nuvar, *number) };
+                // SAFETY: the same.
+                let (time, time_step) = unsafe { (*time, *time_step) };
                 $crate::openradioss::engine::group::<$t>(number, |group| {
                     (group.elements, group.parameters, group.variables, group.time) = (nel, nuparam, nuvar, time);
                     (group.uparam, group.numbers, group.sound_speed) = (uparam, ngl, soundsp);
                     (group.uvar, group.off) = (uvar, off);
+                    (group.motion.time_step, group.motion.volume) = (time_step, volume);
                 });
             }
 

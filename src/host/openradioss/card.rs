@@ -43,6 +43,13 @@ pub static OPTIONS: [CardOption; 3] = [
     },
 ];
 
+/// The last option of toron's own laws.
+pub static STEP: CardOption = CardOption {
+    name: "step",
+    greatest: 1,
+    allowed: "0 (SOUNDSP from the fastest wave of any direction), 1 (from waves by their direction, where that is possible)",
+};
+
 /// Where the fibre direction of a point comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FibreFrom {
@@ -62,6 +69,8 @@ pub struct Layout {
     pub law: &'static Description,
     /// How many of [`OPTIONS`] it has.
     pub options: usize,
+    /// Whether [`STEP`] follows them.
+    pub has_step: bool,
 }
 
 pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
@@ -71,12 +80,17 @@ pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
 impl Layout {
     /// The law as `/MAT/USERnn`.
     pub const fn of<T: Precision, L: SolidLaw<T>>(number: i32) -> Self {
-        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS }
+        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_step: L::HAS_STEP }
     }
 
     /// NUPARAM.
     pub const fn parameters(&self) -> usize {
-        1 + self.law.properties.len() + self.options
+        1 + self.law.properties.len() + self.options + self.has_step as usize
+    }
+
+    /// The options of the card, in their order.
+    pub fn options(&self) -> impl Iterator<Item = &'static CardOption> {
+        OPTIONS.iter().take(self.options).chain(self.has_step.then_some(&STEP))
     }
 
     /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
@@ -117,6 +131,8 @@ pub struct Card<'a, T: Precision> {
     pub fibre_from: FibreFrom,
     pub rotation: Rotation,
     pub criterion: Criterion,
+    /// Whether SOUNDSP is to be computed from waves by their direction.
+    pub by_direction: bool,
 }
 
 impl<'a, T: Precision> Card<'a, T> {
@@ -145,14 +161,14 @@ impl<'a, T: Precision> Card<'a, T> {
     /// # Errors
     /// An option that has no meaning.
     fn with_options(material: &'static Material<T>, properties: &'a [T], options: &[T]) -> Result<Self, Error> {
-        let mut chosen = [0; OPTIONS.len()];
-        for ((choice, option), &value) in chosen.iter_mut().zip(&OPTIONS).zip(options) {
-            *choice = whole(value);
-            if !(0..=option.greatest).contains(choice) {
+        let layout = &material.layout;
+        for (option, &value) in layout.options().zip(options) {
+            if !(0..=option.greatest).contains(&whole(value)) {
                 return Err(Error::Argument { name: option.name, value: value.into(), wanted: option.allowed });
             }
         }
-        let [fibre_from, frame, criterion] = chosen;
+        let chosen = |i: usize| if i < layout.options { options.get(i).map_or(0, |&value| whole(value)) } else { 0 };
+        let (fibre_from, frame, criterion) = (chosen(0), chosen(1), chosen(2));
         Ok(Card {
             material,
             properties,
@@ -163,6 +179,7 @@ impl<'a, T: Precision> Card<'a, T> {
             },
             rotation: if frame == 0 { Rotation::Fibre } else { Rotation::Polar },
             criterion: if criterion == 0 { Criterion::LargestPrincipal } else { Criterion::FibreStress },
+            by_direction: layout.has_step && options.last().is_some_and(|&step| whole(step) == 1),
         })
     }
 }

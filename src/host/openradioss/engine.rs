@@ -4,12 +4,14 @@ use core::{ptr, slice};
 
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
-use crate::law::interface::{Law, Points};
-use crate::law::number::vector::dot;
+use crate::law::interface::Points;
+use crate::law::number::vector::{cross, dot, image, scale};
 use crate::law::status;
+use crate::law::wave_bounds::{Deformed, WaveBounds};
 
+use super::brick::Brick;
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, Layout};
-use super::laws::Laws;
+use super::laws::{Laws, SolidLaw};
 use crate::host::entry_points::{check_pointers, from_entry, start_at_rest};
 use crate::host::environment::in_default_environment;
 
@@ -45,8 +47,35 @@ pub struct Group<T> {
     pub uvar: *mut T,
     /// OFF, in and out.
     pub off: *mut T,
-    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives; read at time 0 if fibre directions come from the nodes, else null is allowed.
+    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_X` gives: needed at time 0 if fibre directions come from the nodes, else null is allowed;
+    /// see [`needs_nodes`].
     pub nodes: *const T,
+    /// What the nodes are compared with; null where it is not known.
+    pub motion: Motion<T>,
+}
+
+/// What the engine knows of the motion of a group's elements besides F, each null if it is not passed.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<T> {
+    /// TIMESTEP.
+    pub time_step: T,
+    /// VOLUME: of the integration point.
+    pub volume: *const T,
+    /// EPSPXX YY ZZ XY YZ ZX, with the rates of shear angles; of the solver's vector length.
+    pub strain_rate: [*const T; 6],
+    /// (NEL, 8, 3), what `MAT_SOLID_GET_NOD_V` gives, in the cycles of [`compares_axes`].
+    pub velocities: *const T,
+}
+
+impl<T: Precision> Motion<T> {
+    pub fn unknown() -> Self {
+        Motion { time_step: T::splat(0.0), volume: ptr::null(), strain_rate: [ptr::null(); 6], velocities: ptr::null() }
+    }
+}
+
+/// Whether in this cycle the strain rates are to be compared with the nodes' velocities: often at first, and now and then.
+pub fn compares_axes(cycle: i32) -> bool {
+    cycle > 0 && (cycle % 64 == 0 || cycle & (cycle - 1) == 0)
 }
 
 /// Evaluates the material at a group.
@@ -71,31 +100,41 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
         if group.elements == 0 {
             return Ok(());
         }
-        if group.deformation_gradient.iter().all(|&f| (*f).into() == 0.0) {
-            return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text: NO_GRADIENT });
+        let at_start = group.time.into() == 0.0;
+        if at_start && let Some(text) = group.other_precision() {
+            return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
-        if group.time.into() == 0.0 {
+        if group.deformation_gradient.iter().all(|&f| (*f).into() == 0.0) {
+            let text = if size_of::<T>() == size_of::<f32>() { NO_GRADIENT_IN_SINGLE } else { NO_GRADIENT };
+            return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
+        }
+        if at_start {
             group.initialise(&card)?;
         }
+        group.compare_axes()?;
         group.take_out_deleted(card.layout());
         group.clear_viscosity();
         (card.material.evaluate_group)(group, &card)
     }
 }
 
-/// Whether this call needs the coordinates of the nodes. A group that cannot be evaluated does not.
+/// Whether this call needs the coordinates of the nodes: the fibre's direction at first, and the time step in every cycle. A group that
+/// cannot be evaluated does not.
 ///
 /// # Safety
 /// As for [`evaluate`].
 pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> bool {
     in_default_environment(|| {
-        if group.time.into() != 0.0 || group.uparam.is_null() {
-            return false;
-        }
-        let Ok(count) = usize::try_from(group.parameters) else { return false };
-        // SAFETY: the caller's promise.
-        let parameters = unsafe { slice::from_raw_parts(group.uparam, count.min(laws.most_parameters)) };
-        Card::of(laws, parameters).is_ok_and(|card| card.fibre_from == FibreFrom::Nodes)
+        let at_start = group.time.into() == 0.0;
+        // SAFETY: the caller's promise. To a library of the other precision the solver would write too many numbers, or too few.
+        let parameters = unsafe {
+            if group.check(laws).is_err() || group.elements == 0 || (at_start && group.other_precision().is_some()) {
+                return false;
+            }
+            slice::from_raw_parts(group.uparam, group.parameters as usize)
+        };
+        Card::of(laws, parameters)
+            .is_ok_and(|card| card.by_direction || (at_start && card.fibre_from == FibreFrom::Nodes))
     })
 }
 
@@ -103,7 +142,73 @@ pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> boo
 const NO_GRADIENT: &str = "the solver passes no deformation gradient (F = 0): the elements of this material need \
     /PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1; F is 0 for every other Ismstr";
 
+/// The same in single precision, where a number of double precision may read as 0.
+const NO_GRADIENT_IN_SINGLE: &str = "the solver passes no deformation gradient (F = 0): the elements of this material need \
+    /PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1; F is 0 for every other Ismstr, and in a solver of double \
+    precision, which needs libtoron_openradioss.so";
+
+/// What the run stops with if strain rates are not in the axes of the nodes' coordinates: F and stress are in the same ones.
+const OTHER_AXES: &str = "F is not in the global axes, as the nodes' velocities show; the elements of this material need \
+    /PROP/TYPE14 (not TYPE6) with Isolid = 1, Ismstr = 10, Iframe = 1";
+
+/// What the run stops with if fibre_from is 1 and elements are flat in the direction of the fibre: yarns are meshed with long ones.
+const NODE_ORDER: &str = "fibre_from = 1, and this group's elements are less than half as long from nodes 1 to 4 to nodes 5 to 8 as across: \
+    nodes 1 to 4 must be a section of the yarn; if they are, give the directions as initial values (fibre_from = 2)";
+
+/// The diagonal of F = 1, where the other precision's numbers are read.
+const OF_DOUBLE: &str = "the solver's numbers are of double precision, and this is the library for single precision: use \
+    libtoron_openradioss.so";
+const OF_SINGLE: &str = "the solver's numbers are of single precision, and this is the library for double precision: use \
+    libtoron_openradioss_sp.so";
+
 impl<T: Precision> Group<T> {
+    /// What the run stops with if the solver's numbers are of the other precision: in the first cycle F is 1. 1 in double precision is, in
+    /// single precision, 0 and 1.875, and two numbers 1 in single precision are 0.0078125 and a bit in double precision.
+    unsafe fn other_precision(&self) -> Option<&'static str> {
+        let mut diagonal = self.deformation_gradient.iter().take(3);
+        // SAFETY: the caller's promise.
+        unsafe {
+            if size_of::<T>() == size_of::<f32>() {
+                let is_double = |&f: &*const T| (*f).into() == 0.0 && (*f.add(1)).into() == 1.875;
+                (self.count() > 1 && diagonal.all(is_double)).then_some(OF_DOUBLE)
+            } else {
+                let two = (u64::from(1_f32.to_bits()) << 32) | u64::from(1_f32.to_bits());
+                diagonal.all(|&f| (*f).into().to_bits() == two).then_some(OF_SINGLE)
+            }
+        }
+    }
+
+    /// # Errors
+    /// F is not in global axes, as an element shows that is intact and strained.
+    unsafe fn compare_axes(&self) -> Result<(), Error> {
+        let Motion { time_step, strain_rate, velocities, .. } = self.motion;
+        if self.nodes.is_null() || velocities.is_null() || strain_rate.iter().any(|rate| rate.is_null()) {
+            return Ok(());
+        }
+        for i in 0..self.count() {
+            // SAFETY: the caller's promise, i below NEL.
+            unsafe {
+                if !T::splat(1.0).le(*self.off.add(i)) {
+                    continue; // of an element that is out, the solver scales them
+                }
+                let passed = strain_rate.map(|rate| (*rate.add(i)).into());
+                let velocities = self.of_nodes(velocities, i);
+                if !Brick(self.of_nodes(self.nodes, i)).has_strain_rate(&velocities, time_step.into(), passed) {
+                    let code = status::NO_DEFORMATION_GRADIENT;
+                    return Err(Error::ElementSetting { code, number: self.number(i), text: OTHER_AXES });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The vectors of the eight nodes of element `i` among those of the group, (NEL, 8, 3).
+    unsafe fn of_nodes(&self, group: *const T, i: usize) -> [[f64; 3]; 8] {
+        let n = self.count();
+        // SAFETY: the caller's promise.
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|node| [0, 1, 2].map(|c| unsafe { *group.add(i + n * (node + 8 * c)) }.into()))
+    }
+
     /// NEL.
     fn count(&self) -> usize {
         self.elements as usize // checked not to be negative
@@ -151,11 +256,15 @@ impl<T: Precision> Group<T> {
         check_pointers(&self.stress.map(|s| (s.cast_const(), "SIGNXX, SIGNYY, ... of the stress")))
     }
 
-    /// The error of element `i`: its number, or its place in the group from 1 where that is not known.
+    /// The number of element `i` in the model, or its place in the group from 1 where that is not known.
+    unsafe fn number(&self, i: usize) -> i64 {
+        // SAFETY: the caller's promise.
+        if self.numbers.is_null() { i as i64 + 1 } else { i64::from(unsafe { *self.numbers.add(i) }) }
+    }
+
     unsafe fn error_of(&self, i: usize, code: i32) -> Error {
         // SAFETY: the caller's promise.
-        let number = if self.numbers.is_null() { i as i64 + 1 } else { i64::from(unsafe { *self.numbers.add(i) }) };
-        Error::Element { code, number }
+        Error::Element { code, number: unsafe { self.number(i) } }
     }
 
     /// Time 0: the fibre directions of the elements.
@@ -171,11 +280,16 @@ impl<T: Precision> Group<T> {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
         }
         let rows = [0, 1, 2].map(|c| self.row(card.layout().fibre() + c));
+        let mut extents = [0.0; 3];
         for i in 0..self.count() {
             // SAFETY: the caller's promise, i below NEL.
             unsafe {
                 if from_nodes {
-                    let direction = self.along_the_yarn(i);
+                    let jacobian = Brick(self.of_nodes(self.nodes, i)).jacobian([0.0; 3]);
+                    let lengths = jacobian.map(|half| libm::sqrt(dot(half, half)));
+                    extents.iter_mut().zip(lengths).for_each(|(sum, length)| *sum += length);
+                    let ([_, _, way], [_, _, length]) = (jacobian, lengths);
+                    let direction = way.map(|x| x / length);
                     rows.into_iter().zip(direction).for_each(|(row, m)| *row.add(i) = T::splat(m));
                 }
                 let m = rows.map(|row| (*row.add(i)).into());
@@ -185,17 +299,13 @@ impl<T: Precision> Group<T> {
                 }
             }
         }
+        let [first, second, along] = extents;
+        if 2.0 * along < first.min(second) {
+            // SAFETY: there is a first element, since a group that has none is not initialised.
+            let number = unsafe { self.number(0) };
+            return Err(Error::ElementSetting { code: status::FIBRE_DIRECTION, number, text: NODE_ORDER });
+        }
         Ok(())
-    }
-
-    /// The unit vector from the centre of nodes 1 to 4 of element `i` to that of nodes 5 to 8; no number if the two coincide.
-    unsafe fn along_the_yarn(&self, i: usize) -> [f64; 3] {
-        let n = self.count();
-        // SAFETY: the caller's promise: (NEL, 8, 3).
-        let place = |node: usize, c: usize| -> f64 { unsafe { *self.nodes.add(i + n * (node + 8 * c)) }.into() };
-        let way = [0, 1, 2].map(|c| (0..4).map(|node| place(node + 4, c) - place(node, c)).sum::<f64>());
-        let length = libm::sqrt(dot(way, way));
-        way.map(|x| x / length)
     }
 
     /// Sets the latch of points that others have taken out: their OFF is below 1. The solver scales F − 1 by OFF, so that what
@@ -268,7 +378,7 @@ impl<T: Precision> Group<T> {
     ///
     /// # Safety
     /// As for [`evaluate`], with a group that has been checked.
-    pub(super) unsafe fn step<L: Law<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
+    pub(super) unsafe fn step<L: SolidLaw<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = L::new(card.properties)?;
         let n = self.count();
         // Of a law that does not depend on F at the start of a step, this is not there.
@@ -298,12 +408,53 @@ impl<T: Precision> Group<T> {
             unsafe { law.step(&points) }
         };
         unsafe { self.in_chunks(card.layout(), part)? };
+        if card.by_direction {
+            unsafe { self.bound_by_direction(card, &L::wave_bounds(card)) };
+        }
         if L::DESCRIPTION.reads_old_gradient {
             for (row, f) in f_old.into_iter().zip(self.columns(0)) {
                 unsafe { row.copy_from_nonoverlapping(f, n) };
             }
         }
         Ok(())
+    }
+
+    /// Lowers SOUNDSP where the solver's length over it would be less than the stable step: in a direction in which the element is short,
+    /// only slow waves may run. The solver divides [`Brick::length`] by it; the stable step is 2/ω.
+    ///
+    /// Elements of more than one point, and those that are out, keep the law's bound.
+    unsafe fn bound_by_direction(&self, card: &Card<'_, T>, bounds: &WaveBounds) {
+        if *bounds == WaveBounds::Isotropic || self.nodes.is_null() || self.motion.volume.is_null() {
+            return;
+        }
+        let of_card = card.layout().law.fibre.and_then(|first| card.properties.get(first..)?.first_chunk::<3>());
+        // SAFETY: the caller's promise, here and below.
+        let density: f64 = unsafe { *self.density }.into();
+        for i in 0..self.count() {
+            unsafe {
+                let brick = Brick(self.of_nodes(self.nodes, i));
+                let intact = T::splat(1.0).le(*self.off.add(i));
+                if !intact || !brick.has_one_point((*self.motion.volume.add(i)).into()) {
+                    continue;
+                }
+                let fibre = match (card.fibre_from, of_card) {
+                    (FibreFrom::Card, Some(fibre)) => fibre.map(Into::into),
+                    _ => self.fibre(card, i).map(|row| if row.is_null() { 0.0 } else { (*row).into() }),
+                };
+                let f = self.columns(i).map(|component| (*component).into());
+                let stress = self.stress.map(|component| (*component.add(i)).into());
+                let (point, m) = deformed(&f, fibre, stress);
+                let (Some([along, across]), [on_along, on_across]) = (bounds.at(&point), brick.frequencies(m)) else {
+                    continue;
+                };
+                let square = (along * on_along + across * on_across) / density;
+                let speed = 0.5 * brick.length() * libm::sqrt(square);
+                let bound = self.sound_speed.add(i);
+                if speed > 0.0 && speed < (*bound).into() {
+                    *bound = T::splat(speed);
+                }
+            }
+        }
     }
 
     /// Evaluates the group in parts and marks the points that are out.
@@ -353,4 +504,26 @@ impl<T: Precision> Group<T> {
         }
         Ok(())
     }
+}
+
+/// F, by columns, in axes of which the first is the fibre's, with its stress, and the unit vector of the fibre as it is deformed.
+fn deformed(f: &[f64; 9], fibre: [f64; 3], stress: [f64; 6]) -> (Deformed<f64>, [f64; 3]) {
+    let [xx, yx, zx, xy, yy, zy, xz, yz, zz] = *f;
+    let f = [[xx, yx, zx], [xy, yy, zy], [xz, yz, zz]];
+    let unit = |v: [f64; 3]| scale(1.0 / libm::sqrt(dot(v, v)), v);
+    let first = unit(fibre);
+    let [x, y, z] = first.map(libm::fabs);
+    let beside = if x <= y && x <= z {
+        [1.0, 0.0, 0.0]
+    } else if y <= z {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let second = unit(cross(first, beside));
+    let [u, v, w] = [first, second, cross(first, second)].map(|axis| image(&f, axis));
+    let stretch_square = dot(u, u);
+    let in_section = |column| dot(column, column) - dot(u, column) * dot(u, column) / stretch_square;
+    let section = [in_section(v), in_section(w)];
+    (Deformed { columns: [u, v, w], stress, volume_ratio: dot(u, cross(v, w)), stretch_square, section }, unit(u))
 }

@@ -8,7 +8,7 @@ use crate::host::entry_points::{Message, check_pointers, entry};
 use crate::law::error::Error;
 use crate::law::status;
 
-use super::engine::{Group, evaluate};
+use super::engine::{Group, Motion, evaluate};
 use super::laws::{Laws, MyReal};
 use super::starter::{listing, read};
 
@@ -181,7 +181,9 @@ macro_rules! entries {
                 viscosity: viscmax,
                 uvar,
                 off,
-                nodes,
+                // Shims set it in the first cycle alone.
+                nodes: if time == 0.0 { nodes } else { core::ptr::null() },
+                motion: Motion::unknown(),
             };
             // SAFETY: the caller's promise.
             unsafe { $group(&group, message, capacity) }

@@ -6,10 +6,12 @@ use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::Law;
 use crate::law::linear_elastic::LinearElastic;
-use crate::law::parameters::HYPERELASTIC_PROPERTIES;
+use crate::law::parameters::{HYPERELASTIC_PROPERTIES, LINEAR_ELASTIC_PROPERTIES};
 use crate::law::response::Request;
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::user::{User, UserMaterial};
+use crate::law::wave_bounds::WaveBounds;
+use crate::law::{hyperelastic, linear_elastic};
 
 use super::card::{Card, Layout, OPTIONS};
 use super::engine::Group;
@@ -19,11 +21,19 @@ pub trait SolidLaw<T: Precision>: Law<T> {
     /// How many of [`OPTIONS`] its card has: the first one is for a law with a fibre, the others for the linear elastic law.
     const OPTIONS: usize;
 
+    /// Whether its card has the option [`STEP`](super::card::STEP) behind them.
+    const HAS_STEP: bool = false;
+
     /// ρ0 c² of the fastest wave in the unstressed material.
     ///
     /// # Errors
     /// A wrong property.
     fn modulus_at_rest(properties: &[T]) -> Result<T, Error>;
+
+    /// What bounds the speeds of waves by their direction.
+    fn wave_bounds(_card: &Card<'_, T>) -> WaveBounds {
+        WaveBounds::Isotropic
+    }
 
     /// Evaluates the law at a group that has been checked.
     ///
@@ -110,8 +120,15 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for Hyperelastic<$t> {
             const OPTIONS: usize = 1;
 
+            const HAS_STEP: bool = true;
+
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 hyperelastic_modulus(properties)
+            }
+
+            fn wave_bounds(card: &Card<'_, $t>) -> WaveBounds {
+                let values: [f64; HYPERELASTIC_PROPERTIES] = in_double_precision(card.properties);
+                WaveBounds::hyperelastic(&hyperelastic::Properties::from(values))
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {
@@ -123,8 +140,15 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for LinearElastic<$t> {
             const OPTIONS: usize = OPTIONS.len();
 
+            const HAS_STEP: bool = true;
+
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 Ok(LinearElastic::new(properties)?.lanes::<f64>().wave_modulus() as $t)
+            }
+
+            fn wave_bounds(card: &Card<'_, $t>) -> WaveBounds {
+                let values: [f64; LINEAR_ELASTIC_PROPERTIES] = in_double_precision(card.properties);
+                WaveBounds::linear_elastic(&linear_elastic::Properties::from(values), card.rotation)
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {
@@ -147,10 +171,15 @@ toron_laws! { f64 f32 }
 /// The modulus of the hyperelastic law at rest.
 fn hyperelastic_modulus<T: Precision>(properties: &[T]) -> Result<T, Error> {
     Hyperelastic::new(properties)?; // an error names the value of the card, not its copy in double precision
-    let mut values = [0.0; HYPERELASTIC_PROPERTIES];
-    values.iter_mut().zip(properties).for_each(|(to, &from)| *to = from.into());
+    let values: [f64; HYPERELASTIC_PROPERTIES] = in_double_precision(properties);
     let rest = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let wanted = Request { wave_modulus: true, ..Request::default() };
     let point = Hyperelastic::new(&values)?.point_along(&rest, None, &[0.0; HYPERELASTIC_STATE], wanted);
     Ok(T::splat(point.wave_modulus))
+}
+
+fn in_double_precision<T: Precision, const N: usize>(properties: &[T]) -> [f64; N] {
+    let mut values = [0.0; N];
+    values.iter_mut().zip(properties).for_each(|(to, &from)| *to = from.into());
+    values
 }

@@ -11,17 +11,18 @@
 //! | arrays | F and stress have the solver's vector length; UVAR is (NEL, NUVAR), SOUNDSP and OFF are (NEL) |
 //! | UVAR | the law's state, fibre direction of a law that has one, `deleted`; for a law that reads it the old F too, see [`card::Layout`] |
 //! | failure | OFF = 0, `deleted` = 1; a point that cannot be evaluated: OFF = 0, `deleted` = its status code |
-//! | time step | SOUNDSP, the law's bound of the wave speed, in every cycle |
+//! | time step | SOUNDSP, in every cycle: the law's bound of the wave speed, or less where the waves' directions allow it, see [`engine`] |
 //!
 //! Elements with `/PROP/TYPE14` (`/PROP/SOLID`), Isolid = 1 (or 17), Iframe = 1, Ismstr = 10: F and stress are then in global axes.
 
+mod brick;
 pub mod card;
 pub mod engine;
 pub mod entries;
 pub mod laws;
 pub mod starter;
 
-pub use engine::{Group, evaluate, needs_nodes};
+pub use engine::{Group, Motion, compares_axes, evaluate, needs_nodes};
 pub use entries::{lecm_f32, lecm_f64, listing_f32, listing_f64, luser_f32, luser_f64};
 pub use laws::{Laws, Material, MyReal, SolidLaw};
 pub use starter::{Read, listing, read};

@@ -4,7 +4,7 @@ use crate::law::block::Precision;
 use crate::law::error::{Error, describe_integer, describe_number};
 use crate::law::status;
 
-use super::card::{Card, FibreFrom, Layout, NEEDS, OPTIONS};
+use super::card::{Card, FibreFrom, Layout, NEEDS};
 use super::laws::Laws;
 
 /// What the starter wants to know of a material besides UPARAM.
@@ -119,7 +119,7 @@ fn value_line<T: Precision>(layout: &Layout, uparam: &[T], i: usize, sink: &mut 
             sink(property.meaning);
             sink(")");
         }
-        None => sink(OPTIONS.get(i - layout.law.properties.len()).map_or("", |option| option.name)),
+        None => sink(layout.options().nth(i - layout.law.properties.len()).map_or("", |option| option.name)),
     }
     sink(" = ");
     describe_number(uparam.get(i + 1).map_or(0.0, |&value| value.into()), sink);
