@@ -109,7 +109,7 @@ impl<'a> Section<'a> {
                     body.support(node, Support { free, velocity });
                 }
             }
-            for &node in &surface.nodes {
+            for &node in &surface.state.nodes {
                 let node = node as usize;
                 lightest = lightest.min(body.mass[node] / (STIFFNESS * surface.area[node]));
             }
@@ -140,7 +140,7 @@ impl<'a> Section<'a> {
         self.advance_to(ramp.start)?;
         self.solver.brake = BRAKE;
         self.solver.accelerate(true, ramp.duration)?;
-        self.settled = self.solver.energies;
+        self.settled = self.solver.state.energies;
         self.solver.displace();
         let last = scene.last_stretch(load);
         for number in 1..=scene.increments {
@@ -160,9 +160,9 @@ impl<'a> Section<'a> {
     fn advance_to(&mut self, time: f64) -> Result<(), Error> {
         let solver = &mut self.solver;
         // A step of rounding's length would be none.
-        while time - solver.time > 1e-9 * time {
-            solver.accelerate(false, time - solver.time)?;
-            if solver.bodies.iter().any(|body| !body.deleted.is_empty()) {
+        while time - solver.state.time > 1e-9 * time {
+            solver.accelerate(false, time - solver.state.time)?;
+            if solver.bodies.iter().any(|body| !body.state.deleted.is_empty()) {
                 return Err(Error::Evaluation("an element has been turned inside out".to_string()));
             }
             solver.displace();
@@ -183,13 +183,13 @@ impl<'a> Section<'a> {
             energy: over(model.middle_area, model.middle.iter().map(|&fibre| strain(fibre)).sum()),
             whole: over(model.area, (0..model.fibres).map(strain).sum()),
             springs: 0.0,
-            work: over(model.area, solver.energies.external),
-            friction: over(model.area, solver.energies.friction - settled.friction),
+            work: over(model.area, solver.state.energies.external),
+            friction: over(model.area, solver.state.energies.friction - settled.friction),
         }
     }
 
     fn shares(&self) -> Shares {
-        let energies = self.solver.energies;
+        let energies = self.solver.state.energies;
         let settled = self.settled;
         let (strain, work) = (energies.internal + energies.hourglass, energies.external);
         Shares {
@@ -199,7 +199,7 @@ impl<'a> Section<'a> {
             viscosity: (energies.viscosity - settled.viscosity) / work,
             contact: energies.contact / work,
             balance: (energies.total() - settled.total()) / work,
-            steps: self.solver.cost.steps,
+            steps: self.solver.state.cost.steps,
         }
     }
 

@@ -2,12 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::archive::Archive;
 use super::friction::rub;
 use super::lanes::Number;
 use super::vector::{Vector, add, dot, times};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shape {
     /// Its axis lies along axis 2; it moves along axis 1.
     Cylinder,
@@ -26,7 +25,7 @@ impl Shape {
 }
 
 /// What strikes, and the parameters of its contact. It moves along one axis, through the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rigid {
     pub shape: Shape,
     pub radius: f64,
@@ -61,7 +60,7 @@ pub struct Nodes<'a, T> {
 }
 
 /// The surface, and what the contact has done so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Contact {
     striker: Rigid,
     nodes: Vec<Node>,
@@ -91,14 +90,6 @@ impl Contact {
         let nodes: Vec<Node> = met.map(node).collect();
         let frequency = nodes.iter().map(|node| node.stiffness / mass[node.number as usize]).fold(0.0, f64::max);
         Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, frequency, touching: 0.0 }
-    }
-
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.nodes)?;
-        let Contact { stored, dissipated, released, clear, touching, .. } = self;
-        [stored, dissipated, released, clear, touching].into_iter().try_for_each(|value| archive.keep(value))
     }
 
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.

@@ -21,7 +21,7 @@ impl Snapshot {
     /// How the bodies stand, and a projectile of this radius.
     pub fn of<T: Number>(solver: &Solver<T>, radius: f64) -> Snapshot {
         let mut snapshot = Snapshot {
-            time: solver.time,
+            time: solver.state.time,
             positions: Vec::new(),
             intact: Vec::new(),
             densities: Vec::new(),

@@ -56,13 +56,13 @@ pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: 
         .map(|(yarn, body)| Sample::of_yarn(yarn, body, &solver.media, whole))
         .collect();
     let mut sample = yarns.iter().fold(Sample::at_rest(), Sample::with);
-    sample.time = solver.time;
+    sample.time = solver.state.time;
     if let Some(sphere) = &solver.projectile {
         sample.speed = -sphere.velocity;
         sample.travel = start - sphere.position;
         sample.force = sphere.force * whole;
     }
-    sample.energies = times(whole, &solver.energies);
+    sample.energies = times(whole, &solver.state.energies);
     sample.front = front(panel, solver, threshold);
     sample
 }
@@ -76,8 +76,8 @@ impl Sample {
     fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>, media: &[Medium<T>], whole: f64) -> Sample {
         let torn = is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i));
         let mut sample = Sample {
-            deleted: body.deleted.len(),
-            collapsed: body.collapsed,
+            deleted: body.state.deleted.len(),
+            collapsed: body.state.collapsed,
             torn: usize::from(torn),
             ..Sample::at_rest()
         };
@@ -96,7 +96,7 @@ impl Sample {
             sample.index = largest(sample.index, body.failure_index(media, i));
             let nodes = body.mesh.elements[i].map(|node| node as usize);
             for node in nodes.into_iter().filter(|_| !torn) {
-                sample.deflection = largest(sample.deflection, -body.displacement[node][2].into());
+                sample.deflection = largest(sample.deflection, -body.state.displacement[node][2].into());
             }
             let (mut at_rest, mut now) = ([[0.0; 3]; 8], [[0.0; 3]; 8]);
             for corner in 0..8 {
@@ -177,7 +177,7 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
             continue;
         }
         for (node, [x, y, _]) in body.mesh.nodes.iter().enumerate() {
-            if -body.displacement[node][2].into() > threshold {
+            if -body.state.displacement[node][2].into() > threshold {
                 farthest = farthest.max(x.hypot(*y));
             }
         }

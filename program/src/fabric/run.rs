@@ -322,7 +322,6 @@ struct Record {
     snapshots: Vec<Snapshot>,
     /// When the frames were written.
     frames: Vec<f64>,
-    failed: Option<f64>,
     /// The sphere's position at first.
     start: f64,
     next_sample: f64,
@@ -340,7 +339,6 @@ impl Record {
         archive.keep(&mut self.history)?;
         archive.keep(&mut self.snapshots)?;
         archive.keep(&mut self.frames)?;
-        archive.keep(&mut self.failed)?;
         archive.keep(&mut self.pictures)?;
         let Record { start, next_sample, next_frame, next_checkpoint, last_contact, .. } = self;
         let times = [start, next_sample, next_frame, next_checkpoint, last_contact];
@@ -362,7 +360,7 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn checkpoint(&mut self) -> Result<Vec<u8>, Error> {
-        let head = Head { time: self.solver.time, plan: self.plan.clone(), ended: None };
+        let head = Head { time: self.solver.state.time, plan: self.plan.clone(), ended: None };
         let Run { record, solver, .. } = self;
         write(self.case, head, |archive| record.archive(archive).and_then(|()| solver.archive(archive)))
     }
@@ -381,7 +379,7 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Goes over from the plan of the run that wrote the checkpoint to this one's. Where they are the same nothing changes.
     fn change_plan(&mut self, old: &Plan) {
-        let (new, time) = (&self.plan, self.solver.time);
+        let (new, time) = (&self.plan, self.solver.state.time);
         let later = |interval: f64, round: fn(f64) -> f64| interval * round(time / interval);
         if (new.end, new.frames) != (old.end, old.frames) {
             // The frame of this time comes after the checkpoint.
@@ -402,7 +400,7 @@ impl<'a, T: Number> Run<'a, T> {
     fn resume(mut self, checkpoint: Option<&[u8]>, observer: &mut (dyn Observer + Send)) -> Result<Outcome, Error> {
         if let Some(checkpoint) = checkpoint {
             self.read(checkpoint)?;
-            let fraction = self.solver.time / self.plan.end;
+            let fraction = self.solver.state.time / self.plan.end;
             observer.resumed(fraction, &self.record.history, &self.record.frames)?;
         }
         let begun = Instant::now();
@@ -413,12 +411,12 @@ impl<'a, T: Number> Run<'a, T> {
             balance: self.record.balance,
             history: self.record.history,
             snapshots: self.record.snapshots,
-            failed: self.record.failed,
+            failed: self.solver.state.failed,
             end: *end.as_ref().unwrap_or(&End::Failed),
             failure: end.err(),
             elements: self.panel.elements.len(),
-            cost: self.solver.cost,
-            searches: self.solver.mutual.as_ref().map_or(0, |contact| contact.searches),
+            cost: self.solver.state.cost,
+            searches: self.solver.mutual.as_ref().map_or(0, |contact| contact.state.searches),
             wall: begun.elapsed(),
         })
     }
@@ -429,7 +427,7 @@ impl<'a, T: Number> Run<'a, T> {
         let Plan { end: last, frames, checkpoints, .. } = self.plan;
         let (frame, between_checkpoints) = (interval(last, frames), interval(last, checkpoints));
         loop {
-            let time = self.solver.time;
+            let time = self.solver.state.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
             let end = self.end(reached(last), time - self.record.last_contact);
             if observer.interrupts() && end.is_none() && !self.record.measured.is_empty() {
@@ -442,7 +440,7 @@ impl<'a, T: Number> Run<'a, T> {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
-            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
+            let measured = self.solver.state.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
             let sampled = reached(self.record.next_sample) || end.is_some();
             let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
             let framed = frames > 0 && reached(self.record.next_frame);
@@ -451,10 +449,6 @@ impl<'a, T: Number> Run<'a, T> {
             self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|sphere| sphere.force != 0.0) {
                 self.record.last_contact = time;
-            }
-            let failed = || self.solver.bodies.iter().any(|yarn| yarn.deleted.len() > yarn.collapsed);
-            if self.record.failed.is_none() && failed() {
-                self.record.failed = Some(time);
             }
             if measured || sampled {
                 let sample = measure(self.panel, &self.solver, share, self.record.start, threshold);
@@ -520,6 +514,6 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn error(&self, reason: &str) -> Error {
-        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
+        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.state.time)))
     }
 }

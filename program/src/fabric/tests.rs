@@ -70,7 +70,7 @@ fn pull(friction: f64) -> Pull {
     }
     solver.ramp = Some(Ramp { start: 0.0, duration: 0.04 });
     solver.brake = 1e3;
-    while solver.time < 0.03 {
+    while solver.state.time < 0.03 {
         solver.accelerate(false, 1.0).expect("stable");
         solver.displace();
     }
@@ -82,7 +82,7 @@ fn pull(friction: f64) -> Pull {
         turn: slopes.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
         pressing: force(middle, 0..middle.mesh.nodes.len()).z.abs(),
         steepest: slopes[slopes.len() / 4..3 * slopes.len() / 4].iter().fold(0.0, |most, slope| slope.abs().max(most)),
-        friction: solver.energies.friction,
+        friction: solver.state.energies.friction,
     }
 }
 

@@ -23,8 +23,6 @@ use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
 pub const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 pub const PLATEAU: [f64; 2] = [0.3, 0.7];
-/// The failure index of an element that has failed, but for the rounding of single precision.
-const FAILED: f64 = 1.0 - 1e-6;
 /// Times closer than this part of a case's time are the same.
 const ROUNDING: f64 = 1e-9;
 
@@ -64,7 +62,6 @@ struct Run<'a, T> {
     balance: Balance,
     history: Vec<Sample>,
     snapshots: Vec<Snapshot>,
-    failed: Option<f64>,
     broken: Option<(f64, f64)>,
     /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
     deleted: usize,
@@ -105,7 +102,6 @@ impl<'a, T: Number> Run<'a, T> {
             balance: Balance::default(),
             history: Vec::new(),
             snapshots: Vec::new(),
-            failed: None,
             broken: None,
             deleted: 0,
             torn: vec![false; per_layer],
@@ -122,10 +118,10 @@ impl<'a, T: Number> Run<'a, T> {
         pictures.sort_by(|a, b| b.total_cmp(a));
         let mut end = None;
         let end = loop {
-            let time = self.solver.time;
+            let time = self.solver.state.time;
             let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
             end = end.or(reached(self.case.end).then_some(End::Time));
-            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
+            let measured = self.solver.state.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
             let sampled = reached(next_sample) || end.is_some();
             let drawn = pictures.last().is_some_and(|&picture| reached(picture));
             let framed = self.case.frames > 0 && reached(next_frame);
@@ -166,9 +162,9 @@ impl<'a, T: Number> Run<'a, T> {
             snapshots: self.snapshots,
             end,
             own_speed: matches!(self.case.striker, Striker::Cylinder { held: false, .. }),
-            failed: self.failed,
+            failed: self.solver.state.failed,
             broken: self.broken,
-            cost: self.solver.cost,
+            cost: self.solver.state.cost,
             wall: begun.elapsed(),
             smith: self.smith,
             mesh: self.solver.bodies.swap_remove(0).mesh,
@@ -193,7 +189,7 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether the run is over.
     fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.check_broken(time) {
+        if self.broken.is_none() && self.check_broken() {
             self.broken = Some((time, self.speed()));
         }
         if let Some(projectile) = &self.solver.projectile {
@@ -214,22 +210,18 @@ impl<'a, T: Number> Run<'a, T> {
 
     /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
     /// all, so that a torn line carries no tension, whatever its neighbours do.
-    fn check_broken(&mut self, time: f64) -> bool {
+    fn check_broken(&mut self) -> bool {
         let yarn = &self.solver.bodies[0];
-        for &element in &yarn.deleted[self.deleted..] {
+        for &element in &yarn.state.deleted[self.deleted..] {
             self.torn[element % yarn.mesh.elements_per_layer] = true;
-            // The index of what has failed stays as it was then; what has collapsed has a lower one.
-            if yarn.failure_index(&self.solver.media, element) >= FAILED {
-                self.failed = self.failed.or(Some(time));
-            }
         }
-        self.deleted = yarn.deleted.len();
+        self.deleted = yarn.state.deleted.len();
         self.torn.iter().all(|&torn| torn)
     }
 
     /// The error of a case without a result.
     fn error(&self, reason: &str) -> Error {
-        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
+        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.state.time)))
     }
 
     /// What all figures come from.
@@ -246,7 +238,7 @@ impl<'a, T: Number> Run<'a, T> {
     }
 
     fn sample(&self, time: f64) -> Sample {
-        let (deleted, collapsed) = (self.yarn().deleted.len(), self.yarn().collapsed);
+        let (deleted, collapsed) = (self.yarn().state.deleted.len(), self.yarn().state.collapsed);
         let mut sample = Sample { time, speed: self.speed(), deleted, collapsed, ..Sample::default() };
         if let Some(projectile) = &self.solver.projectile {
             sample.travel = self.start - projectile.position;
@@ -254,7 +246,7 @@ impl<'a, T: Number> Run<'a, T> {
         } else {
             sample.travel = time * self.case.speed;
         }
-        sample.energies = whole(&self.solver.energies);
+        sample.energies = whole(&self.solver.state.energies);
         self.measure_densities(&mut sample);
         self.measure_fronts(&mut sample);
         sample.widths = STATIONS.map(|station| self.width(station));
@@ -320,7 +312,7 @@ impl<'a, T: Number> Run<'a, T> {
         let nodes = section * count..(section + 1) * count;
         let (mass, x, v) = nodes.fold((0.0, 0.0, 0.0), |(sum, x, v), node| {
             let mass = yarn.mass[node];
-            let [place, velocity] = [yarn.position(node)[0], yarn.velocity[node][1].into()];
+            let [place, velocity] = [yarn.position(node)[0], yarn.state.velocity[node][1].into()];
             (sum + mass, x + mass * place, v + mass * velocity)
         });
         (x / mass, v / mass)
