@@ -57,7 +57,7 @@ enum Command {
         /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
         scene: PathBuf,
         /// Where the histories and pictures go.
-        #[arg(short, long, default_value = "toron-out")]
+        #[arg(short, long, default_value = "toron-out/fabric")]
         output: PathBuf,
         /// Go on from the checkpoints in that directory.
         #[arg(long)]
@@ -81,8 +81,11 @@ enum Command {
         /// The scene (see docs/guides/impact.md and examples/yarn_impact/).
         scene: PathBuf,
         /// Where the files go.
-        #[arg(short, long, default_value = "toron-out")]
+        #[arg(short, long, default_value = "toron-out/impact")]
         output: PathBuf,
+        /// Go on from the checkpoints in that directory.
+        #[arg(long)]
+        restart: bool,
     },
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
     Cell {
@@ -137,7 +140,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Fabric { scene, output, restart } => fabric::command::run(&scene, &output, restart),
         Command::Fibres(arguments) => fibres::command::run(&arguments)
             .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
-        Command::Impact { scene, output } => impact::command::run(&scene, &output),
+        Command::Impact { scene, output, restart } => impact::command::run(&scene, &output, restart),
         Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
             .and_then(|fit| identify::command::run(&fit, &output, None)),
         Command::Weave { scene, output } => weave::command::run(&scene, &output),

@@ -54,9 +54,9 @@ impl Measures {
         Measures {
             hourglass: share(most(|sample| sample.energies.hourglass), internal),
             shear: share(most(|sample| sample.parts[3]), most(|sample| sample.parts.iter().sum())),
-            least_scaled_jacobian: samples().map(|sample| sample.least_scaled_jacobian).fold(1.0, smallest),
+            least_scaled_jacobian: samples().map(|sample| sample.own.least_scaled_jacobian).fold(1.0, smallest),
             contact: share(most(|sample| sample.energies.contact), start),
-            ahead: most(|sample| sample.travel - sample.deflection),
+            ahead: most(|sample| sample.travel - sample.own.deflection),
             collapsed: samples().map(|sample| sample.collapsed).max().unwrap_or(0),
             travel: most(|sample| sample.travel),
         }
@@ -223,7 +223,7 @@ mod tests {
         let text = format!(
             "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
              [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
-             [scene]\nspeed = 1.0\nmass = 1.0\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
+             [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
              hyperelastic.density = {density}\n"
         );
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
@@ -238,6 +238,7 @@ mod tests {
             history: Vec::new(),
             snapshots: Vec::new(),
             end: End::Time,
+            course: (),
             failed: None,
             failure: None,
             elements: 1,

@@ -6,7 +6,7 @@ use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
-use crate::explicit::contact::Contact;
+use crate::explicit::contact::{Contact, Rigid, Shape};
 use crate::explicit::lanes::Number;
 use crate::explicit::medium::Medium;
 use crate::explicit::mesh::Mesh;
@@ -21,10 +21,9 @@ use crate::weave::panel::Part;
 ///
 /// # Errors
 /// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one law alone.
-pub fn check(case: &Case) -> Result<(), Error> {
-    let panel = case.woven.model();
+pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
     media::<f64>(case)?;
-    start(case, &panel)?;
+    start(case, panel)?;
     let Zones::Two(_, radius) = case.zones else { return Ok(()) };
     let outside = |element: &&[u32; 8]| zone(&case.zones, element.map(|node| panel.nodes[node as usize])) > 0;
     let outside = panel.elements.iter().filter(outside).count();
@@ -44,11 +43,12 @@ fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
 
 /// The height at which the sphere touches the panel.
 fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
-    let start = first_touch(panel, case.sphere.radius);
+    let start = first_touch(panel, &case.sphere);
     if !start.is_finite() {
         let radius = number(case.sphere.radius);
         let allowed = "allowed: one under which some node of the panel lies";
-        return Err(Error::Input(format!("the sphere's radius is {radius} in case {}; {allowed}", case.name)));
+        let name = case.sphere.shape.name();
+        return Err(Error::Input(format!("the {name}'s radius is {radius} in case {}; {allowed}", case.name)));
     }
     Ok(start)
 }
@@ -141,11 +141,16 @@ fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
     }
 }
 
-/// The height of a sphere's centre at which it touches the panel from above.
-fn first_touch(panel: &Model, radius: f64) -> f64 {
+/// The height of a striker's centre at which it touches the panel from above.
+fn first_touch(panel: &Model, striker: &Rigid) -> f64 {
+    let radius = striker.radius;
     let height = |[x, y, z]: [f64; 3]| {
         let under = radius * radius - x * x - y * y;
-        if under > 0.0 { z + under.sqrt() } else { f64::NEG_INFINITY }
+        match striker.shape {
+            _ if under <= 0.0 => f64::NEG_INFINITY,
+            Shape::Flat => z + radius,
+            _ => z + under.sqrt(),
+        }
     };
     panel.nodes.iter().map(|&node| height(node)).fold(f64::NEG_INFINITY, f64::max)
 }

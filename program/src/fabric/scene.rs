@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
-use crate::material::model::Material;
+use crate::struck::plan::Plan;
+pub use crate::struck::zones::Zones;
 use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
@@ -33,38 +34,6 @@ pub struct Case {
     /// Of yarns with one another.
     pub mutual: Parameters,
     pub control: Control,
-    pub end: f64,
-    /// Whether the run goes on when the sphere turns back.
-    pub rebounds: bool,
-    /// Time between two samples of the history.
-    pub sample: f64,
-    /// When the panel is drawn.
-    pub pictures: Vec<f64>,
-    /// How many files ParaView gets after the first.
-    pub frames: usize,
-    /// How many times the run writes what it takes to go on from there.
-    pub checkpoints: usize,
+    pub plan: Plan,
     pub single_precision: bool,
-}
-
-/// What the yarns are made of, from the centre outwards.
-#[derive(Clone, Debug)]
-pub enum Zones {
-    One(Box<Material>),
-    /// The first material up to this distance from the centre.
-    Two(Box<[Material; 2]>, f64),
-}
-
-impl Zones {
-    /// The material at the centre.
-    pub fn inner(&self) -> &Material {
-        &self.materials()[0]
-    }
-
-    pub fn materials(&self) -> &[Material] {
-        match self {
-            Zones::One(material) => std::slice::from_ref(&**material),
-            Zones::Two(materials, _) => &materials[..],
-        }
-    }
 }
