@@ -8,6 +8,7 @@ use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
+use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -22,7 +23,8 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
     let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.zones.names())).collect();
     let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), sliding(results));
-    format!("{}\n\n{table}\n{yarns}{sliding}{warnings}\n{}", scene.title, list_files(results, output))
+    let failed = after_failure(results.iter().map(|(case, outcome, _)| (case.name.as_str(), outcome)), WIDTH);
+    format!("{}\n\n{table}\n{yarns}{sliding}{failed}{warnings}\n{}", scene.title, list_files(results, output))
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.

@@ -10,6 +10,7 @@ use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, 
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
 use crate::material::fibre_wave::FibreWave;
+use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
@@ -28,7 +29,7 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
         yarns_of_cases(&yarns, WIDTH) + &wave_line(&waves),
-        warnings,
+        after_failure(results.iter().map(|(case, result)| (case.name.as_str(), &result.run)), WIDTH) + &warnings,
         list_files(scene, results, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();

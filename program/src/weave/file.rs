@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::de::{SeqAccess, Visitor};
+use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
@@ -18,6 +18,11 @@ pub struct SceneFile {
     pub units: Spanned<String>,
     pub weave: Spanned<WeaveFile>,
     pub material: Option<Spanned<MaterialFile>>,
+    /// How the panel is struck, which is nothing to its mesh.
+    #[serde(rename = "scene")]
+    _scene: Option<IgnoredAny>,
+    #[serde(rename = "case")]
+    _case: Option<IgnoredAny>,
 }
 
 /// The table `[weave]`, and what a case has otherwise.

@@ -99,7 +99,7 @@ fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
             "linear-elastic is not used; allowed: the material of",
         ),
         (
-            14,
+            13,
             "[[case]]\nname = \"one\"\nradius = 2778.0",
             "mass is 0.692, of a sphere with radius 2778: 7.706e-6 kg/m³; allowed: 8.980e6 to 2.065e9, of 100 to 23000 kg/m³",
         ),
