@@ -97,6 +97,9 @@ enum Command {
         /// The program ccx of CalculiX; without it, that of the variable TORON_CCX, or the one in PATH.
         #[arg(long)]
         ccx: Option<PathBuf>,
+        /// Go on from the checkpoints of the explicit host in that directory.
+        #[arg(long)]
+        restart: bool,
     },
     /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
     Weave {
@@ -141,7 +144,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Fibres(arguments) => fibres::command::run(&arguments)
             .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
         Command::Impact { scene, output, restart } => impact::command::run(&scene, &output, restart),
-        Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
+        Command::Cell { scene, output, ccx, restart } => cell::command::run(&scene, &output, ccx.as_deref(), restart)
             .and_then(|fit| identify::command::run(&fit, &output, None)),
         Command::Weave { scene, output } => weave::command::run(&scene, &output),
         Command::Completions { shell } => {

@@ -35,8 +35,6 @@ pub struct Solver<T> {
     pub mutual: Option<MutualContact>,
     /// How the supports move; at their own speed without.
     pub ramp: Option<Ramp>,
-    /// Free nodes are braked by this many times their momentum.
-    pub brake: f64,
     /// A step is no longer than this: contact that closes within a step has not been in the bound of its length.
     pub longest: f64,
     /// Whether the laws give energies and invariants in every step, or only where they are measured.
@@ -65,13 +63,22 @@ pub struct SolverState {
 pub struct Ramp {
     pub start: f64,
     pub duration: f64,
+    /// Free nodes are braked by this many times their momentum, before the start and after it.
+    pub brake: [f64; 2],
 }
+
+/// Times closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
 
 impl Ramp {
     /// The part of the way that they have gone at a time: its speed is a cosine's arch.
     pub fn share(&self, time: f64) -> f64 {
         let part = ((time - self.start) / self.duration).clamp(0.0, 1.0);
         part - (2.0 * PI * part).sin() / (2.0 * PI)
+    }
+
+    fn brake(&self, time: f64) -> f64 {
+        self.brake[usize::from(time >= self.start * (1.0 - ROUNDING))]
     }
 }
 
@@ -91,7 +98,6 @@ impl<T: Number> Solver<T> {
             projectile: None,
             mutual: None,
             ramp: None,
-            brake: 0.0,
             longest: f64::INFINITY,
             all_outputs: true,
             state: SolverState::default(),
@@ -137,8 +143,9 @@ impl<T: Number> Solver<T> {
             let speed = (ramp.share(self.state.time + self.state.step) - ramp.share(self.state.time)) / self.state.step;
             self.bodies.iter_mut().for_each(|body| body.set_speed(speed));
         }
-        if self.brake > 0.0 {
-            let power: f64 = self.bodies.iter_mut().map(|body| body.brake(self.brake)).sum();
+        let brake = self.ramp.map_or(0.0, |ramp| ramp.brake(self.state.time));
+        if brake > 0.0 {
+            let power: f64 = self.bodies.iter_mut().map(|body| body.brake(brake)).sum();
             self.state.viscosity += 0.5 * (before + self.state.step) * power;
         }
         self.update_velocities(0.5 * (before + self.state.step), measured);

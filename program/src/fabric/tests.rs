@@ -68,8 +68,7 @@ fn pull(friction: f64) -> Pull {
     for body in &mut solver.bodies[1..] {
         (0..body.mesh.nodes.len()).for_each(|node| body.support(node, held([0.0; 3])));
     }
-    solver.ramp = Some(Ramp { start: 0.0, duration: 0.04 });
-    solver.brake = 1e3;
+    solver.ramp = Some(Ramp { start: 0.0, duration: 0.04, brake: [1e3; 2] });
     while solver.state.time < 0.03 {
         solver.accelerate(false, 1.0).expect("stable");
         solver.displace();

@@ -125,7 +125,7 @@ impl Struck for StruckYarn<'_> {
 
     /// The yarn has broken when every line of elements along the fibre has lost one. The laws resist shear along the fibre little or
     /// not at all, so that a torn line carries no tension, whatever its neighbours do.
-    fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Course) {
+    fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Course) -> Result<(), Error> {
         let yarn = &solver.bodies[0];
         course.torn.resize(yarn.mesh.elements_per_layer, false);
         for &element in &yarn.state.deleted[course.deleted..] {
@@ -136,6 +136,7 @@ impl Struck for StruckYarn<'_> {
             let speed = solver.projectile.as_ref().map_or(self.case.speed, |projectile| -projectile.velocity);
             course.broken = Some((solver.state.time, speed));
         }
+        Ok(())
     }
 
     /// As long as a wave takes to the clamp and back: after that, what is left of the yarn no longer touches it.

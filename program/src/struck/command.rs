@@ -283,19 +283,19 @@ impl<'a, S: Scene> Cases<'a, S> {
 }
 
 /// Where a case's checkpoint stands, and where the next one is written before it takes its place.
-struct Checkpoint {
-    place: PathBuf,
+pub struct Checkpoint {
+    pub place: PathBuf,
     new: PathBuf,
 }
 
 impl Checkpoint {
-    fn of(case: &str, output: &Path) -> Checkpoint {
+    pub fn of(case: &str, output: &Path) -> Checkpoint {
         let [place, new] = ["checkpoint", "checkpoint-new"].map(|ending| output.join(format!("{case}.{ending}")));
         Checkpoint { place, new }
     }
 
     /// Gives it another name, which none has that was set aside before; returns that.
-    fn set_aside(&self) -> Result<PathBuf, Error> {
+    pub fn set_aside(&self) -> Result<PathBuf, Error> {
         let numbered = (2..).map(|number| format!("checkpoint-old-{number}"));
         let endings = std::iter::once("checkpoint-old".to_string()).chain(numbered);
         let mut places = endings.map(|ending| self.place.with_extension(ending));
@@ -304,12 +304,12 @@ impl Checkpoint {
         Ok(old)
     }
 
-    fn files(&self) -> [&Path; 2] {
+    pub fn files(&self) -> [&Path; 2] {
         [&self.place, &self.new]
     }
 
     /// Its bytes, if there is one.
-    fn read(&self) -> Result<Option<Vec<u8>>, Error> {
+    pub fn read(&self) -> Result<Option<Vec<u8>>, Error> {
         if !is_file(&self.place)? {
             return Ok(None);
         }
@@ -317,7 +317,7 @@ impl Checkpoint {
     }
 
     /// In one go: who stops the program while it writes has the last checkpoint still.
-    fn write(&self, bytes: &[u8]) -> Result<(), Error> {
+    pub fn write(&self, bytes: &[u8]) -> Result<(), Error> {
         let written = std::fs::write(&self.new, bytes).and_then(|()| std::fs::rename(&self.new, &self.place));
         written.map_err(|error| file_error(&self.place, &error))
     }

@@ -29,6 +29,11 @@ pub trait Struck: Sync {
     /// What is followed from step to step.
     type Course: Debug + Default + Serialize + DeserializeOwned + Send;
 
+    /// How many steps lie between two measurements of which the run is judged; with none, it is not.
+    const MEASURED_EVERY: Option<u64> = Some(MEASURED_EVERY);
+    /// Whether a picture is taken of how it stands at the end, however that comes.
+    const DRAWN_AT_END: bool = false;
+
     fn name(&self) -> &str;
     fn plan(&self) -> &Plan;
     fn single_precision(&self) -> bool;
@@ -43,16 +48,31 @@ pub trait Struck: Sync {
     fn solver<T: Number>(&self) -> Result<Solver<T>, Error>;
 
     /// The radius of what strikes, for pictures.
-    fn radius(&self) -> f64;
+    fn radius(&self) -> f64 {
+        0.0
+    }
 
     /// Measures an instant at which what strikes, which was at `start`, has come as far as the solver says.
     fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample<Self::Own>;
 
+    /// Instants at which steps end, in order, and the time that the step after one is a part of. The history has these instants; where
+    /// there are none, those of the plan, or the first ones after them.
+    fn stops(&self) -> (&[f64], f64) {
+        (&[], self.plan().end)
+    }
+
     /// Follows what has come of an instant.
-    fn follow<T: Number>(&self, _solver: &Solver<T>, _course: &mut Self::Course) {}
+    ///
+    /// # Errors
+    /// What ends the run.
+    fn follow<T: Number>(&self, _solver: &Solver<T>, _course: &mut Self::Course) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// Whether what strikes has left behind what is struck; nothing has touched it for this time.
-    fn has_left<T: Number>(&self, solver: &Solver<T>, course: &Self::Course, free: f64) -> bool;
+    fn has_left<T: Number>(&self, _solver: &Solver<T>, _course: &Self::Course, _free: f64) -> bool {
+        false
+    }
 }
 
 /// How a run ended.
@@ -202,6 +222,8 @@ struct Record<E, C> {
     /// Where what strikes was at first.
     start: f64,
     next_sample: f64,
+    /// How many of the stops are behind it.
+    stops: usize,
     next_frame: f64,
     next_checkpoint: f64,
     last_contact: f64,
@@ -272,7 +294,10 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         let begun = Instant::now();
         // Inside rayon's threads: entering them in every step would cost as much as a small panel's contact.
         let end = rayon::scope(|_| self.steps(observer));
-        let Run { solver, record, .. } = self;
+        let Run { struck, solver, mut record, .. } = self;
+        if S::DRAWN_AT_END {
+            record.snapshots.push(Snapshot::of(&solver, struck.radius()));
+        }
         Ok(Outcome {
             measured: record.measured,
             balance: record.balance,
@@ -296,7 +321,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             let time = self.solver.state.time;
             let reached = |instant: f64| time >= instant - ROUNDING * last;
             let end = self.end(reached(last));
-            if observer.interrupts() && end.is_none() && !self.record.measured.is_empty() {
+            if observer.interrupts() && end.is_none() && self.solver.state.cost.steps > 0 {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
                 return Ok(End::Interrupted);
@@ -306,17 +331,24 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
                 let bytes = self.checkpoint()?;
                 observer.checkpoint(&bytes)?;
             }
-            let measured = self.solver.state.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
-            let sampled = reached(self.record.next_sample) || end.is_some();
+            let steps = self.solver.state.cost.steps;
+            let measured = S::MEASURED_EVERY.is_some_and(|every| steps.is_multiple_of(every)) || end.is_some();
+            let (stops, after_stop) = self.struck.stops();
+            let stop = stops.get(self.record.stops).copied();
+            let stopped = reached(stop.unwrap_or(last));
+            self.record.stops += usize::from(stopped);
+            let sampled = if stops.is_empty() { reached(self.record.next_sample) } else { stopped } || end.is_some();
             let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
             let framed = frames > 0 && reached(self.record.next_frame);
-            let left = if reached(last) { last } else { last - time };
+            let left = if stopped { after_stop } else { stop.unwrap_or(last) - time };
             let energies = measured || sampled || drawn || framed;
             self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|projectile| projectile.force != 0.0) {
                 self.record.last_contact = time;
             }
-            self.struck.follow(&self.solver, &mut self.record.course);
+            self.struck
+                .follow(&self.solver, &mut self.record.course)
+                .map_err(|error| self.error(&error.to_string()))?;
             if measured || sampled {
                 let sample = self.struck.sample(&self.solver, self.record.start);
                 self.record(sample, [measured, sampled], observer)?;
@@ -351,9 +383,11 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         if measured {
             kept.push(sample);
             balance.add(&sample.energies);
+        }
+        if measured || S::MEASURED_EVERY.is_none() {
             observer.progress(sample.time / self.plan.end, &sample, balance.imbalance());
         }
-        let lost = balance.lost();
+        let lost = balance.lost().filter(|_| S::MEASURED_EVERY.is_some());
         if sampled || lost.is_some() {
             history.push(sample);
             *next_sample += self.plan.sample;

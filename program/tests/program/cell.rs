@@ -158,7 +158,7 @@ fn the_explicit_host_agrees_with_calculix() {
     let scene = Scene { elements: 6, increments: 12, ..scene() };
     let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
     for load in [Load::Compaction, Load::AcrossRows] {
-        let explicit = explicit_run::run(&scene, &model, load, &mut |_| {}).expect("it runs");
+        let explicit = explicit_run::run(&scene, &model, load, None, &mut ()).expect("it runs");
         assert_eq!(explicit.failure, None);
         let calculix = on_model(&scene, &model, load);
         let [found, expected] = [&explicit, &calculix].map(|outcome| last(outcome).energy);
@@ -173,7 +173,7 @@ fn fibres_at_random_are_pressed() {
     let arrangement = Arrangement::Box(BoxOf::Random { fibres: 8, seed: 1 });
     let scene = Scene { arrangement, elements: 2, increments: 6, ..scene() };
     let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
-    let outcome = explicit_run::run(&scene, &model, Load::Compaction, &mut |_| {}).expect("it runs");
+    let outcome = explicit_run::run(&scene, &model, Load::Compaction, None, &mut ()).expect("it runs");
     assert_eq!(outcome.failure, None);
     let shares = outcome.shares.expect("the explicit host tells");
     println!("{:.3} MPa: {shares:?}", last(&outcome).energy);
@@ -513,7 +513,7 @@ fn the_box_of_the_thesis_in_calculix() {
     let example = Scene::read(&example("box.toml")).expect("the scene is valid");
     let boxed = Scene { explicit: false, largest: 0.11, ..example };
     let model = arrangement::model(&boxed.arrangement, boxed.elements).expect("a model");
-    let explicit = explicit_run::run(&boxed, &model, Load::Compaction, &mut |_| {}).expect("it runs");
+    let explicit = explicit_run::run(&boxed, &model, Load::Compaction, None, &mut ()).expect("it runs");
     let compaction = on_model(&boxed, &model, Load::Compaction);
     for (host, outcome) in [("explicit host", &explicit), ("CalculiX", &compaction)] {
         let [seconds, least] = [outcome.elapsed.as_secs_f64(), least_area(&model, outcome)];
@@ -546,7 +546,7 @@ fn the_box_of_the_thesis() {
     assert!(boxed.explicit && boxed.largest == 0.12);
     let run = |scene: &Scene| {
         let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
-        let load = |load| explicit_run::run(scene, &model, load, &mut |_| {}).expect("it runs");
+        let load = |load| explicit_run::run(scene, &model, load, None, &mut ()).expect("it runs");
         ([Load::Compaction, Load::AlongRows, Load::AcrossRows].map(load), model)
     };
     let (outcomes, model) = run(&boxed);

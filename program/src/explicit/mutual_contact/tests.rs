@@ -345,8 +345,7 @@ fn ratio_of_forces(k_ld: f64) -> (f64, f64) {
     }
     let mut solver = Solver::new(bodies, media);
     solver.mutual = Some(contact);
-    solver.ramp = Some(Ramp { start: 0.0, duration: 2e-5 });
-    solver.brake = 1e6;
+    solver.ramp = Some(Ramp { start: 0.0, duration: 2e-5, brake: [1e6; 2] });
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     while solver.state.time < 1.5e-5 {
         solver.accelerate(false, 1.0).expect("stable");
