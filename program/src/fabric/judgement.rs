@@ -12,6 +12,7 @@ use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
 use crate::weave::figures::Figures as WeaveFigures;
+use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::report::areal_density_warning;
 use toron::host::units::UnitSystem;
@@ -65,10 +66,13 @@ impl Measures {
 
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
-    let mut findings = judgement::units(case.zones.materials(), units);
-    let density = case.zones.inner().density.unwrap_or_default();
-    let by_area = WeaveFigures::of(panel, &case.woven.geometry).volume_by_area;
-    let areal_density = areal_density_warning(by_area, density, units);
+    let mut findings: Vec<Finding> =
+        case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
+    let figures = WeaveFigures::of(panel, &case.woven.geometry);
+    let density = |family: Family| case.material(family).density.unwrap_or_default();
+    let mass: f64 = Family::BOTH.map(|family| figures.volumes_by_area[family as usize] * density(family)).iter().sum();
+    let volume = figures.volume_by_area();
+    let areal_density = areal_density_warning(volume, mass / volume, units);
     findings.extend(areal_density.map(|text| Finding::new("units", text)));
     findings.extend(coarse(units, case, panel));
     findings
@@ -145,8 +149,7 @@ fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Fin
 fn shear(case: &Case, measures: &Measures) -> Option<Finding> {
     let exceeds = measures.shear.is_nan() || measures.shear > LARGEST_SHEAR;
     exceeds.then(|| {
-        let k_ld =
-            case.zones.materials().iter().filter_map(|material| material.longitudinal_shear()).fold(0.0, largest);
+        let k_ld = case.materials().filter_map(|material| material.longitudinal_shear()).fold(0.0, largest);
         let text = format!(
             "W_ld of longitudinal shear is {:.0} % of what the laws store, more than {:.0} %:\n\
              take a finer mesh, or another k_ld than {}",

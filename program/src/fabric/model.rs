@@ -38,7 +38,7 @@ pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
 /// The media of a case's zones.
 fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
     let medium = |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
-    case.zones.materials().iter().map(medium).collect()
+    case.materials().map(medium).collect()
 }
 
 /// The height at which the sphere touches the panel.
@@ -68,7 +68,9 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let surface = Surface::new(&mesh, local, elements);
         mesh.surface = struck_surface(&mesh, &surface.area);
         let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
-        let zones: Vec<usize> = mesh.elements.iter().map(|element| zone(&case.zones, corners(element))).collect();
+        let own = case.own_material(yarn.family);
+        let medium = |element| own.unwrap_or_else(|| zone(&case.zones, corners(element)));
+        let zones: Vec<usize> = mesh.elements.iter().map(medium).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);
         contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
         surfaces.push(surface);

@@ -15,7 +15,10 @@ use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
+use crate::material::model::Material;
+use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
+use crate::weave::file::{ThreadFile, WeaveFile};
 use crate::weave::reader::Woven;
 use toron::law::parameters::DENSITY;
 
@@ -59,11 +62,12 @@ impl Scene {
             (&["summary"], PICTURES),
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
-                let woven = match &file_of_case.weave {
-                    Some(weave) => Arc::new(source.woven_of_case(weave, file.weave.get_ref(), &units)?),
-                    None => woven.clone(),
+                let weave = file.weave.get_ref();
+                let (woven, weave) = match &file_of_case.weave {
+                    Some(own) => (Arc::new(source.woven_of_case(own, weave, &units)?), own.get_ref().over(weave)),
+                    None => (woven.clone(), weave.clone()),
                 };
-                reader.panel_case(file_of_case, woven, name)
+                reader.panel_case(file_of_case, &weave, woven, name)
             },
         )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
@@ -71,7 +75,7 @@ impl Scene {
 }
 
 impl Reader<'_> {
-    fn panel_case(&self, file: &CaseFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
+    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
@@ -82,6 +86,7 @@ impl Reader<'_> {
             woven,
             speed: self.speed(zones.inner())?,
             zones,
+            threads: [self.thread_material(&weave.warp)?, self.thread_material(&weave.weft)?],
             sphere: Rigid {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
@@ -101,6 +106,21 @@ impl Reader<'_> {
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    /// What the yarns of a family are made of, if their table says it: a material of the case's law.
+    fn thread_material(&self, table: &Option<Spanned<ThreadFile>>) -> Result<Option<Box<Material>>, Error> {
+        let Some(file) = table.as_ref().and_then(|table| table.get_ref().material.as_ref()) else { return Ok(None) };
+        let law = match self.keys.law() {
+            LawName::Hyperelastic => HYPERELASTIC,
+            LawName::LinearElastic => LINEAR_ELASTIC,
+            LawName::Hybrid => {
+                let message =
+                    "material of a family of yarns with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+                return Err(self.source.error(file.span(), message));
+            }
+        };
+        self.material(law, &Some(file.clone())).map(|material| Some(Box::new(material)))
     }
 
     /// The mass of what strikes: the file's, which must be one that its volume can have, or its volume's.

@@ -21,7 +21,7 @@ type Results<'a> = [(&'a Case, Outcome, Figures)];
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
     let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
-    let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.zones.names())).collect();
+    let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.material_names())).collect();
     let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), sliding(results));
     let failed = after_failure(results.iter().map(|(case, outcome, _)| (case.name.as_str(), outcome)), WIDTH);
     format!("{}\n\n{table}\n{yarns}{sliding}{failed}{warnings}\n{}", scene.title, list_files(results, output))
@@ -29,8 +29,7 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
 
 /// The cases in whose sections nothing carries shear along the fibres.
 fn sliding(results: &Results) -> String {
-    let slides =
-        |case: &&Case| case.zones.materials().iter().any(|material| material.longitudinal_shear() == Some(0.0));
+    let slides = |case: &&Case| case.materials().any(|material| material.longitudinal_shear() == Some(0.0));
     let cases: Vec<&str> = results.iter().map(|(case, ..)| *case).filter(slides).map(|case| &*case.name).collect();
     if cases.is_empty() {
         return String::new();

@@ -116,7 +116,7 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     line.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
     line.quantity("speed_at_end", SPEED, last.speed);
     line.add("verdict", verdict(&figures.findings));
-    line.add("material", case.zones.names());
+    line.add("material", case.material_names());
     line.quantity("deflection_max", LENGTH, *deflection);
     line.quantity("deflection_max_at", TIME, *deepest_at);
     line.quantity("front_at_rim", TIME, figures.front_at_rim);

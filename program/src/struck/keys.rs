@@ -290,7 +290,10 @@ impl Reader<'_> {
     }
 
     /// The material of this law's table.
-    fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
+    ///
+    /// # Errors
+    /// As for [`Source::material_of_law`].
+    pub fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
         // A property of the scene is wrong only beside the failure of a case: that is the line to change.
         let place = |name: &str| self.own.given(law, name).or(self.own.failure.as_ref().map(Spanned::span));
         let failure = self.keys.failure.as_ref().map_or(FailureName::None, |failure| *failure.get_ref());

@@ -68,6 +68,8 @@ pub struct ThreadFile {
     pub section: Option<Section>,
     pub width: Option<Spanned<f64>>,
     pub height: Option<Spanned<f64>>,
+    /// For who strikes the panel: what these yarns are made of, other than the rest.
+    pub material: Option<Spanned<MaterialFile>>,
 }
 
 impl ThreadFile {
@@ -78,6 +80,7 @@ impl ThreadFile {
             section: own.section.or(base.section),
             width: own.width.or(base.width),
             height: own.height.or(base.height),
+            material: over(&own.material, &base.material, MaterialFile::over),
         }
     }
 }

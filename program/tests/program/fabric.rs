@@ -183,6 +183,44 @@ fn cases_have_panels_of_their_own() {
     assert!(one == other && one != std::fs::read_to_string(output.join("base.csv")).expect("a file"));
 }
 
+/// Yarns of warp and weft may have materials of their own, of the case's law.
+#[test]
+fn warp_and_weft_have_materials_of_their_own() {
+    let keys = "[[case]]\nname = \"alike\"\n[[case]]\nname = \"named\"\nweave.weft.material.preset = \"kevlar-km2-600\"\n\
+                [[case]]\nname = \"heavy\"\nweave.weft.material.density = 2.7028e-3\n";
+    let (answer, output) = strike("families", &scene(3.0, keys), 2);
+    let report = String::from_utf8_lossy(&answer.stdout).into_owned();
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let read = |name: &str| std::fs::read_to_string(output.join(name)).expect("a history");
+    assert!(read("alike.csv") == read("named.csv"), "the same material twice");
+    // Twice the mass of the weft is slower to be taken along, and takes more of the sphere's speed.
+    let last = |name: &str| column(&read(name), "speed").last().copied().expect("a speed");
+    assert!(last("heavy.csv") < last("alike.csv") - 0.05, "{} {}", last("heavy.csv"), last("alike.csv"));
+    let wanted = "warp kevlar-km2-600; weft kevlar-km2-600 (density = 0.0027028)";
+    assert!(report.contains(wanted), "{report}");
+    let hybrid = scene(
+        1.0,
+        "law = \"hybrid\"\nhyperelastic-radius = 1.0\n[[case]]\nname = \"one\"\nweave.warp.material.density = 1e-3",
+    );
+    let error = String::from_utf8_lossy(&strike("family-hybrid", &hybrid, 1).0.stderr).into_owned();
+    assert!(error.contains("scene.toml:22: material of a family of yarns with law = \"hybrid\"; allowed: "), "{error}");
+}
+
+/// A sphere and a cylinder with a hemispherical end meet the panel alike, one with a flat end with more of it at once.
+#[test]
+fn cylinders_strike_by_their_end() {
+    let keys = "hyperelastic.properties = { k_ld = 126.0 }\n[[case]]\nname = \"sphere\"\n[[case]]\nname = \"round\"\n\
+                shape = \"hemisphere\"\nlength = 4.6\n[[case]]\nname = \"flat\"\nshape = \"flat\"\nlength = 3.7\n";
+    let (answer, output) = strike("shapes", &scene(4.0, keys), 2);
+    assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
+    let read = |name: &str| std::fs::read_to_string(output.join(name)).expect("a history");
+    assert!(read("sphere.csv") == read("round.csv"), "nothing has come up to the wall");
+    let (sphere, flat) = (read("sphere.csv"), read("flat.csv"));
+    let last = |history: &str, name: &str| column(history, name).last().copied().expect("a value");
+    assert!(last(&flat, "speed") < last(&sphere, "speed") - 1.0, "{flat}");
+    assert!(column(&flat, "total_energy").windows(2).all(|pair| (pair[1] / pair[0] - 1.0).abs() < 1e-3), "{flat}");
+}
+
 #[test]
 fn a_run_that_was_killed_goes_on_with_the_same_bits() {
     let keys = "failure = \"uniaxial\"\nframes = 6\npictures = [0.001, 0.009]\n\
