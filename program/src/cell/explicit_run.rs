@@ -81,14 +81,16 @@ impl<'a> Section<'a> {
         let ramp = Ramp { start: SETTLING, duration, brake: [SETTLING_BRAKE, BRAKE] };
         let increments = (1..=scene.increments).map(|number| number as f64 / scene.increments as f64);
         let stops = increments.map(|part| ramp.start + duration * time_of(part));
+        let stops: Vec<f64> = std::iter::once(ramp.start).chain(stops).collect();
+        // The ramp is there a little before its time is over, to all digits.
+        let end = stops.last().copied().unwrap_or(ramp.start);
         Section {
             scene,
             model,
             load,
             ramp,
-            stops: std::iter::once(ramp.start).chain(stops).collect(),
-            // With each increment.
-            plan: Plan { end: ramp.start + duration, checkpoints: scene.increments, ..Plan::default() },
+            stops,
+            plan: Plan { end, checkpoints: scene.increments, ..Plan::default() },
             // As thick as the elements on the circumference are wide.
             thickness: std::f64::consts::PI / (8 * scene.elements) as f64,
         }

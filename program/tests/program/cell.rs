@@ -21,13 +21,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use toron_program::cell::arrangement;
 use toron_program::cell::disc::Disc;
 use toron_program::cell::energies::Increment;
-use toron_program::cell::explicit_run;
+use toron_program::cell::explicit_run::{self, OfSection};
 use toron_program::cell::model::Model;
 use toron_program::cell::output;
 use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
 use toron_program::cell::solver::Job;
+use toron_program::common::error::Error;
+use toron_program::struck::run::Observer;
 
 use crate::calculix_decks::SOLVER;
 
@@ -536,6 +538,36 @@ fn the_box_of_the_thesis_in_calculix() {
         assert!(largest_spring_share(outcome) < 1e-3, "{}", largest_spring_share(outcome));
         assert_middle_is_the_cell(&model, outcome, &cell);
     }
+}
+
+/// Keeps the checkpoints of a load.
+#[derive(Default)]
+struct Checkpoints(Vec<Vec<u8>>);
+
+impl Observer<OfSection> for Checkpoints {
+    fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.0.push(bytes.to_vec());
+        Ok(())
+    }
+}
+
+/// From the increment in which it was interrupted, and from its end.
+#[test]
+fn a_load_in_the_explicit_host_goes_on_from_its_checkpoint_with_the_same_bits() {
+    let text = std::fs::read_to_string(example("random.toml")).expect("the example");
+    let text = text.replace("fibres = 25", "fibres = 3").replace("elements = 3", "elements = 1");
+    let text = text.replace("increments = 24", "increments = 3").replace("largest = 0.12", "largest = 0.02");
+    let scene = Scene::parse("few.toml", &text).expect("the scene is valid");
+    let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
+    let mut checkpoints = Checkpoints::default();
+    let whole = explicit_run::run(&scene, &model, Load::Compaction, None, &mut checkpoints).expect("it runs");
+    assert!(whole.increments.len() == 3 && checkpoints.0.len() >= 3, "{}", checkpoints.0.len());
+    for bytes in [&checkpoints.0[1], &checkpoints.0[checkpoints.0.len() - 1]] {
+        let again = explicit_run::run(&scene, &model, Load::Compaction, Some(bytes), &mut ()).expect("it goes on");
+        assert_eq!((again.increments, &again.shape.patches), (whole.increments.clone(), &whole.shape.patches));
+    }
+    let other = explicit_run::run(&scene, &model, Load::AlongRows, Some(&checkpoints.0[1]), &mut ());
+    assert!(other.expect_err("another load").to_string().contains("is of another scene"));
 }
 
 /// The thesis's 115 fibres to its own range, in the explicit host.
