@@ -14,6 +14,7 @@
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
 //! - the fibres of a yarn under impact, as rows of beads in LAMMPS (`toron fibres`): [`fibres`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - what those two have in common, from their keys to their checkpoints: [`struck`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
 //! - what they share: materials, presets and how files describe them in [`material`], the calls of the C interface in [`entries`],
@@ -38,6 +39,7 @@ mod own_program;
 pub mod params;
 pub mod picture;
 pub mod scene_deck;
+pub mod struck;
 pub mod weave;
 
 pub use own_program::of_law;

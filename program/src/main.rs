@@ -57,7 +57,7 @@ enum Command {
         /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
         scene: PathBuf,
         /// Where the histories and pictures go.
-        #[arg(short, long, default_value = "toron-out")]
+        #[arg(short, long, default_value = "toron-out/fabric")]
         output: PathBuf,
         /// Go on from the checkpoints in that directory.
         #[arg(long, conflicts_with = "host")]
@@ -83,10 +83,13 @@ enum Command {
         /// The scene (see docs/guides/impact.md and examples/yarn_impact/).
         scene: PathBuf,
         /// Where the files go.
-        #[arg(short, long, default_value = "toron-out")]
+        #[arg(short, long, default_value = "toron-out/impact")]
         output: PathBuf,
         #[command(flatten)]
         deck: scene_deck::command::Arguments,
+        /// Go on from the checkpoints in that directory.
+        #[arg(long)]
+        restart: bool,
     },
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.
     Cell {
@@ -98,6 +101,9 @@ enum Command {
         /// The program ccx of CalculiX; without it, that of the variable TORON_CCX, or the one in PATH.
         #[arg(long)]
         ccx: Option<PathBuf>,
+        /// Go on from the checkpoints of the explicit host in that directory.
+        #[arg(long)]
+        restart: bool,
     },
     /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
     Weave {
@@ -146,11 +152,11 @@ fn run(command: Command) -> Result<(), Error> {
         },
         Command::Fibres(arguments) => fibres::command::run(&arguments)
             .and_then(|fit| fit.map_or(Ok(()), |fit| identify::command::run(&fit, &arguments.output, None))),
-        Command::Impact { scene, output, deck } => match deck.host {
+        Command::Impact { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::impact(&scene, &output, host, &deck),
-            None => impact::command::run(&scene, &output),
+            None => impact::command::run(&scene, &output, restart),
         },
-        Command::Cell { scene, output, ccx } => cell::command::run(&scene, &output, ccx.as_deref())
+        Command::Cell { scene, output, ccx, restart } => cell::command::run(&scene, &output, ccx.as_deref(), restart)
             .and_then(|fit| identify::command::run(&fit, &output, None)),
         Command::Weave { scene, output, deck } => match deck.host {
             Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),

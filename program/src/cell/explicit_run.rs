@@ -4,7 +4,7 @@
 //! lengths are counted in diameters, stresses in e_2, masses so that the density is 1. A wave across a fibre then takes a time of
 //! about 1.
 
-use std::time::Instant;
+use serde::{Deserialize, Serialize};
 
 use super::energies::Increment;
 use super::model::{Body as Fibre, Model};
@@ -13,11 +13,16 @@ use super::scene::{Load, Scene};
 use crate::common::error::Error;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::energies::Energies;
+use crate::explicit::lanes::Number;
 use crate::explicit::medium::{Control, Medium};
 use crate::explicit::mesh::Mesh;
 use crate::explicit::mutual_contact::{MutualContact, Parameters, Surface};
+use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solid::Solid;
 use crate::explicit::solver::{Ramp, Solver};
+use crate::struck::plan::Plan;
+use crate::struck::run::{self, End, Observer, OutcomeOf, Struck};
+use crate::struck::sample::Sample;
 
 /// Pressure by depth of penetration over e_2 a diameter.
 const STIFFNESS: f64 = 200.0;
@@ -36,46 +41,151 @@ const BRAKE: f64 = 0.01;
 /// With half of the shear modulus against hourglass modes, elements bend about as the solid does.
 const CONTROL: Control = Control { hourglass: 0.5, linear: 0.06, quadratic: 1.5, shape: 0.2, by_direction: false };
 
-/// Runs a load.
+/// Runs a load, from a checkpoint on if there is one.
 ///
 /// # Errors
-/// None of its increments is reached.
-pub fn run(scene: &Scene, model: &Model, load: Load, progress: &mut dyn FnMut(f64)) -> Result<Outcome, Error> {
-    let started = Instant::now();
-    let mut section = Section::new(scene, model, load);
-    let mut increments = Vec::new();
-    let failure = section
-        .load(scene, load, &mut increments, progress)
-        .err()
-        .map(|error| format!("load {}: increment {} is not reached: {error}", load.name(), increments.len() + 1));
-    if increments.is_empty() {
-        return Err(Error::Evaluation(failure.unwrap_or_default()));
-    }
-    let shape = section.shape(scene.fibre.e_2);
-    Ok(Outcome {
-        load,
-        increments,
-        shape,
-        shares: Some(section.shares()),
-        refined: None,
-        failure,
-        elapsed: started.elapsed(),
-    })
+/// None of its increments is reached, or the checkpoint is not this load's.
+pub fn run(
+    scene: &Scene,
+    model: &Model,
+    load: Load,
+    checkpoint: Option<&[u8]>,
+    observer: &mut (dyn Observer<OfSection> + Send),
+) -> Result<Outcome, Error> {
+    let section = Section::new(scene, model, load);
+    section.outcome(run::run(&section, checkpoint, observer)?)
 }
 
-/// The model as bodies.
-struct Section<'a> {
+/// What is measured of a section: the strain energy of the middle's fibres, and of all.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OfSection {
+    middle: f64,
+    whole: f64,
+}
+
+/// A load on a section, ready to be run.
+pub struct Section<'a> {
+    scene: &'a Scene,
     model: &'a Model,
-    solver: Solver<f64>,
+    load: Load,
+    ramp: Ramp,
+    /// The end of the settling, and of each increment.
+    stops: Vec<f64>,
+    plan: Plan,
     thickness: f64,
-    /// The energies when what overlapped at the start had come to rest.
-    settled: Energies,
 }
 
 impl<'a> Section<'a> {
-    fn new(scene: &Scene, model: &'a Model, load: Load) -> Self {
-        // As thick as the elements on the circumference are wide.
-        let thickness = std::f64::consts::PI / (8 * scene.elements) as f64;
+    pub fn new(scene: &'a Scene, model: &'a Model, load: Load) -> Self {
+        let duration = DURATION * model.size[0].max(model.size[1]);
+        let ramp = Ramp { start: SETTLING, duration, brake: [SETTLING_BRAKE, BRAKE] };
+        let increments = (1..=scene.increments).map(|number| number as f64 / scene.increments as f64);
+        let stops = increments.map(|part| ramp.start + duration * time_of(part));
+        let stops: Vec<f64> = std::iter::once(ramp.start).chain(stops).collect();
+        // The ramp is there a little before its time is over, to all digits.
+        let end = stops.last().copied().unwrap_or(ramp.start);
+        Section {
+            scene,
+            model,
+            load,
+            ramp,
+            stops,
+            plan: Plan { end, checkpoints: scene.increments, ..Plan::default() },
+            // As thick as the elements on the circumference are wide.
+            thickness: std::f64::consts::PI / (8 * scene.elements) as f64,
+        }
+    }
+
+    /// What came of the run: the first line of its history is what had settled, each other one an increment.
+    pub fn outcome(&self, run: OutcomeOf<Self>) -> Result<Outcome, Error> {
+        let Section { scene, model, load, .. } = self;
+        let settled = run.history.first().copied().unwrap_or_default();
+        let last_stretch = scene.last_stretch(*load);
+        let reached = run.history.iter().skip(1).enumerate();
+        let increments: Vec<Increment> = reached
+            .map(|(number, sample)| {
+                let part = (number + 1) as f64 / scene.increments as f64;
+                self.increment(1.0 + part * (last_stretch - 1.0), sample, &settled.energies)
+            })
+            .collect();
+        let missing = || format!("load {}: increment {} is not reached: ", load.name(), increments.len() + 1);
+        let failure = match (run.failure, run.end) {
+            (Some(failure), _) => Some(missing() + &failure),
+            (None, End::Interrupted) => Some(missing() + "interrupted"),
+            (None, _) => None,
+        };
+        let (Some(last), Some(snapshot)) =
+            (run.history.last().filter(|_| !increments.is_empty()), run.snapshots.last())
+        else {
+            return Err(Error::Evaluation(failure.unwrap_or_default()));
+        };
+        Ok(Outcome {
+            load: *load,
+            shape: shape(model, &self.meshes(), snapshot, scene.fibre.e_2),
+            shares: Some(shares(&last.energies, &settled.energies, run.cost.steps)),
+            increments,
+            refined: None,
+            failure,
+            elapsed: run.wall,
+        })
+    }
+
+    fn increment(&self, stretch: f64, sample: &Sample<OfSection>, settled: &Energies) -> Increment {
+        let Section { scene, model, load, thickness, .. } = self;
+        let over = |area: f64, energy: f64| scene.fibre.e_2 * energy / (thickness * area);
+        Increment {
+            stretch,
+            invariants: load.invariants(stretch),
+            energy: over(model.middle_area, sample.own.middle),
+            whole: over(model.area, sample.own.whole),
+            springs: 0.0,
+            work: over(model.area, sample.energies.external),
+            friction: over(model.area, sample.energies.friction - settled.friction),
+        }
+    }
+
+    /// Fibres and walls, one element thick.
+    fn layers(&self) -> impl Iterator<Item = (bool, Layer)> {
+        let Section { model, thickness, .. } = *self;
+        model.bodies.iter().enumerate().map(move |(number, part)| match number >= model.fibres {
+            true => (true, Layer::of_wall(model, part, thickness)),
+            false => (false, Layer::of_fibre(model, part, thickness)),
+        })
+    }
+
+    fn meshes(&self) -> Vec<Mesh> {
+        self.layers().map(|(_, layer)| layer.mesh).collect()
+    }
+}
+
+impl Struck for Section<'_> {
+    type Own = OfSection;
+    type Course = ();
+    const MEASURED_EVERY: Option<u64> = None;
+    const DRAWN_AT_END: bool = true;
+
+    fn name(&self) -> &str {
+        self.load.name()
+    }
+
+    fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    fn single_precision(&self) -> bool {
+        false
+    }
+
+    fn identity(&self) -> String {
+        format!("{:?} {:?}", self.load, self.scene)
+    }
+
+    fn stops(&self) -> (&[f64], f64) {
+        (&self.stops, self.ramp.duration)
+    }
+
+    fn solver<T: Number>(&self) -> Result<Solver<T>, Error> {
+        let Section { scene, model, load, .. } = *self;
         let fibre = &scene.fibre;
         let [e_1, g_23] = [fibre.e_1, fibre.g_23].map(|modulus| modulus / fibre.e_2);
         // Nothing shears along the fibres: with the modulus of that, steps would only be shorter.
@@ -85,10 +195,7 @@ impl<'a> Section<'a> {
         let (mut bodies, mut surfaces) = (Vec::new(), Vec::new());
         // Of all nodes that may touch, the smallest square of the time in which contact turns one back.
         let mut lightest = f64::INFINITY;
-        for (number, part) in model.bodies.iter().enumerate() {
-            let wall = number >= model.fibres;
-            let layer =
-                if wall { Layer::of_wall(model, part, thickness) } else { Layer::of_fibre(model, part, thickness) };
+        for (wall, layer) in self.layers() {
             // The run ends where an element fails: none is taken out of the contact.
             let elements = vec![0; layer.faces.len()];
             let mut surface = Surface::new(&layer.mesh, layer.faces, elements);
@@ -109,7 +216,7 @@ impl<'a> Section<'a> {
                     body.support(node, Support { free, velocity });
                 }
             }
-            for &node in &surface.nodes {
+            for &node in &surface.state.nodes {
                 let node = node as usize;
                 lightest = lightest.min(body.mass[node] / (STIFFNESS * surface.area[node]));
             }
@@ -121,112 +228,68 @@ impl<'a> Section<'a> {
             Parameters { stiffness: STIFFNESS, friction: scene.friction, margin: MARGIN, deepest: DEEPEST };
         solver.mutual = Some(MutualContact::new(parameters, surfaces));
         solver.longest = CONTACT_STEP * lightest.sqrt();
-        let duration = DURATION * model.size[0].max(model.size[1]);
-        solver.ramp = Some(Ramp { start: SETTLING, duration });
-        Section { model, solver, thickness, settled: Energies::default() }
+        solver.ramp = Some(self.ramp);
+        Ok(solver)
     }
 
-    /// Takes the section through the load.
-    fn load(
-        &mut self,
-        scene: &Scene,
-        load: Load,
-        increments: &mut Vec<Increment>,
-        progress: &mut dyn FnMut(f64),
-    ) -> Result<(), Error> {
-        let solver = &mut self.solver;
-        let Some(ramp) = solver.ramp else { return Ok(()) };
-        solver.brake = SETTLING_BRAKE;
-        self.advance_to(ramp.start)?;
-        self.solver.brake = BRAKE;
-        self.solver.accelerate(true, ramp.duration)?;
-        self.settled = self.solver.energies;
-        self.solver.displace();
-        let last = scene.last_stretch(load);
-        for number in 1..=scene.increments {
-            let part = number as f64 / scene.increments as f64;
-            self.advance_to(ramp.start + ramp.duration * time_of(part))?;
-            // The forces at the end of the increment, with which the next step begins.
-            self.solver.accelerate(true, ramp.duration)?;
-            increments.push(self.increment(scene, load, 1.0 + part * (last - 1.0)));
-            progress(part);
-            if number < scene.increments {
-                self.solver.displace();
-            }
-        }
-        Ok(())
-    }
-
-    fn advance_to(&mut self, time: f64) -> Result<(), Error> {
-        let solver = &mut self.solver;
-        // A step of rounding's length would be none.
-        while time - solver.time > 1e-9 * time {
-            solver.accelerate(false, time - solver.time)?;
-            if solver.bodies.iter().any(|body| !body.deleted.is_empty()) {
-                return Err(Error::Evaluation("an element has been turned inside out".to_string()));
-            }
-            solver.displace();
-        }
-        Ok(())
-    }
-
-    fn increment(&self, scene: &Scene, load: Load, stretch: f64) -> Increment {
-        let Section { model, solver, thickness, settled } = self;
+    fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample<OfSection> {
         let strain = |number: usize| {
             let body = &solver.bodies[number];
             body.internal_energy(&solver.media) + body.sums.hourglass
         };
-        let over = |area: f64, energy: f64| scene.fibre.e_2 * energy / (thickness * area);
-        Increment {
-            stretch,
-            invariants: load.invariants(stretch),
-            energy: over(model.middle_area, model.middle.iter().map(|&fibre| strain(fibre)).sum()),
-            whole: over(model.area, (0..model.fibres).map(strain).sum()),
-            springs: 0.0,
-            work: over(model.area, solver.energies.external),
-            friction: over(model.area, solver.energies.friction - settled.friction),
-        }
+        let own = OfSection {
+            middle: self.model.middle.iter().map(|&fibre| strain(fibre)).sum(),
+            whole: (0..self.model.fibres).map(strain).sum(),
+        };
+        Sample { own, ..Sample::of(solver, 1.0, start) }
     }
 
-    fn shares(&self) -> Shares {
-        let energies = self.solver.energies;
-        let settled = self.settled;
-        let (strain, work) = (energies.internal + energies.hourglass, energies.external);
-        Shares {
-            kinetic: energies.kinetic / strain,
-            hourglass: energies.hourglass / strain,
-            friction: (energies.friction - settled.friction) / work,
-            viscosity: (energies.viscosity - settled.viscosity) / work,
-            contact: energies.contact / work,
-            balance: (energies.total() - settled.total()) / work,
-            steps: self.solver.cost.steps,
+    fn follow<T: Number>(&self, solver: &Solver<T>, (): &mut ()) -> Result<(), Error> {
+        if solver.bodies.iter().any(|body| !body.state.deleted.is_empty()) {
+            return Err(Error::Evaluation("an element has been turned inside out".to_string()));
         }
+        Ok(())
     }
+}
 
-    fn shape(&self, unit: f64) -> Shape {
-        let mut shape = Shape::default();
-        for (fibre, body) in self.model.bodies[..self.model.fibres].iter().zip(&self.solver.bodies) {
-            let place = |node: u32| {
-                let [_, x, y] = body.position(node as usize);
-                [x, y]
-            };
-            let corners: Vec<[[f64; 2]; 4]> =
-                body.mesh.elements.iter().map(|element| [0, 2, 6, 4].map(|corner| place(element[corner]))).collect();
-            for (number, &corners) in corners.iter().enumerate() {
-                let (block, i) = body.element(number);
-                let stress = block.von_mises(&self.solver.media[block.medium], i).unwrap_or_default();
-                shape.patches.push((corners, unit * stress));
-            }
-            let rims = fibre.rim.iter().map(|(edge, _)| [0, 1].map(|i| corners[edge.quad][(edge.edge + i) % 4]));
-            shape.rims.extend(rims);
-        }
-        shape
+/// Where the work has gone that the walls have done since what overlapped had come to rest.
+fn shares(energies: &Energies, settled: &Energies, steps: u64) -> Shares {
+    let (strain, work) = (energies.internal + energies.hourglass, energies.external);
+    Shares {
+        kinetic: energies.kinetic / strain,
+        hourglass: energies.hourglass / strain,
+        friction: (energies.friction - settled.friction) / work,
+        viscosity: (energies.viscosity - settled.viscosity) / work,
+        contact: energies.contact / work,
+        balance: (energies.total() - settled.total()) / work,
+        steps,
     }
+}
+
+/// The fibres as they stand, with stresses that are counted in `unit`.
+fn shape(model: &Model, meshes: &[Mesh], snapshot: &Snapshot, unit: f64) -> Shape {
+    let mut shape = Shape::default();
+    let (mut nodes, mut elements) = (0, 0);
+    for (fibre, mesh) in model.bodies[..model.fibres].iter().zip(meshes) {
+        let place = |node: u32| {
+            let [_, x, y] = snapshot.positions[nodes + node as usize];
+            [x, y]
+        };
+        let corners: Vec<[[f64; 2]; 4]> =
+            mesh.elements.iter().map(|element| [0, 2, 6, 4].map(|corner| place(element[corner]))).collect();
+        for (number, &corners) in corners.iter().enumerate() {
+            shape.patches.push((corners, unit * snapshot.von_mises[elements + number]));
+        }
+        let rims = fibre.rim.iter().map(|(edge, _)| [0, 1].map(|i| corners[edge.quad][(edge.edge + i) % 4]));
+        shape.rims.extend(rims);
+        (nodes, elements) = (nodes + mesh.nodes.len(), elements + mesh.elements.len());
+    }
+    shape
 }
 
 /// When a ramp of duration 1 has gone this part of its way.
 fn time_of(part: f64) -> f64 {
-    let ramp = Ramp { start: 0.0, duration: 1.0 };
+    let ramp = Ramp { start: 0.0, duration: 1.0, brake: [0.0; 2] };
     let [mut low, mut high] = [0.0, 1.0];
     while high - low > 1e-12 {
         let middle = 0.5 * (low + high);

@@ -54,31 +54,25 @@ impl RunDirectory {
     }
 
     /// Removes what an earlier run has written for this case: histories, plots, pictures, which have `pictures` between name and
-    /// number, and the files for ParaView from the number `frames` on. Its checkpoint stays. Returns how many there were.
+    /// number, tables, which have `tables` there, and the files for ParaView from the number `frames` on. Its checkpoint stays. Returns
+    /// how many there were.
     ///
     /// # Errors
     /// The directory cannot be read, or a file not be removed.
-    pub fn remove_files_of(&self, case: &str, pictures: &str, frames: usize) -> Result<usize, Error> {
+    pub fn remove_files_of(
+        &self,
+        case: &str,
+        pictures: &str,
+        tables: Option<&str>,
+        frames: usize,
+    ) -> Result<usize, Error> {
         let mut removed = 0;
         let entries = std::fs::read_dir(&self.path).map_err(|error| file_error(&self.path, &error))?;
         for entry in entries {
             let name = entry.map_err(|error| file_error(&self.path, &error))?.file_name();
-            if let Some(name) = name.to_str().filter(|name| is_of(name, case, pictures, frames)) {
+            if let Some(name) = name.to_str().filter(|name| is_of(name, case, pictures, tables, frames)) {
                 removed += usize::from(self.remove(name)?);
             }
-        }
-        Ok(removed)
-    }
-
-    /// Removes the tables of a case that are numbered from 1 on after this.
-    ///
-    /// # Errors
-    /// A file cannot be removed.
-    pub fn remove_series(&self, case: &str, between: &str) -> Result<usize, Error> {
-        let names = (1..).map(|number| format!("{case}{between}{number}.csv"));
-        let mut removed = 0;
-        for name in names.take_while(|name| self.path.join(name).exists()) {
-            removed += usize::from(self.remove(&name)?);
         }
         Ok(removed)
     }
@@ -94,15 +88,15 @@ impl RunDirectory {
 }
 
 /// Whether a file of this name is of a case, as [`RunDirectory::remove_files_of`] has it.
-fn is_of(name: &str, case: &str, pictures: &str, frames: usize) -> bool {
+fn is_of(name: &str, case: &str, pictures: &str, tables: Option<&str>, frames: usize) -> bool {
     let Some((stem, ending)) = name.strip_prefix(case).and_then(|rest| rest.rsplit_once('.')) else { return false };
     let number =
         |text: &str| text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse::<usize>().ok()).flatten();
-    let picture = |stem: &str| stem.is_empty() || stem.strip_prefix(pictures).and_then(number).is_some();
+    let numbered = |between: &str| stem.strip_prefix(between).and_then(number).is_some();
     match ending {
-        "csv" => stem.is_empty(),
+        "csv" => stem.is_empty() || tables.is_some_and(numbered),
         "pvd" => stem.is_empty() && frames == 0,
-        "svg" | "png" => picture(stem),
+        "svg" | "png" => stem.is_empty() || numbered(pictures),
         "vtu" => stem.strip_prefix('-').and_then(number).is_some_and(|number| number >= frames),
         _ => false,
     }
@@ -135,8 +129,10 @@ mod tests {
 
     #[test]
     fn the_files_of_a_case_are_told_from_others() {
-        let of = |name: &str| is_of(name, "one", "-panel-", 2);
-        for name in ["one.csv", "one.svg", "one.png", "one-panel-3.png", "one-panel-12.svg", "one-0002.vtu"] {
+        let of = |name: &str| is_of(name, "one", "-panel-", Some("-strain-"), 2);
+        for name in
+            ["one.csv", "one.svg", "one.png", "one-panel-3.png", "one-panel-12.svg", "one-strain-2.csv", "one-0002.vtu"]
+        {
             assert!(of(name), "{name}");
         }
         for name in [
@@ -153,6 +149,7 @@ mod tests {
         ] {
             assert!(!of(name), "{name}");
         }
-        assert!(is_of("one.pvd", "one", "-panel-", 0));
+        assert!(!is_of("one-strain-2.csv", "one", "-panel-", None, 0));
+        assert!(is_of("one.pvd", "one", "-panel-", None, 0));
     }
 }

@@ -110,18 +110,18 @@ pub fn yarns_of_cases(yarns: &[(&str, String)], widest: usize) -> String {
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_csv(file: &Path, lines: &[Vec<(&'static str, String)>]) -> Result<(), Error> {
+pub fn write_csv<N: AsRef<str>>(file: &Path, lines: &[Vec<(N, String)>]) -> Result<(), Error> {
     let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
-    let mut titles: Vec<&'static str> = Vec::new();
-    for &(title, _) in lines.iter().flatten() {
-        if !titles.contains(&title) {
-            titles.push(title);
+    let mut titles: Vec<&str> = Vec::new();
+    for (title, _) in lines.iter().flatten() {
+        if !titles.contains(&title.as_ref()) {
+            titles.push(title.as_ref());
         }
     }
     let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
     writer.write_record(&titles).map_err(file_error)?;
     for line in lines {
-        let entry = |title: &&str| line.iter().find(|cell| cell.0 == *title).map_or(NONE, |cell| &cell.1);
+        let entry = |title: &&str| line.iter().find(|cell| cell.0.as_ref() == *title).map_or(NONE, |cell| &cell.1);
         writer.write_record(titles.iter().map(entry)).map_err(file_error)?;
     }
     writer.flush().map_err(|error| file_error(error.into()))

@@ -1,7 +1,7 @@
 //! What a run has to remember, as bytes: a run that goes on from them has the same bits as one that was not interrupted.
 //!
-//! Writing and reading go the same way over the same values, so that they cannot differ in order. What follows from the scene
-//! (meshes, materials, supports) is not among them.
+//! Writing and reading go the same way over the same states, so that they cannot differ in order. A state has no hand-written list of
+//! its fields: it is a structure apart from what follows from the scene (meshes, materials, supports), which is not written.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -24,15 +24,5 @@ impl Archive<'_> {
             Archive::Reads(bytes) => (*value, *bytes) = postcard::take_from_bytes(bytes)?,
         }
         Ok(())
-    }
-
-    /// As [`keep`](Self::keep) for a list of as many values as there are already.
-    ///
-    /// # Errors
-    /// As there; another number of values.
-    pub fn keep_all<V: Serialize + DeserializeOwned>(&mut self, values: &mut Vec<V>) -> Result<(), postcard::Error> {
-        let count = values.len();
-        self.keep(values)?;
-        if values.len() == count { Ok(()) } else { Err(postcard::Error::DeserializeBadEncoding) }
     }
 }

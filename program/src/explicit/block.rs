@@ -2,7 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use super::archive::Archive;
+use serde::{Deserialize, Serialize};
+
 use super::element::{Measures, Shapes};
 use super::instructions::{Loops, run_widest};
 use super::lanes::{LANES, Lanes, Number, largest};
@@ -116,15 +117,16 @@ impl<T: Number> Loops for Forces<'_, T> {
         let Forces { block, medium, scratch, options, sums, forces } = self;
         block.shapes.measure(&scratch.deformation_gradient, &mut scratch.measures);
         let StepOptions { step, shortest, .. } = options;
-        sums.viscosity += block.viscosity.advance(medium, &block.shapes, &mut scratch.measures, &block.intact, step);
+        let ElementBlock { shapes, history, .. } = &mut *block;
+        sums.viscosity += history.viscosity.advance(medium, shapes, &mut scratch.measures, &history.intact, step);
         block.bound_step(medium, scratch, shortest, sums);
         let point = Points {
             deformation_gradient: &scratch.deformation_gradient,
             stress: &scratch.stress,
-            viscosity: &block.viscosity,
+            viscosity: &block.history.viscosity,
         };
         nominal_stress(block.shapes.stride, &point, &mut scratch.nominal);
-        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.intact, forces);
+        block.shapes.forces(&scratch.nominal, &scratch.modal, &block.history.intact, forces);
     }
 }
 
@@ -135,8 +137,14 @@ pub struct ElementBlock<T> {
     /// The body's number of the first element, and the number of the medium.
     pub first: usize,
     pub medium: usize,
+    pub history: History<T>,
+}
+
+/// What a block's elements remember from step to step.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct History<T> {
     /// State variables, component-major.
-    pub state: Vec<T>,
+    state: Vec<T>,
     /// 1, or 0 once the element is deleted.
     pub intact: Vec<T>,
     viscosity: Viscosity<T>,
@@ -158,20 +166,14 @@ impl<T: Number> ElementBlock<T> {
         ElementBlock {
             first,
             medium,
-            state: vec![T::default(); of.state().0 * stride],
-            intact: vec![one; stride],
-            viscosity: Viscosity::new(&shapes),
-            f_old: shapes.at_rest(),
+            history: History {
+                state: vec![T::default(); of.state().0 * stride],
+                intact: vec![one; stride],
+                viscosity: Viscosity::new(&shapes),
+                f_old: shapes.at_rest(),
+            },
             shapes,
         }
-    }
-
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        let ElementBlock { state, intact, f_old, viscosity, .. } = self;
-        [state, intact, f_old].into_iter().try_for_each(|values| archive.keep_all(values))?;
-        viscosity.archive(archive)
     }
 
     /// From the nodes' displacements to their forces; updates the history.
@@ -197,7 +199,7 @@ impl<T: Number> ElementBlock<T> {
         run_widest(Forces { block: self, medium, scratch, options, sums, forces });
         let (latch, stride) = (medium.state().1, self.shapes.stride);
         self.delete(medium, scratch, sums, |block, _, i| {
-            block.state[latch * stride + i] != T::default() && block.is_intact(i)
+            block.history.state[latch * stride + i] != T::default() && block.is_intact(i)
         });
         let failed = sums.deleted.len();
         self.delete(medium, scratch, sums, |block, scratch, i| {
@@ -222,7 +224,7 @@ impl<T: Number> ElementBlock<T> {
             Entry::Solid(solid) => {
                 let Shapes { n, stride, .. } = self.shapes;
                 let Scratch { deformation_gradient, stress, wave_speed, status, .. } = scratch;
-                let to = solid::Block { stress, state: &mut self.state, wave_speed, status };
+                let to = solid::Block { stress, state: &mut self.history.state, wave_speed, status };
                 solid.evaluate_block(medium.density, deformation_gradient, n, stride, to);
                 status::OK
             }
@@ -241,7 +243,7 @@ impl<T: Number> ElementBlock<T> {
             n: self.shapes.n,
             leading_dimension: self.shapes.stride,
             deformation_gradient: &scratch.deformation_gradient,
-            state: &mut self.state,
+            state: &mut self.history.state,
             state_old: None,
             energies: options.law_outputs,
             failure: medium.fails,
@@ -264,14 +266,14 @@ impl<T: Number> ElementBlock<T> {
         let arrays = LinearSolverBlock {
             n: self.shapes.n,
             leading_dimension: stride,
-            f_old: &self.f_old,
+            f_old: &self.history.f_old,
             f_new: &scratch.deformation_gradient,
-            state: &mut self.state,
+            state: &mut self.history.state,
             stress: &mut scratch.stress,
             status: &mut scratch.status,
         };
         let code = linear_elastic_block(law, arrays, frame, criterion);
-        self.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
+        self.history.f_old.copy_from_slice(&scratch.deformation_gradient[..9 * stride]);
         code
     }
 
@@ -293,7 +295,7 @@ impl<T: Number> ElementBlock<T> {
         let (mut stiffest, mut most_damped, mut sum) = (hourglass, zero, zero);
         for group in 0..self.shapes.stride / LANES {
             let first = group * LANES;
-            let active = scratch.measures.active(&self.intact, first);
+            let active = scratch.measures.active(&self.history.intact, first);
             let speed = Lanes::at(&scratch.wave_speed, first);
             let spread = Lanes::at(&scratch.measures.spread, first);
             let (f, stress) = (&scratch.deformation_gradient, &scratch.stress);
@@ -329,9 +331,9 @@ impl<T: Number> ElementBlock<T> {
         let latch = medium.state().1 * self.shapes.stride;
         for i in 0..self.shapes.n {
             if selected(self, scratch, i) {
-                self.intact[i] = T::default();
-                self.state[latch + i] = T::from_f64(1.0);
-                self.viscosity.remove(i);
+                self.history.intact[i] = T::default();
+                self.history.state[latch + i] = T::from_f64(1.0);
+                self.history.viscosity.remove(i);
                 sums.released += self.shapes.hourglass_energy(i, &scratch.modal);
                 sums.deleted.push(self.first + i);
             }
@@ -339,11 +341,11 @@ impl<T: Number> ElementBlock<T> {
     }
 
     pub fn is_intact(&self, i: usize) -> bool {
-        self.intact[i] != T::default()
+        self.history.intact[i] != T::default()
     }
 
     fn variable(&self, row: usize, i: usize) -> f64 {
-        self.state[row * self.shapes.stride + i].into()
+        self.history.state[row * self.shapes.stride + i].into()
     }
 
     /// The law's Cauchy stress 11 22 33 12 23 31 of each element, without viscosity and hourglass control: evaluated again where

@@ -1,5 +1,7 @@
 //! One body: lumped masses, supports, the motion of its nodes, the forces of its elements.
 
+use serde::{Deserialize, Serialize};
+
 use super::archive::Archive;
 use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::{Number, largest};
@@ -20,15 +22,23 @@ pub struct Support {
 pub struct Body<T> {
     pub mesh: Mesh,
     pub blocks: Vec<ElementBlock<T>>,
-    pub displacement: Vec<[T; 3]>,
-    pub velocity: Vec<[T; 3]>,
+    pub state: BodyState<T>,
     pub forces: Vec<[T; 3]>,
-    /// No node has moved farther in the last step.
-    pub farthest: f64,
     /// Reciprocal mass by direction, 0 where the direction is not free.
     mobility: Vec<[T; 3]>,
     pub mass: Vec<f64>,
     supports: Vec<(usize, Support)>,
+    /// Of the last step.
+    pub sums: Sums,
+}
+
+/// What a body remembers from step to step, besides the history of its blocks.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct BodyState<T> {
+    pub displacement: Vec<[T; 3]>,
+    pub velocity: Vec<[T; 3]>,
+    /// No node has moved farther in the last step.
+    pub farthest: f64,
     /// The factor of the supports' velocities.
     speed: f64,
     /// Number of intact elements at each node.
@@ -38,8 +48,6 @@ pub struct Body<T> {
     pub collapsed: usize,
     /// Hourglass energy of deleted elements.
     pub released: f64,
-    /// Of the last step.
-    pub sums: Sums,
 }
 
 impl<T: Number> Body<T> {
@@ -48,18 +56,20 @@ impl<T: Number> Body<T> {
         let count = mesh.nodes.len();
         let mut body = Body {
             blocks: Vec::new(),
-            displacement: vec![[T::default(); 3]; count],
-            velocity: vec![[T::default(); 3]; count],
+            state: BodyState {
+                displacement: vec![[T::default(); 3]; count],
+                velocity: vec![[T::default(); 3]; count],
+                farthest: 0.0,
+                speed: 1.0,
+                intact_elements: vec![0; count],
+                deleted: Vec::new(),
+                collapsed: 0,
+                released: 0.0,
+            },
             forces: vec![[T::default(); 3]; count],
-            farthest: 0.0,
             mobility: Vec::new(),
             mass: vec![0.0; count],
             supports: Vec::new(),
-            speed: 1.0,
-            intact_elements: vec![0; count],
-            deleted: Vec::new(),
-            collapsed: 0,
-            released: 0.0,
             sums: Sums::default(),
             mesh,
         };
@@ -89,7 +99,7 @@ impl<T: Number> Body<T> {
                 let mass = media[block.medium].density * block.shapes.corner_volume(i);
                 for node in block.shapes.nodes[i] {
                     self.mass[node as usize] += mass;
-                    self.intact_elements[node as usize] += 1;
+                    self.state.intact_elements[node as usize] += 1;
                 }
             }
         }
@@ -99,22 +109,15 @@ impl<T: Number> Body<T> {
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep_all(&mut self.displacement)?;
-        archive.keep_all(&mut self.velocity)?;
-        archive.keep(&mut self.farthest)?;
-        archive.keep(&mut self.speed)?;
-        archive.keep_all(&mut self.intact_elements)?;
-        archive.keep(&mut self.deleted)?;
-        archive.keep(&mut self.collapsed)?;
-        archive.keep(&mut self.released)?;
-        self.blocks.iter_mut().try_for_each(|block| block.archive(archive))
+        archive.keep(&mut self.state)?;
+        self.blocks.iter_mut().try_for_each(|block| archive.keep(&mut block.history))
     }
 
     /// Fixes a node, or prescribes its velocity. Directions that another support holds stay held.
     pub fn support(&mut self, node: usize, support: Support) {
         for i in (0..3).filter(|&i| !support.free[i]) {
             self.mobility[node][i] = T::default();
-            self.velocity[node][i] = T::from_f64(self.speed * support.velocity[i]);
+            self.state.velocity[node][i] = T::from_f64(self.state.speed * support.velocity[i]);
         }
         if support.velocity != [0.0; 3] {
             self.supports.push((node, support));
@@ -123,10 +126,10 @@ impl<T: Number> Body<T> {
 
     /// Moves the supports at this speed.
     pub fn set_speed(&mut self, speed: f64) {
-        self.speed = speed;
+        self.state.speed = speed;
         for (node, support) in &self.supports {
             for i in (0..3).filter(|&i| !support.free[i]) {
-                self.velocity[*node][i] = T::from_f64(speed * support.velocity[i]);
+                self.state.velocity[*node][i] = T::from_f64(speed * support.velocity[i]);
             }
         }
     }
@@ -135,7 +138,7 @@ impl<T: Number> Body<T> {
     pub fn brake(&mut self, rate: f64) -> f64 {
         let mut power = 0.0;
         for (((v, f), mobility), &mass) in
-            self.velocity.iter().zip(&mut self.forces).zip(&self.mobility).zip(&self.mass)
+            self.state.velocity.iter().zip(&mut self.forces).zip(&self.mobility).zip(&self.mass)
         {
             for i in (0..3).filter(|&i| mobility[i] != T::default()) {
                 let brake = rate * mass * v[i].into();
@@ -152,7 +155,7 @@ impl<T: Number> Body<T> {
         self.sums = Sums::default();
         for block in &mut self.blocks {
             let medium = &media[block.medium];
-            block.advance(medium, &self.displacement, &mut self.forces, scratch, options, &mut self.sums);
+            block.advance(medium, &self.state.displacement, &mut self.forces, scratch, options, &mut self.sums);
         }
     }
 
@@ -161,12 +164,12 @@ impl<T: Number> Body<T> {
     pub fn release_nodes(&mut self) -> bool {
         for &element in &self.sums.deleted {
             for node in self.mesh.elements[element] {
-                self.intact_elements[node as usize] -= 1;
+                self.state.intact_elements[node as usize] -= 1;
             }
         }
-        self.released += self.sums.released;
-        self.deleted.extend(&self.sums.deleted);
-        self.collapsed += self.sums.collapsed;
+        self.state.released += self.sums.released;
+        self.state.deleted.extend(&self.sums.deleted);
+        self.state.collapsed += self.sums.collapsed;
         !self.sums.deleted.is_empty()
     }
 
@@ -176,7 +179,7 @@ impl<T: Number> Body<T> {
         for &element in elements {
             let place = self.blocks.partition_point(|block| block.first <= element) - 1;
             let first = self.blocks[place].first;
-            self.blocks[place].intact[element - first] = T::default();
+            self.blocks[place].history.intact[element - first] = T::default();
         }
         self.sums.deleted = elements.to_vec();
         self.release_nodes();
@@ -184,7 +187,7 @@ impl<T: Number> Body<T> {
 
     /// Whether no element is left at a node.
     pub fn is_loose(&self, node: usize) -> bool {
-        self.intact_elements[node] == 0
+        self.state.intact_elements[node] == 0
     }
 
     /// Velocities after this interval; returns the kinetic energy if it is to be measured.
@@ -192,7 +195,7 @@ impl<T: Number> Body<T> {
         let dt = T::from_f64(interval);
         let mut kinetic = 0.0;
         for (((v, f), mobility), &mass) in
-            self.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
+            self.state.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
         {
             let old = *v;
             for i in 0..3 {
@@ -210,7 +213,7 @@ impl<T: Number> Body<T> {
     pub fn external_power(&self) -> f64 {
         let mut power = 0.0;
         for (node, support) in &self.supports {
-            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * self.speed * support.velocity[i] };
+            let reaction = |i: usize| -> f64 { -self.forces[*node][i].into() * self.state.speed * support.velocity[i] };
             power += (0..3).filter(|&i| !support.free[i]).map(reaction).sum::<f64>();
         }
         power
@@ -220,7 +223,7 @@ impl<T: Number> Body<T> {
     pub fn displace(&mut self, step: f64) {
         let dt = T::from_f64(step);
         let mut farthest = 0.0;
-        for (u, v) in self.displacement.iter_mut().zip(&self.velocity) {
+        for (u, v) in self.state.displacement.iter_mut().zip(&self.state.velocity) {
             let mut square = 0.0;
             for i in 0..3 {
                 let before: f64 = u[i].into();
@@ -230,7 +233,7 @@ impl<T: Number> Body<T> {
             }
             farthest = largest(farthest, square);
         }
-        self.farthest = farthest.sqrt();
+        self.state.farthest = farthest.sqrt();
     }
 
     /// What the laws report.
@@ -248,7 +251,7 @@ impl<T: Number> Body<T> {
     /// The current position of a node.
     #[inline(always)]
     pub fn position(&self, node: usize) -> [f64; 3] {
-        let ([x, y, z], [u, v, w]) = (self.mesh.nodes[node], self.displacement[node]);
+        let ([x, y, z], [u, v, w]) = (self.mesh.nodes[node], self.state.displacement[node]);
         [x + u.into(), y + v.into(), z + w.into()]
     }
 
@@ -277,7 +280,7 @@ impl<T: Number> Body<T> {
     pub fn stress(&self, media: &[Medium<T>]) -> Result<Vec<[f64; 6]>, i32> {
         let mut stress = Vec::with_capacity(self.mesh.elements.len());
         for block in &self.blocks {
-            stress.extend(block.stress(&media[block.medium], &self.displacement)?);
+            stress.extend(block.stress(&media[block.medium], &self.state.displacement)?);
         }
         Ok(stress)
     }

@@ -2,17 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::archive::Archive;
 use super::friction::rub;
 use super::lanes::Number;
 use super::vector::{Vector, add, dot, times};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shape {
     /// Its axis lies along axis 2; it moves along axis 1.
     Cylinder,
-    /// It moves along axis 2.
+    /// It moves along axis 2, downwards, as do the two after it.
     Sphere,
+    /// A cylinder along axis 2 with a flat lower end. What is called its centre is one radius above that end.
+    Flat,
+    /// One whose lower end is a half of a sphere.
+    Hemisphere,
 }
 
 impl Shape {
@@ -20,13 +23,21 @@ impl Shape {
     pub fn direction(self) -> usize {
         match self {
             Shape::Cylinder => 1,
-            Shape::Sphere => 2,
+            Shape::Sphere | Shape::Flat | Shape::Hemisphere => 2,
+        }
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Shape::Sphere => "sphere",
+            Shape::Cylinder | Shape::Flat | Shape::Hemisphere => "cylinder",
         }
     }
 }
 
 /// What strikes, and the parameters of its contact. It moves along one axis, through the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rigid {
     pub shape: Shape,
     pub radius: f64,
@@ -61,7 +72,7 @@ pub struct Nodes<'a, T> {
 }
 
 /// The surface, and what the contact has done so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Contact {
     striker: Rigid,
     nodes: Vec<Node>,
@@ -93,14 +104,6 @@ impl Contact {
         Contact { striker, nodes, stored: 0.0, dissipated: 0.0, released: 0.0, clear: 0.0, frequency, touching: 0.0 }
     }
 
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.nodes)?;
-        let Contact { stored, dissipated, released, clear, touching, .. } = self;
-        [stored, dissipated, released, clear, touching].into_iter().try_for_each(|value| archive.keep(value))
-    }
-
     /// Removes the nodes that belong to no element any more; the energy balance keeps what they have stored.
     pub fn remove(&mut self, gone: impl Fn(usize) -> bool) {
         let leaving = self.nodes.iter().filter(|node| gone(node.number as usize));
@@ -116,17 +119,16 @@ impl Contact {
         if self.clear > 0.0 {
             return 0.0;
         }
-        let (mut total, mut nearest, mut held) = (0.0, f64::INFINITY, false);
+        let (mut total, mut deepest, mut held) = (0.0, f64::NEG_INFINITY, false);
         for node in &mut self.nodes {
             let number = node.number as usize;
             let ([x, y, z], [u, v, w]) = (body.reference[number], body.displacement[number]);
             let place = [x + u.into(), y + v.into(), z + w.into()];
             let [x, y, z] = body.velocity[number];
             let step = times(body.step, [x.into(), y.into(), z.into()]);
-            let from = self.striker.from(centre, place);
-            let square = dot(from, from);
-            nearest = if square < nearest { square } else { nearest };
-            let (pressing, dissipated) = node.update(&self.striker, moved, from, step);
+            let (depth, normal) = self.striker.meet(centre, place);
+            deepest = if depth > deepest { depth } else { deepest };
+            let (pressing, dissipated) = node.update(&self.striker, moved, depth, normal, step);
             self.dissipated += dissipated;
             held |= node.friction != [0.0; 3];
             let Some(pressing) = pressing else { continue };
@@ -140,44 +142,61 @@ impl Contact {
             total -= force[self.striker.shape.direction()];
         }
         // Not above 0 where a node is inside.
-        self.clear = if held { 0.0 } else { nearest.sqrt() - self.striker.radius };
+        self.clear = if held { 0.0 } else { -deepest };
         total
     }
 }
 
 impl Rigid {
-    /// From its axis or its centre, which is here, to a place.
+    /// How deep a place is in it, and the normal of its surface there; its centre is here. Outside the depth is negative, and a place is
+    /// as far from it or farther.
     #[inline(always)]
-    fn from(&self, centre: f64, place: Vector) -> Vector {
+    fn meet(&self, centre: f64, place: Vector) -> (f64, Vector) {
+        let direction = self.shape.direction();
         let mut from = place;
-        from[self.shape.direction()] -= centre;
-        if self.shape == Shape::Cylinder {
-            from[2] = 0.0;
+        from[direction] -= centre;
+        match self.shape {
+            Shape::Cylinder => from[2] = 0.0,
+            Shape::Hemisphere => from[2] = from[2].min(0.0),
+            Shape::Flat => {
+                let across = from[0].hypot(from[1]);
+                let (inside_end, inside_wall) = (from[2] + self.radius, self.radius - across);
+                if inside_end <= inside_wall || across == 0.0 {
+                    return (inside_end, [0.0, 0.0, -1.0]);
+                }
+                return (inside_wall, [from[0] / across, from[1] / across, 0.0]);
+            }
+            Shape::Sphere => {}
         }
-        from
-    }
-}
-
-impl Node {
-    /// The node is here from the striker's axis or centre, after a step like this; returns the force that presses it outwards, if
-    /// it is inside the striker, and what slipping, or letting go, has dissipated.
-    #[inline(always)]
-    fn update(&mut self, striker: &Rigid, moved: f64, from: Vector, mut step: Vector) -> (Option<Vector>, f64) {
-        let direction = striker.shape.direction();
-        step[direction] -= moved;
-        let square = dot(from, from);
-        if square >= striker.radius * striker.radius && self.friction == [0.0; 3] {
-            self.stored = 0.0;
-            return (None, 0.0);
-        }
-        let distance = square.sqrt();
+        let distance = dot(from, from).sqrt();
         // A node at the centre itself is pressed along the axis, downwards.
         let mut normal = [0.0; 3];
         normal[direction] = -1.0;
         if distance > 0.0 {
             normal = times(1.0 / distance, from);
         }
-        let depth = (striker.radius - distance).max(0.0);
+        (self.radius - distance, normal)
+    }
+}
+
+impl Node {
+    /// The node is so deep in the striker, whose surface has this normal there, after a step like this; returns the force that presses
+    /// it outwards, if it is inside, and what slipping, or letting go, has dissipated.
+    #[inline(always)]
+    fn update(
+        &mut self,
+        striker: &Rigid,
+        moved: f64,
+        depth: f64,
+        normal: Vector,
+        mut step: Vector,
+    ) -> (Option<Vector>, f64) {
+        step[striker.shape.direction()] -= moved;
+        if depth <= 0.0 && self.friction == [0.0; 3] {
+            self.stored = 0.0;
+            return (None, 0.0);
+        }
+        let depth = depth.max(0.0);
         let force = self.stiffness * depth;
         let friction = rub(self.friction, self.stiffness, step, normal, striker.friction * force);
         self.friction = friction.force;
@@ -270,6 +289,27 @@ mod tests {
         assert_close(on_sphere, -16.0);
         let (force, _) = node.step(0.0, 0.0, [0.0, 1e-3, 0.0]);
         assert!(f64::abs(force[1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {force:?}");
+    }
+
+    #[test]
+    fn a_cylinder_presses_down_under_its_end_and_out_beside_its_wall() {
+        for (shape, under, beside) in [
+            (Shape::Flat, [0.0, 0.0, -10.0], [10.0, 0.0, 0.0]),
+            // Under the end's edge the half of a sphere is 0.1 above the place; beside the wall both are alike.
+            (Shape::Hemisphere, [0.0; 3], [10.0, 0.0, 0.0]),
+        ] {
+            let force = |place: [f64; 3]| {
+                let mut node = Node::new(Rigid { shape, friction: 0.0, ..CYLINDER }, place);
+                node.step(0.0, 0.0, [0.0; 3]).0
+            };
+            let found = [force([0.8, 0.0, -0.9]), force([0.9, 0.0, 2.0])];
+            for (found, expected) in found.into_iter().flatten().zip(under.into_iter().chain(beside)) {
+                assert_close(found, expected);
+            }
+            // At the lowest point both press by the depth.
+            assert_close(force([0.0, 0.0, -0.9])[2], -10.0);
+            assert_eq!([force([0.0, 0.0, -1.1]), force([1.1, 0.0, 2.0])], [[0.0; 3]; 2]);
+        }
     }
 
     #[test]

@@ -31,6 +31,21 @@ impl Energies {
         self.hourglass + self.viscosity + self.friction + self.contact
     }
 
+    /// All of them, multiplied.
+    pub fn times(&self, factor: f64) -> Energies {
+        let Energies { projectile, kinetic, internal, hourglass, viscosity, friction, contact, external } = *self;
+        Energies {
+            projectile: factor * projectile,
+            kinetic: factor * kinetic,
+            internal: factor * internal,
+            hourglass: factor * hourglass,
+            viscosity: factor * viscosity,
+            friction: factor * friction,
+            contact: factor * contact,
+            external: factor * external,
+        }
+    }
+
     /// The conserved sum.
     pub fn total(&self) -> f64 {
         self.projectile + self.kinetic + self.internal + self.other() - self.external

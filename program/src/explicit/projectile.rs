@@ -1,14 +1,14 @@
 //! The rigid body that strikes.
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use super::archive::Archive;
-use super::body::Body;
+use super::body::{Body, BodyState};
 use super::contact::{Contact, Nodes};
 use super::lanes::Number;
 
 /// A rigid body that moves along one axis.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Projectile {
     pub mass: f64,
     /// Where its centre is on that axis, and its velocity along it.
@@ -28,19 +28,12 @@ impl Projectile {
         Projectile { mass, position, velocity, held, contacts, force: 0.0, moved: 0.0 }
     }
 
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        let Projectile { position, velocity, force, moved, contacts, .. } = self;
-        [position, velocity, force, moved].into_iter().try_for_each(|value| archive.keep(value))?;
-        contacts.iter_mut().try_for_each(|contact| contact.archive(archive))
-    }
-
     /// Adds the forces of its contact to those of the bodies, after a step of this length.
     pub fn meet<T: Number>(&mut self, bodies: &mut [Body<T>], step: f64) {
         let (position, moved) = (self.position, self.moved);
         let meet = |(contact, body): (&mut Contact, &mut Body<T>)| {
-            let Body { mesh, displacement, velocity, forces, farthest, .. } = body;
+            let Body { mesh, state, forces, .. } = body;
+            let BodyState { displacement, velocity, farthest, .. } = &*state;
             let nodes = Nodes { reference: &mesh.nodes, displacement, velocity, step, farthest: *farthest };
             contact.apply(position, moved, nodes, forces)
         };

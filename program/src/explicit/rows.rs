@@ -4,10 +4,12 @@
 
 #![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
+use serde::{Deserialize, Serialize};
+
 use super::lanes::{LANES, Lanes, Number};
 
 /// So many numbers for each element.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rows<T> {
     rows: usize,
     pub values: Vec<T>,

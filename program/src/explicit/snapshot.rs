@@ -13,6 +13,8 @@ pub struct Snapshot {
     pub intact: Vec<bool>,
     /// As [`ENERGY_NAMES`](super::medium::ENERGY_NAMES) has them.
     pub densities: Vec<[f64; 5]>,
+    /// Von Mises stress in the elements of solids.
+    pub von_mises: Vec<f64>,
     /// Height of the projectile's centre, and its radius.
     pub projectile: Option<(f64, f64)>,
 }
@@ -21,16 +23,21 @@ impl Snapshot {
     /// How the bodies stand, and a projectile of this radius.
     pub fn of<T: Number>(solver: &Solver<T>, radius: f64) -> Snapshot {
         let mut snapshot = Snapshot {
-            time: solver.time,
+            time: solver.state.time,
             positions: Vec::new(),
             intact: Vec::new(),
             densities: Vec::new(),
+            von_mises: Vec::new(),
             projectile: solver.projectile.as_ref().map(|projectile| (projectile.position, radius)),
         };
         for body in &solver.bodies {
             let elements = 0..body.mesh.elements.len();
             snapshot.positions.extend((0..body.mesh.nodes.len()).map(|node| body.position(node)));
             snapshot.intact.extend(elements.clone().map(|i| body.is_intact(i)));
+            snapshot.von_mises.extend(elements.clone().filter_map(|i| {
+                let (block, place) = body.element(i);
+                block.von_mises(&solver.media[block.medium], place)
+            }));
             snapshot.densities.extend(elements.map(|i| body.energy_densities(&solver.media, i)));
         }
         snapshot

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
 use super::block::{Scratch, StepOptions};
@@ -34,21 +35,27 @@ pub struct Solver<T> {
     pub mutual: Option<MutualContact>,
     /// How the supports move; at their own speed without.
     pub ramp: Option<Ramp>,
-    /// Free nodes are braked by this many times their momentum.
-    pub brake: f64,
     /// A step is no longer than this: contact that closes within a step has not been in the bound of its length.
     pub longest: f64,
     /// Whether the laws give energies and invariants in every step, or only where they are measured.
     pub all_outputs: bool,
+    pub state: SolverState,
+    scratch: Scratch<T>,
+}
+
+/// What a solver remembers from step to step, besides what its bodies and contacts do.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct SolverState {
     pub time: f64,
     step: f64,
     /// The first stable step.
     first_step: Option<f64>,
+    /// When the first element failed: one that was deleted by its law, and not since it had collapsed.
+    pub failed: Option<f64>,
     viscosity: f64,
     external: f64,
     pub energies: Energies,
     pub cost: Cost,
-    scratch: Scratch<T>,
 }
 
 /// Supports that start and end smoothly: after this time they have gone as far as at their own speed in 1.
@@ -56,13 +63,22 @@ pub struct Solver<T> {
 pub struct Ramp {
     pub start: f64,
     pub duration: f64,
+    /// Free nodes are braked by this many times their momentum, before the start and after it.
+    pub brake: [f64; 2],
 }
+
+/// Times closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
 
 impl Ramp {
     /// The part of the way that they have gone at a time: its speed is a cosine's arch.
     pub fn share(&self, time: f64) -> f64 {
         let part = ((time - self.start) / self.duration).clamp(0.0, 1.0);
         part - (2.0 * PI * part).sin() / (2.0 * PI)
+    }
+
+    fn brake(&self, time: f64) -> f64 {
+        self.brake[usize::from(time >= self.start * (1.0 - ROUNDING))]
     }
 }
 
@@ -82,16 +98,9 @@ impl<T: Number> Solver<T> {
             projectile: None,
             mutual: None,
             ramp: None,
-            brake: 0.0,
             longest: f64::INFINITY,
             all_outputs: true,
-            time: 0.0,
-            step: 0.0,
-            first_step: None,
-            viscosity: 0.0,
-            external: 0.0,
-            energies: Energies::default(),
-            cost: Cost::default(),
+            state: SolverState::default(),
             scratch: Scratch::default(),
         }
     }
@@ -101,12 +110,9 @@ impl<T: Number> Solver<T> {
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        let Solver { time, step, first_step, viscosity, external, cost, .. } = self;
-        [time, step, viscosity, external].into_iter().try_for_each(|value| archive.keep(value))?;
-        archive.keep(first_step)?;
-        archive.keep(cost)?;
+        archive.keep(&mut self.state)?;
+        archive.keep(&mut self.projectile)?;
         self.bodies.iter_mut().try_for_each(|body| body.archive(archive))?;
-        self.projectile.iter_mut().try_for_each(|projectile| projectile.archive(archive))?;
         self.mutual.iter_mut().try_for_each(|contact| contact.archive(archive))
     }
 
@@ -117,11 +123,11 @@ impl<T: Number> Solver<T> {
     /// The law refuses its call, or elements have collapsed so far that there is no stable step.
     pub fn accelerate(&mut self, measured: bool, left: f64) -> Result<(), Error> {
         let started = Instant::now();
-        let shortest = self.first_step.map_or(0.0, |first| COLLAPSED * first / SAFETY);
+        let shortest = self.state.first_step.map_or(0.0, |first| COLLAPSED * first / SAFETY);
         let options = StepOptions {
             law_outputs: measured || self.all_outputs,
             energy_balance: measured,
-            step: self.step,
+            step: self.state.step,
             shortest,
         };
         let bounds = self.compute_forces(options)?;
@@ -130,23 +136,24 @@ impl<T: Number> Solver<T> {
         let met = Instant::now();
         self.release_nodes();
         let stable = self.stable_step(bounds)?;
-        let before = self.step;
+        let before = self.state.step;
         // Equal steps to the end, rather than a very short last one.
-        self.step = left / (left / stable.min(self.longest)).ceil();
+        self.state.step = left / (left / stable.min(self.longest)).ceil();
         if let Some(ramp) = self.ramp {
-            let speed = (ramp.share(self.time + self.step) - ramp.share(self.time)) / self.step;
+            let speed = (ramp.share(self.state.time + self.state.step) - ramp.share(self.state.time)) / self.state.step;
             self.bodies.iter_mut().for_each(|body| body.set_speed(speed));
         }
-        if self.brake > 0.0 {
-            let power: f64 = self.bodies.iter_mut().map(|body| body.brake(self.brake)).sum();
-            self.viscosity += 0.5 * (before + self.step) * power;
+        let brake = self.ramp.map_or(0.0, |ramp| ramp.brake(self.state.time));
+        if brake > 0.0 {
+            let power: f64 = self.bodies.iter_mut().map(|body| body.brake(brake)).sum();
+            self.state.viscosity += 0.5 * (before + self.state.step) * power;
         }
-        self.update_velocities(0.5 * (before + self.step), measured);
-        self.cost.steps += 1;
-        self.cost.law += self.bodies.iter().map(|body| body.sums.law).sum();
-        self.cost.elements += computed - started;
-        self.cost.contact += met - computed;
-        self.cost.nodes += met.elapsed();
+        self.update_velocities(0.5 * (before + self.state.step), measured);
+        self.state.cost.steps += 1;
+        self.state.cost.law += self.bodies.iter().map(|body| body.sums.law).sum();
+        self.state.cost.elements += computed - started;
+        self.state.cost.contact += met - computed;
+        self.state.cost.nodes += met.elapsed();
         Ok(())
     }
 
@@ -154,10 +161,10 @@ impl<T: Number> Solver<T> {
     /// Δt ≤ 2/ω (√(1 + ξ²) − ξ) with d = 2 ξ ω.
     fn stable_step(&mut self, bounds: Bounds) -> Result<f64, Error> {
         let projectile = self.projectile.as_ref().map_or(0.0, Projectile::frequency);
-        let mutual = self.mutual.as_ref().map_or(0.0, |contact| contact.frequency);
+        let mutual = self.mutual.as_ref().map_or(0.0, |contact| contact.state.frequency);
         let (k, d) = (bounds.stiffness + projectile + mutual, bounds.damping);
         let step = SAFETY * 4.0 / (d + (d * d + 4.0 * k).sqrt());
-        let first = *self.first_step.get_or_insert(step);
+        let first = *self.state.first_step.get_or_insert(step);
         if step.is_finite() && step > SHORTEST * first {
             return Ok(step);
         }
@@ -183,7 +190,7 @@ impl<T: Number> Solver<T> {
                     status::meaning(code).unwrap_or("no known code")
                 )));
             }
-            self.viscosity += sums.viscosity;
+            self.state.viscosity += sums.viscosity;
             bounds.stiffness = largest(bounds.stiffness, sums.stiffness);
             bounds.damping = largest(bounds.damping, sums.damping);
         }
@@ -195,7 +202,7 @@ impl<T: Number> Solver<T> {
             contact.apply(&mut self.bodies);
         }
         if let Some(projectile) = &mut self.projectile {
-            projectile.meet(&mut self.bodies, self.step);
+            projectile.meet(&mut self.bodies, self.state.step);
         }
     }
 
@@ -210,6 +217,9 @@ impl<T: Number> Solver<T> {
             }
             if let Some(contact) = &mut self.mutual {
                 contact.remove(number, body);
+            }
+            if self.state.failed.is_none() && body.state.deleted.len() > body.state.collapsed {
+                self.state.failed = Some(self.state.time);
             }
         }
     }
@@ -229,12 +239,12 @@ impl<T: Number> Solver<T> {
             striking = 0.5 * projectile.mass * old * projectile.velocity;
         }
         let work = interval * self.external_power();
-        self.external += work;
+        self.state.external += work;
         if measured {
             // Half of this interval comes after the instant of the measurement.
-            let external = self.external - 0.5 * work;
+            let external = self.state.external - 0.5 * work;
             let kinetic = kinetic.iter().sum();
-            self.energies = Energies { projectile: striking, kinetic, external, ..self.other_energies() };
+            self.state.energies = Energies { projectile: striking, kinetic, external, ..self.other_energies() };
         }
     }
 
@@ -252,10 +262,11 @@ impl<T: Number> Solver<T> {
         let mutual = self.mutual.as_ref();
         Energies {
             internal: self.bodies.iter().map(|body| body.internal_energy(&self.media)).sum(),
-            hourglass: self.bodies.iter().map(|body| body.sums.hourglass + body.released).sum(),
-            friction: projectile.map_or(0.0, Projectile::dissipated) + mutual.map_or(0.0, |contact| contact.dissipated),
-            viscosity: self.viscosity,
-            contact: projectile.map_or(0.0, Projectile::stored) + mutual.map_or(0.0, |contact| contact.stored),
+            hourglass: self.bodies.iter().map(|body| body.sums.hourglass + body.state.released).sum(),
+            friction: projectile.map_or(0.0, Projectile::dissipated)
+                + mutual.map_or(0.0, |contact| contact.state.dissipated),
+            viscosity: self.state.viscosity,
+            contact: projectile.map_or(0.0, Projectile::stored) + mutual.map_or(0.0, |contact| contact.state.stored),
             ..Energies::default()
         }
     }
@@ -263,7 +274,7 @@ impl<T: Number> Solver<T> {
     /// Displacements at the end of the step.
     pub fn displace(&mut self) {
         let started = Instant::now();
-        let step = self.step;
+        let step = self.state.step;
         match &mut self.bodies[..] {
             [body] => body.displace(step),
             bodies => bodies.par_iter_mut().for_each(|body| body.displace(step)),
@@ -272,8 +283,8 @@ impl<T: Number> Solver<T> {
             projectile.moved = step * projectile.velocity;
             projectile.position += projectile.moved;
         }
-        self.time += step;
-        self.cost.nodes += started.elapsed();
+        self.state.time += step;
+        self.state.cost.nodes += started.elapsed();
     }
 }
 

@@ -13,7 +13,8 @@
 //! D̄ follows from the metric of the section, C̄: the products of F's second and third column, less their parts along the first.
 //! With half its rate the stress R̄ is conjugate that is kept here.
 
-use super::archive::Archive;
+use serde::{Deserialize, Serialize};
+
 use super::element::{Measures, Shapes};
 use super::lanes::{LANES, Lanes, Number, load};
 use super::medium::Medium;
@@ -30,7 +31,7 @@ const BREADTH: usize = LENGTH + 1;
 const ROWS: usize = BREADTH + 1;
 
 /// History of the viscosity, by element.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Viscosity<T> {
     history: Rows<T>,
 }
@@ -65,12 +66,6 @@ impl<T: Number> Viscosity<T> {
             history.set(BREADTH, i, T::from_f64((shapes.volume(i) / shapes.length(i)).sqrt()));
         }
         Viscosity { history }
-    }
-
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep_all(&mut self.history.values)
     }
 
     /// A deleted element resists nothing.

@@ -50,8 +50,8 @@ pub fn unstructured_grid<T: Number>(solver: &Solver<T>) -> Result<String, Error>
         let values = bodies.iter().flat_map(of).map(|value| value.map(Into::into));
         vectors(&mut point_data, name, values);
     };
-    nodal("displacement", |body| &body.displacement);
-    nodal("velocity", |body| &body.velocity);
+    nodal("displacement", |body| &body.state.displacement);
+    nodal("velocity", |body| &body.state.velocity);
     let mut scalar = |name: &str, of: &dyn Fn(&Cell) -> f64| {
         array(&mut cell_data, name, "Float32", 1, cells.iter().map(|cell| of(cell) as f32));
     };

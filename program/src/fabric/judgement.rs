@@ -12,6 +12,7 @@ use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
 use crate::weave::figures::Figures as WeaveFigures;
+use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::report::areal_density_warning;
 use toron::host::units::UnitSystem;
@@ -54,9 +55,9 @@ impl Measures {
         Measures {
             hourglass: share(most(|sample| sample.energies.hourglass), internal),
             shear: share(most(|sample| sample.parts[3]), most(|sample| sample.parts.iter().sum())),
-            least_scaled_jacobian: samples().map(|sample| sample.least_scaled_jacobian).fold(1.0, smallest),
+            least_scaled_jacobian: samples().map(|sample| sample.own.least_scaled_jacobian).fold(1.0, smallest),
             contact: share(most(|sample| sample.energies.contact), start),
-            ahead: most(|sample| sample.travel - sample.deflection),
+            ahead: most(|sample| sample.travel - sample.own.deflection),
             collapsed: samples().map(|sample| sample.collapsed).max().unwrap_or(0),
             travel: most(|sample| sample.travel),
         }
@@ -65,10 +66,13 @@ impl Measures {
 
 /// What is wrong before the first step.
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
-    let mut findings = judgement::units(case.zones.materials(), units);
-    let density = case.zones.inner().density.unwrap_or_default();
-    let by_area = WeaveFigures::of(panel, &case.woven.geometry).volume_by_area;
-    let areal_density = areal_density_warning(by_area, density, units);
+    let mut findings: Vec<Finding> =
+        case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
+    let figures = WeaveFigures::of(panel, &case.woven.geometry);
+    let density = |family: Family| case.material(family).density.unwrap_or_default();
+    let mass: f64 = Family::BOTH.map(|family| figures.volumes_by_area[family as usize] * density(family)).iter().sum();
+    let volume = figures.volume_by_area();
+    let areal_density = areal_density_warning(volume, mass / volume, units);
     findings.extend(areal_density.map(|text| Finding::new("units", text)));
     findings.extend(coarse(units, case, panel));
     findings
@@ -145,8 +149,7 @@ fn transient(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Fin
 fn shear(case: &Case, measures: &Measures) -> Option<Finding> {
     let exceeds = measures.shear.is_nan() || measures.shear > LARGEST_SHEAR;
     exceeds.then(|| {
-        let k_ld =
-            case.zones.materials().iter().filter_map(|material| material.longitudinal_shear()).fold(0.0, largest);
+        let k_ld = case.materials().filter_map(|material| material.longitudinal_shear()).fold(0.0, largest);
         let text = format!(
             "W_ld of longitudinal shear is {:.0} % of what the laws store, more than {:.0} %:\n\
              take a finer mesh, or another k_ld than {}",
@@ -223,7 +226,7 @@ mod tests {
         let text = format!(
             "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
              [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
-             [scene]\nspeed = 1.0\nmass = 1.0\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
+             [scene]\nspeed = 1.0\nstriker-density = 7.8e-3\nradius = {radius}\ncontact-stiffness = 1e5\nend = 1.0\n\
              hyperelastic.density = {density}\n"
         );
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
@@ -238,6 +241,7 @@ mod tests {
             history: Vec::new(),
             snapshots: Vec::new(),
             end: End::Time,
+            course: (),
             failed: None,
             failure: None,
             elements: 1,

@@ -5,32 +5,19 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::explicit::body::Body;
-use crate::explicit::energies::Energies;
 use crate::explicit::hexahedron::Edges;
 use crate::explicit::lanes::{Number, largest, smallest};
-use crate::explicit::medium::Medium;
 use crate::explicit::solver::Solver;
+use crate::struck;
 use crate::weave::model::{Model, Yarn};
 
-/// The state at an instant. Energies are those of the whole panel.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub struct Sample {
-    pub time: f64,
-    /// Of the sphere, in the direction of the blow; how far it has come; the force that holds it up.
-    pub speed: f64,
-    pub travel: f64,
-    pub force: f64,
+/// What a sample of a panel has besides the quantities of all scenes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct OfPanel {
     /// The farthest that a node has gone in the direction of the blow, in yarns that are not torn.
     pub deflection: f64,
     /// Along a yarn through the centre.
     pub front: f64,
-    pub energies: Energies,
-    /// The panel's energy by mode, and the largest densities in intact elements.
-    pub parts: [f64; 5],
-    pub largest: [f64; 5],
-    pub index: f64,
-    pub deleted: usize,
-    pub collapsed: usize,
     /// The smallest intact element: its volume over that at rest. And the most distorted corner of one, by its scaled Jacobian.
     pub least_volume_ratio: f64,
     pub least_scaled_jacobian: f64,
@@ -42,61 +29,43 @@ pub struct Sample {
     pub slip: f64,
 }
 
-/// Measures all.
-///
-/// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when yarns are
-/// stretched straight before it comes.
-pub fn measure<T: Number>(panel: &Model, solver: &Solver<T>, share: f64, start: f64, threshold: f64) -> Sample {
-    let whole = 1.0 / share;
-    // Collected, since the order of a parallel sum is not always the same.
-    let yarns: Vec<Sample> = panel
-        .yarns
-        .par_iter()
-        .zip(&solver.bodies)
-        .map(|(yarn, body)| Sample::of_yarn(yarn, body, &solver.media, whole))
-        .collect();
-    let mut sample = yarns.iter().fold(Sample::at_rest(), Sample::with);
-    sample.time = solver.time;
-    if let Some(sphere) = &solver.projectile {
-        sample.speed = -sphere.velocity;
-        sample.travel = start - sphere.position;
-        sample.force = sphere.force * whole;
+pub type Sample = struck::sample::Sample<OfPanel>;
+
+/// At rest.
+impl Default for OfPanel {
+    fn default() -> OfPanel {
+        let (least_volume_ratio, least_scaled_jacobian) = (1.0, 1.0);
+        OfPanel {
+            deflection: 0.0,
+            front: 0.0,
+            least_volume_ratio,
+            least_scaled_jacobian,
+            torn: 0,
+            tilt: 0.0,
+            slip: 0.0,
+        }
     }
-    sample.energies = times(whole, &solver.energies);
-    sample.front = front(panel, solver, threshold);
-    sample
 }
 
-impl Sample {
-    fn at_rest() -> Sample {
-        Sample { least_volume_ratio: 1.0, least_scaled_jacobian: 1.0, ..Sample::default() }
+impl OfPanel {
+    /// Measures all.
+    ///
+    /// The front of the transverse wave is where the panel has come down by `threshold`, more than crimp gives when yarns are
+    /// stretched straight before it comes.
+    pub fn of<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> OfPanel {
+        let yarns: Vec<OfPanel> =
+            panel.yarns.par_iter().zip(&solver.bodies).map(|(yarn, body)| OfPanel::of_yarn(yarn, body)).collect();
+        OfPanel { front: front(panel, solver, threshold), ..yarns.iter().fold(OfPanel::default(), OfPanel::with) }
     }
 
     /// A yarn's part of what is summed, and its largest and smallest values.
-    fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>, media: &[Medium<T>], whole: f64) -> Sample {
+    fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>) -> OfPanel {
         let torn = is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i));
-        let mut sample = Sample {
-            deleted: body.deleted.len(),
-            collapsed: body.collapsed,
-            torn: usize::from(torn),
-            ..Sample::at_rest()
-        };
-        for i in 0..body.mesh.elements.len() {
-            let densities = body.energy_densities(media, i);
-            let volume = whole * body.volume(i);
-            for (part, density) in sample.parts.iter_mut().zip(densities) {
-                *part += density * volume;
-            }
-            if !body.is_intact(i) {
-                continue;
-            }
-            for (most, density) in sample.largest.iter_mut().zip(densities) {
-                *most = largest(*most, density);
-            }
-            sample.index = largest(sample.index, body.failure_index(media, i));
+        let mut sample = OfPanel { torn: usize::from(torn), ..OfPanel::default() };
+        for i in (0..body.mesh.elements.len()).filter(|&i| body.is_intact(i)) {
             let nodes = body.mesh.elements[i].map(|node| node as usize);
             for node in nodes.into_iter().filter(|_| !torn) {
-                sample.deflection = largest(sample.deflection, -body.displacement[node][2].into());
+                sample.deflection = largest(sample.deflection, -body.state.displacement[node][2].into());
             }
             let (mut at_rest, mut now) = ([[0.0; 3]; 8], [[0.0; 3]; 8]);
             for corner in 0..8 {
@@ -127,38 +96,16 @@ impl Sample {
     }
 
     /// With what another yarn has.
-    fn with(self, other: &Sample) -> Sample {
-        let both = |of: fn(&Sample) -> [f64; 5], join: fn(f64, f64) -> f64| {
-            std::array::from_fn(|mode| join(of(&self)[mode], of(other)[mode]))
-        };
-        Sample {
-            parts: both(|sample| sample.parts, |a, b| a + b),
-            largest: both(|sample| sample.largest, largest),
-            index: largest(self.index, other.index),
+    fn with(self, other: &OfPanel) -> OfPanel {
+        OfPanel {
             deflection: largest(self.deflection, other.deflection),
-            deleted: self.deleted + other.deleted,
-            collapsed: self.collapsed + other.collapsed,
-            torn: self.torn + other.torn,
+            front: largest(self.front, other.front),
             least_volume_ratio: smallest(self.least_volume_ratio, other.least_volume_ratio),
             least_scaled_jacobian: smallest(self.least_scaled_jacobian, other.least_scaled_jacobian),
+            torn: self.torn + other.torn,
             tilt: largest(self.tilt, other.tilt),
             slip: largest(self.slip, other.slip),
-            ..self
         }
-    }
-}
-
-fn times(factor: f64, energies: &Energies) -> Energies {
-    let Energies { projectile, kinetic, internal, hourglass, viscosity, friction, contact, external } = *energies;
-    Energies {
-        projectile: factor * projectile,
-        kinetic: factor * kinetic,
-        internal: factor * internal,
-        hourglass: factor * hourglass,
-        viscosity: factor * viscosity,
-        friction: factor * friction,
-        contact: factor * contact,
-        external: factor * external,
     }
 }
 
@@ -177,7 +124,7 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
             continue;
         }
         for (node, [x, y, _]) in body.mesh.nodes.iter().enumerate() {
-            if -body.displacement[node][2].into() > threshold {
+            if -body.state.displacement[node][2].into() > threshold {
                 farthest = farthest.max(x.hypot(*y));
             }
         }

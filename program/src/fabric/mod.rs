@@ -6,7 +6,6 @@ pub mod file;
 pub mod judgement;
 pub mod measure;
 pub mod model;
-pub mod output;
 pub mod panel_picture;
 pub mod plot;
 pub mod reader;

@@ -6,7 +6,7 @@ use super::scene::{Case, Zones};
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
-use crate::explicit::contact::Contact;
+use crate::explicit::contact::{Contact, Rigid, Shape};
 use crate::explicit::lanes::Number;
 use crate::explicit::medium::Medium;
 use crate::explicit::mesh::Mesh;
@@ -21,10 +21,9 @@ use crate::weave::panel::Part;
 ///
 /// # Errors
 /// A material that the host cannot use, a sphere under which there is nothing, a hybrid panel that has elements of one law alone.
-pub fn check(case: &Case) -> Result<(), Error> {
-    let panel = case.woven.model();
+pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
     media::<f64>(case)?;
-    start(case, &panel)?;
+    start(case, panel)?;
     let Zones::Two(_, radius) = case.zones else { return Ok(()) };
     let outside = |element: &&[u32; 8]| zone(&case.zones, element.map(|node| panel.nodes[node as usize])) > 0;
     let outside = panel.elements.iter().filter(outside).count();
@@ -39,16 +38,17 @@ pub fn check(case: &Case) -> Result<(), Error> {
 /// The media of a case's zones.
 fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
     let medium = |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
-    case.zones.materials().iter().map(medium).collect()
+    case.materials().map(medium).collect()
 }
 
 /// The height at which the sphere touches the panel.
 pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
-    let start = first_touch(panel, case.sphere.radius);
+    let start = first_touch(panel, &case.sphere);
     if !start.is_finite() {
         let radius = number(case.sphere.radius);
         let allowed = "allowed: one under which some node of the panel lies";
-        return Err(Error::Input(format!("the sphere's radius is {radius} in case {}; {allowed}", case.name)));
+        let name = case.sphere.shape.name();
+        return Err(Error::Input(format!("the {name}'s radius is {radius} in case {}; {allowed}", case.name)));
     }
     Ok(start)
 }
@@ -68,7 +68,9 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let surface = Surface::new(&mesh, local, elements);
         mesh.surface = struck_surface(&mesh, &surface.area);
         let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
-        let zones: Vec<usize> = mesh.elements.iter().map(|element| zone(&case.zones, corners(element))).collect();
+        let own = case.own_material(yarn.family);
+        let medium = |element| own.unwrap_or_else(|| zone(&case.zones, corners(element)));
+        let zones: Vec<usize> = mesh.elements.iter().map(medium).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);
         contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
         surfaces.push(surface);
@@ -141,11 +143,16 @@ fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
     }
 }
 
-/// The height of a sphere's centre at which it touches the panel from above.
-fn first_touch(panel: &Model, radius: f64) -> f64 {
+/// The height of a striker's centre at which it touches the panel from above.
+fn first_touch(panel: &Model, striker: &Rigid) -> f64 {
+    let radius = striker.radius;
     let height = |[x, y, z]: [f64; 3]| {
         let under = radius * radius - x * x - y * y;
-        if under > 0.0 { z + under.sqrt() } else { f64::NEG_INFINITY }
+        match striker.shape {
+            _ if under <= 0.0 => f64::NEG_INFINITY,
+            Shape::Flat => z + radius,
+            _ => z + under.sqrt(),
+        }
     };
     panel.nodes.iter().map(|&node| height(node)).fold(f64::NEG_INFINITY, f64::max)
 }

@@ -1,5 +1,6 @@
 //! The struck panel, shaded and coloured by its energies: cut through the blow, from below, and the blow itself.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
 use plotters::prelude::*;
@@ -7,6 +8,7 @@ use plotters::prelude::*;
 use super::scene::{Case, Scene, Zones};
 use crate::common::error::Error;
 use crate::common::units::{number, time, unit};
+use crate::explicit::contact::Shape;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::model::Law;
 use crate::picture::colour_scale::{Colours, Scale};
@@ -141,7 +143,7 @@ impl<'a> Drawing<'a> {
             // The whole sphere is shown where it is small beside the panel.
             let top = if reach == blow || size < LEAST_RADII * case.sphere.radius { SPHERE_SHOWN } else { 2.0 };
             let sphere = snapshot.projectile.filter(|_| cut);
-            let sphere = sphere.map_or(Vec::new(), |(height, radius)| half_sphere(height, radius, top));
+            let sphere = sphere.map_or(Vec::new(), |(height, radius)| half_of(case.sphere.shape, height, radius, top));
             let (scale, most) = scale(mode, modes[mode], snapshot, &shown, unit);
             let name = if most > scale.largest {
                 format!("{name}; the largest is {}", number(most))
@@ -290,26 +292,39 @@ fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, mode
     if reach > NEARLY_WHOLE * size { f64::INFINITY } else { reach }
 }
 
-/// The half of a sphere at y ≥ 0 and the plane that cuts it, up to this part of its radius over the lowest point.
-fn half_sphere(height: f64, radius: f64, top: f64) -> Vec<Face> {
+/// The half of what strikes at y ≥ 0 and the plane that cuts it, up to so many radii over the lowest point.
+fn half_of(shape: Shape, height: f64, radius: f64, top: f64) -> Vec<Face> {
     const STEPS: usize = 90;
-    let end = (1.0 - top).clamp(-1.0, 1.0).acos();
-    // From the lowest point upwards, and around z from the cut's right to its left.
-    let polar = |i: f64| end * i / STEPS as f64;
-    let around = |j: f64| std::f64::consts::PI * j / STEPS as f64;
-    let normal = |i: f64, j: f64| {
-        let ((s, c), (sin, cos)) = (polar(i).sin_cos(), around(j).sin_cos());
-        [s * cos, s * sin, -c]
+    // From the lowest point upwards, and around z from the cut's right to its left: the distance from the axis and the height over the
+    // centre, in radii, and the normal.
+    let outline = |i: f64| {
+        let part = i / STEPS as f64;
+        let [below, above] = [2.0 * part, 2.0 * part - 1.0];
+        let round = |end: f64, part: f64| {
+            let (s, c) = (end * part).sin_cos();
+            ([s, -c], [s, -c])
+        };
+        match shape {
+            Shape::Flat if below < 1.0 => ([below, -1.0], [0.0, -1.0]),
+            Shape::Flat => ([1.0, -1.0 + top * above], [1.0, 0.0]),
+            Shape::Hemisphere if top > 1.0 && below < 1.0 => round(0.5 * PI, below),
+            Shape::Hemisphere if top > 1.0 => ([1.0, (top - 1.0) * above], [1.0, 0.0]),
+            _ => round((1.0 - top).clamp(-1.0, 1.0).acos(), part),
+        }
+    };
+    let turned = |[across, up]: [f64; 2], j: f64| {
+        let (sin, cos) = (PI * j / STEPS as f64).sin_cos();
+        [across * cos, across * sin, up]
     };
     let point = |i: usize, j: usize| {
-        let [x, y, z] = normal(i as f64, j as f64);
+        let [x, y, z] = turned(outline(i as f64).0, j as f64);
         [radius * x, radius * y, height + radius * z]
     };
     let mut faces = Vec::new();
     for i in 0..STEPS {
         for j in 0..STEPS {
             let corners = [point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
-            faces.push((corners, normal(i as f64 + 0.5, j as f64 + 0.5)));
+            faces.push((corners, turned(outline(i as f64 + 0.5).1, j as f64 + 0.5)));
         }
         faces.push(([point(i, 0), point(i + 1, 0), point(i + 1, STEPS), point(i, STEPS)], [0.0, -1.0, 0.0]));
     }

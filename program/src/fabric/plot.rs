@@ -52,10 +52,10 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
         line(2, "viscosity", &|s| s.energies.viscosity),
         line(3, "contact", &|s| s.energies.contact),
     ];
-    let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.deflection)];
+    let deflections = vec![line(1, "way of the sphere", &|s| s.travel), line(0, "panel", &|s| s.own.deflection)];
     let worst = vec![
-        line(0, "least volume over that at rest", &|s| s.least_volume_ratio),
-        line(1, "least scaled Jacobian", &|s| s.least_scaled_jacobian),
+        line(0, "least volume over that at rest", &|s| s.own.least_volume_ratio),
+        line(1, "least scaled Jacobian", &|s| s.own.least_scaled_jacobian),
     ];
     let by_mode = |of: fn(&Sample) -> [f64; 5]| -> Vec<Series> {
         (0..MODES.len()).map(|mode| line(mode, MODES[mode], &|s| of(s)[mode])).collect()
@@ -67,13 +67,13 @@ fn panels(scene: &Scene, outcome: &Outcome) -> [Panel; 11] {
         panel("All other energies", ENERGY, others),
         panel("Internal energy", ENERGY, by_mode(|s| s.parts)),
         panel("Largest energy per reference volume", ENERGY_DENSITY, by_mode(|s| s.largest)),
-        panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.front)]),
+        panel("Front of the transverse wave", LENGTH, vec![line(0, "from the centre", &|s| s.own.front)]),
         panel("Force on the sphere", FORCE, vec![line(0, "force", &|s| s.force)]),
         Panel {
             unit: "°".to_string(),
-            ..panel("Largest tilt of a section", LENGTH, vec![line(0, "tilt", &|s| s.tilt)])
+            ..panel("Largest tilt of a section", LENGTH, vec![line(0, "tilt", &|s| s.own.tilt)])
         },
-        panel("Largest slip of a section's middle", LENGTH, vec![line(0, "slip", &|s| s.slip)]),
+        panel("Largest slip of a section's middle", LENGTH, vec![line(0, "slip", &|s| s.own.slip)]),
         Panel { unit: "-".to_string(), ..panel("Worst elements", LENGTH, worst) },
     ]
 }

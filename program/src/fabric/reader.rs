@@ -1,27 +1,29 @@
 //! A scene from its TOML file. The format is described in `docs/guides/fabric.md`.
 
-use std::ops::Range;
+use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
 use toml::Spanned;
 
-use super::file::{CaseFile, Rim, SceneFile, Until};
-use super::scene::{Case, Scene, Zones};
+use super::file::{CaseFile, Rim, SceneFile, ShapeName};
+use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source, same_files};
+use crate::common::toml_file::{self, Source};
+use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
-use crate::impact::scene::Precision;
-use crate::material::file::MaterialFile;
 use crate::material::model::Material;
-use crate::material::of_law::{Choice, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn};
+use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
+use crate::struck::keys::{self, Reader};
+use crate::weave::file::{ThreadFile, WeaveFile};
 use crate::weave::reader::Woven;
-use toron::host::units::UnitSystem;
+use toron::law::parameters::DENSITY;
 
-/// Files for ParaView are numbered by four digits.
-const MOST_FILES: i64 = 9999;
+/// Between a case's name and the number of a picture.
+pub const PICTURES: &str = "-panel-";
 /// Samples of a history where the file does not say otherwise.
 const SAMPLES: f64 = 400.0;
 /// Friction of the sphere and of the yarns, where the file gives none: the thesis's.
@@ -29,6 +31,8 @@ const FRICTION: [f64; 2] = [0.23, 0.18];
 /// Over a yarn's height: how near nodes are to faces that are looked at in every step, and how deep they may be.
 const MARGIN: f64 = 0.8;
 const DEEPEST: f64 = 0.5;
+/// What solids have in kg/m³: balsa from 100, osmium 22 600.
+const DENSITIES: RangeInclusive<f64> = 100.0..=23e3;
 
 impl Scene {
     /// Reads the file.
@@ -49,96 +53,47 @@ impl Scene {
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
         let woven = Arc::new(source.woven(&file.weave, &units)?);
-        let base = file.scene.get_ref();
-        if let Some(weave) = &base.weave {
+        if let Some(weave) = &file.scene.get_ref().weave {
             return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
         }
-        if let Some(name) = &base.name {
-            return Err(source.error(name.span(), "name in [scene]; allowed: in a [[case]]"));
-        }
-        let tables: Vec<CaseFile> = file.case.iter().map(|case| case.get_ref().over(base)).collect();
-        let materials = std::iter::once(base).chain(&tables).flat_map(CaseFile::materials);
-        let own_yarn = own_yarn(materials);
-        let own_yarn = own_yarn.as_deref();
-        let mut cases = Vec::new();
-        if file.case.is_empty() {
-            source.refuse_unused(base.unused(&[base]))?;
-            let span = file.scene.span();
-            let reader =
-                Reader { source: &source, units: &units, woven: woven.clone(), file: base, own: base, own_yarn, span };
-            cases.push(reader.case("scene".to_string())?);
-        } else {
-            source.refuse_unused(base.unused(&tables.iter().collect::<Vec<_>>()))?;
-        }
-        for (case, table) in file.case.iter().zip(&tables) {
-            let (own, span) = (case.get_ref(), case.span());
-            let taken = |text: &str| {
-                text == "summary" || cases.iter().any(|other: &Case| same_files(&other.name, text, "-panel-"))
-            };
-            let name = source.name_of_case(own.name.as_ref(), span.clone(), taken)?;
-            source.refuse_unused(own.unused(&[table]))?;
-            let woven = match &own.weave {
-                Some(weave) => Arc::new(source.woven_of_case(weave, file.weave.get_ref(), &units)?),
-                None => woven.clone(),
-            };
-            let reader = Reader { source: &source, units: &units, woven, file: table, own, own_yarn, span };
-            cases.push(reader.case(name)?);
-        }
+        let cases = keys::cases(
+            (&source, &units),
+            (&file.scene, &file.case),
+            (&["summary"], PICTURES),
+            CaseFile::unused,
+            |reader, [file_of_case, _], name| {
+                let weave = file.weave.get_ref();
+                let (woven, weave) = match &file_of_case.weave {
+                    Some(own) => (Arc::new(source.woven_of_case(own, weave, &units)?), own.get_ref().over(weave)),
+                    None => (woven.clone(), weave.clone()),
+                };
+                reader.panel_case(file_of_case, &weave, woven, name)
+            },
+        )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
 }
 
-/// A case's table and what is needed to read it.
-struct Reader<'a> {
-    source: &'a Source<'a>,
-    units: &'a UnitSystem,
-    woven: Arc<Woven>,
-    file: &'a CaseFile,
-    /// The case's own table, without the scene's.
-    own: &'a CaseFile,
-    /// A yarn that some table of the scene names, other than the default ones.
-    own_yarn: Option<&'a str>,
-    /// The place that errors name for keys that are missing.
-    span: Range<usize>,
-}
-
 impl Reader<'_> {
-    fn positive(&self, key: &str, value: &Option<Spanned<f64>>) -> Result<f64, Error> {
-        match value {
-            Some(value) => self.source.positive(key, *value.get_ref(), value.span()),
-            None => {
-                let message = format!("{key} is missing; allowed: a finite number > 0");
-                Err(self.source.error(self.span.clone(), &message))
-            }
-        }
-    }
-
-    fn case(&self, name: String) -> Result<Case, Error> {
-        let file = self.file;
-        let end = self.positive("end", &file.end)?;
-        let sample = if file.sample.is_some() { self.positive("sample", &file.sample)? } else { end / SAMPLES };
-        if let Some(given) = file.sample.as_ref().filter(|given| *given.get_ref() > end) {
-            let message = format!("sample is {sample}; allowed: a number > 0, up to end = {end}");
-            return Err(self.source.error(given.span(), &message));
-        }
-        let stiffness = self.positive("contact-stiffness", &file.contact_stiffness)?;
-        let height = self.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
+        let keys = self.keys;
+        let plan = self.plan(&name, SAMPLES)?;
+        let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
+        let height = woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
         let [friction, of_yarns] = FRICTION;
-        let zones = self.zones()?;
-        let speed = self.positive("speed", &file.speed)?;
-        let place = file.speed.as_ref().map_or(self.span.clone(), Spanned::span);
-        let speed = self.source.strike_speed(speed, place, zones.inner(), self.units)?;
+        let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            woven: self.woven.clone(),
+            woven,
+            speed: self.speed(zones.inner())?,
             zones,
+            threads: [self.thread_material(&weave.warp)?, self.thread_material(&weave.weft)?],
             sphere: Rigid {
-                shape: Shape::Sphere,
-                radius: self.positive("radius", &file.radius)?,
+                shape: shape(file),
+                radius: self.positive("radius", &keys.radius)?,
                 stiffness,
-                friction: self.source.zero_or_more("friction", &file.friction, friction)?,
+                friction: self.source.zero_or_more("friction", &keys.friction, friction)?,
             },
-            mass: self.positive("mass", &file.mass)?,
-            speed,
+            mass: self.mass(file)?,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
                 stiffness,
@@ -146,57 +101,82 @@ impl Reader<'_> {
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
             },
-            control: Control { by_direction: true, ..self.source.control(&file.hourglass, &file.viscosity)? },
-            end,
-            rebounds: file.until == Some(Until::End),
-            sample,
-            pictures: self.source.pictures(&file.pictures, &name, end)?,
-            frames: self.number("frames", &file.frames)?,
-            checkpoints: self.number("checkpoints", &file.checkpoints)?,
-            single_precision: file.precision == Some(Precision::F32),
+            control: Control { by_direction: true, ..self.control()? },
+            plan,
+            single_precision: keys.is_single_precision(),
             name,
         })
     }
 
-    /// How many files a case writes on its way.
-    fn number(&self, name: &str, given: &Option<Spanned<i64>>) -> Result<usize, Error> {
-        let Some(given) = given else { return Ok(0) };
-        let number = *given.get_ref();
-        if !(0..=MOST_FILES).contains(&number) {
-            let message = format!("{name} is {number}; allowed: a whole number from 0 to {MOST_FILES}");
-            return Err(self.source.error(given.span(), &message));
-        }
-        Ok(number as usize)
+    /// What the yarns of a family are made of, if their table says it: a material of the case's law.
+    fn thread_material(&self, table: &Option<Spanned<ThreadFile>>) -> Result<Option<Box<Material>>, Error> {
+        let Some(file) = table.as_ref().and_then(|table| table.get_ref().material.as_ref()) else { return Ok(None) };
+        let law = match self.keys.law() {
+            LawName::Hyperelastic => HYPERELASTIC,
+            LawName::LinearElastic => LINEAR_ELASTIC,
+            LawName::Hybrid => {
+                let message =
+                    "material of a family of yarns with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+                return Err(self.source.error(file.span(), message));
+            }
+        };
+        self.material(law, &Some(file.clone())).map(|material| Some(Box::new(material)))
     }
 
-    fn zones(&self) -> Result<Zones, Error> {
-        let file = self.file;
-        let hyperelastic = || self.material(HYPERELASTIC, &file.hyperelastic);
-        let linear = || self.material(LINEAR_ELASTIC, &file.linear_elastic);
-        Ok(match file.law() {
-            LawName::Hyperelastic => Zones::One(Box::new(hyperelastic()?)),
-            LawName::LinearElastic => Zones::One(Box::new(linear()?)),
-            LawName::Hybrid => {
-                let radius = self.positive("hyperelastic-radius", &file.hyperelastic_radius)?;
-                Zones::Two(Box::new([hyperelastic()?, linear()?]), radius)
+    /// The mass of what strikes: the file's, which must be one that its volume can have, or its volume's.
+    fn mass(&self, file: &CaseFile) -> Result<f64, Error> {
+        let keys = self.keys;
+        let volume = self.volume(file)?;
+        if keys.mass.is_none() && file.striker_density.is_some() {
+            let density = self.positive("striker-density", &file.striker_density)?;
+            let wanted = "mass is missing; allowed: a finite number > 0, or length beside striker-density";
+            return volume.map(|volume| density * volume).ok_or_else(|| self.source.error(self.span.clone(), wanted));
+        }
+        let mass = self.positive("mass", &keys.mass)?;
+        let (Some(given), Some(volume)) = (&keys.mass, volume) else { return Ok(mass) };
+        let density = mass / volume / self.units.from_si(1.0, DENSITY);
+        if DENSITIES.contains(&density) {
+            return Ok(mass);
+        }
+        let (radius, name, units) = (
+            number(keys.radius.as_ref().map_or(0.0, |radius| *radius.get_ref())),
+            shape(file).name(),
+            self.units.names().join("-"),
+        );
+        let [least, most] = [DENSITIES.start(), DENSITIES.end()]
+            .map(|density| number(density * volume * self.units.from_si(1.0, DENSITY)));
+        let message = format!(
+            "mass is {mass}, of a {name} with radius {radius}: {} kg/m³; allowed: {least} to {most}, of {} to {} kg/m³;\n\
+             mass or a length is most likely not in the units of the file, {units}",
+            number(density),
+            DENSITIES.start(),
+            DENSITIES.end(),
+        );
+        Err(self.source.error(given.span(), &message))
+    }
+
+    /// The volume of what strikes; none of a cylinder whose length is not given.
+    fn volume(&self, file: &CaseFile) -> Result<Option<f64>, Error> {
+        let radius = self.positive("radius", &self.keys.radius)?;
+        let length = file.length.as_ref().map(|_| self.positive("length", &file.length)).transpose()?;
+        let (section, half_sphere) = (PI * radius * radius, 2.0 / 3.0 * PI * radius.powi(3));
+        Ok(match (file.shape(), length) {
+            (ShapeName::Sphere, _) => Some(2.0 * half_sphere),
+            (ShapeName::Flat, length) => length.map(|length| section * length),
+            (ShapeName::Hemisphere, Some(length)) if length < radius => {
+                let span = file.length.as_ref().map_or(self.span.clone(), Spanned::span);
+                let message = format!("length is {length}; allowed: the radius of its end, {radius}, or more");
+                return Err(self.source.error(span, &message));
             }
+            (ShapeName::Hemisphere, length) => length.map(|length| half_sphere + section * (length - radius)),
         })
     }
+}
 
-    /// The material of this law's table.
-    fn material(&self, law: &'static str, table: &Option<Spanned<MaterialFile>>) -> Result<Material, Error> {
-        let own = if law == HYPERELASTIC { &self.own.hyperelastic } else { &self.own.linear_elastic };
-        let place = |name: &str| {
-            let given = own.as_ref().and_then(|table| table.get_ref().given(name)).map(Spanned::span);
-            given.or(self.own.failure.as_ref().map(Spanned::span))
-        };
-        let choice = Choice {
-            law,
-            failure: self.file.failure(),
-            own_yarn: self.own_yarn,
-            place: &place,
-            span: self.span.clone(),
-        };
-        self.source.material_of_law(&choice, table, self.units)
+fn shape(file: &CaseFile) -> Shape {
+    match file.shape() {
+        ShapeName::Sphere => Shape::Sphere,
+        ShapeName::Flat => Shape::Flat,
+        ShapeName::Hemisphere => Shape::Hemisphere,
     }
 }

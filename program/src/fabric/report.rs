@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::run::Outcome;
 use super::scene::{Case, Scene};
-use super::summary::{Figures, ending, residual_speed, yarns};
+use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
+use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -20,15 +21,15 @@ type Results<'a> = [(&'a Case, Outcome, Figures)];
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
     let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
-    let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), yarns(case))).collect();
+    let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.material_names())).collect();
     let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), sliding(results));
-    format!("{}\n\n{table}\n{yarns}{sliding}{warnings}\n{}", scene.title, list_files(results, output))
+    let failed = after_failure(results.iter().map(|(case, outcome, _)| (case.name.as_str(), outcome)), WIDTH);
+    format!("{}\n\n{table}\n{yarns}{sliding}{failed}{warnings}\n{}", scene.title, list_files(results, output))
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.
 fn sliding(results: &Results) -> String {
-    let slides =
-        |case: &&Case| case.zones.materials().iter().any(|material| material.longitudinal_shear() == Some(0.0));
+    let slides = |case: &&Case| case.materials().any(|material| material.longitudinal_shear() == Some(0.0));
     let cases: Vec<&str> = results.iter().map(|(case, ..)| *case).filter(slides).map(|case| &*case.name).collect();
     if cases.is_empty() {
         return String::new();
@@ -53,7 +54,7 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
     };
     vec![
         column("case", "", &|case, _, _| shortened(&case.name, LONGEST_NAME)),
-        column("how it ended", "", &|_, outcome, _| ending(outcome).to_string()),
+        column("how it ended", "", &|case, outcome, _| ending(case, outcome)),
         column("at", &time, &|_, _, figures| number(figures.last.time)),
         column("residual", &speed, &|_, outcome, figures| or_dash(residual_speed(outcome, figures), number)),
         column("at end", &speed, &|_, outcome, figures| at_end(outcome, figures)),
@@ -64,17 +65,17 @@ fn columns(scene: &Scene, results: &Results) -> Vec<Column> {
         column("W_ld", "%", &|_, _, figures| format!("{:.1}", 100.0 * figures.measures.shear)),
         column("rim at", &time, &|_, _, figures| or_dash(figures.front_at_rim, number)),
         column("failed at", &time, &|_, outcome, _| or_dash(outcome.failed, number)),
-        column("torn", "yarns", &|_, _, figures| figures.last.torn.to_string()),
+        column("torn", "yarns", &|_, _, figures| figures.last.own.torn.to_string()),
         column("elements", "deleted", &|_, _, figures| figures.last.deleted.to_string()),
         column("run", "s", &|_, outcome, _| format!("{:.1}", outcome.wall.as_secs_f64())),
-        column("zone cycle", "ns", &|_, _, figures| format!("{:.0}", figures.ns_per_zone_cycle)),
+        column("zone cycle", "ns", &|_, outcome, _| format!("{:.0}", outcome.ns_per_zone_cycle())),
     ]
 }
 
 /// The names of what was written, with `NAME` for the cases.
 fn list_files(results: &Results, output: &Path) -> String {
     let pictures = results.iter().any(|(_, outcome, _)| !outcome.snapshots.is_empty());
-    let frames = results.iter().any(|(case, ..)| case.frames > 0);
+    let frames = results.iter().any(|(case, ..)| case.plan.frames > 0);
     let written = [
         (true, "summary.csv", "a line for every case, with all that is known of it"),
         (true, "NAME.csv", "the history of case NAME"),

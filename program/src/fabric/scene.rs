@@ -6,6 +6,9 @@ use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
+use crate::struck::plan::Plan;
+pub use crate::struck::zones::Zones;
+use crate::weave::geometry::Family;
 use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
@@ -24,6 +27,8 @@ pub struct Case {
     /// The panel; cases without keys of their own for it have the same one.
     pub woven: Arc<Woven>,
     pub zones: Zones,
+    /// What the yarns of warp and weft are made of, where they have materials of their own.
+    pub threads: [Option<Box<Material>>; 2],
     /// The sphere, and the whole of its mass.
     pub sphere: Rigid,
     pub mass: f64,
@@ -33,38 +38,33 @@ pub struct Case {
     /// Of yarns with one another.
     pub mutual: Parameters,
     pub control: Control,
-    pub end: f64,
-    /// Whether the run goes on when the sphere turns back.
-    pub rebounds: bool,
-    /// Time between two samples of the history.
-    pub sample: f64,
-    /// When the panel is drawn.
-    pub pictures: Vec<f64>,
-    /// How many files ParaView gets after the first.
-    pub frames: usize,
-    /// How many times the run writes what it takes to go on from there.
-    pub checkpoints: usize,
+    pub plan: Plan,
     pub single_precision: bool,
 }
 
-/// What the yarns are made of, from the centre outwards.
-#[derive(Clone, Debug)]
-pub enum Zones {
-    One(Box<Material>),
-    /// The first material up to this distance from the centre.
-    Two(Box<[Material; 2]>, f64),
-}
-
-impl Zones {
-    /// The material at the centre.
-    pub fn inner(&self) -> &Material {
-        &self.materials()[0]
+impl Case {
+    /// Those of the zones, then those of warp and weft.
+    pub fn materials(&self) -> impl Iterator<Item = &Material> {
+        self.zones.materials().iter().chain(self.threads.iter().flatten().map(|material| &**material))
     }
 
-    pub fn materials(&self) -> &[Material] {
-        match self {
-            Zones::One(material) => std::slice::from_ref(&**material),
-            Zones::Two(materials, _) => &materials[..],
+    /// The place among the materials of what a yarn of this family is made of, if it is not that of the zones.
+    pub fn own_material(&self, family: Family) -> Option<usize> {
+        let of_weft = self.zones.materials().len() + usize::from(self.threads[0].is_some());
+        let place = if family == Family::Warp { self.zones.materials().len() } else { of_weft };
+        self.threads[family as usize].as_ref().map(|_| place)
+    }
+
+    /// What the yarns of a family are made of in the middle.
+    pub fn material(&self, family: Family) -> &Material {
+        self.threads[family as usize].as_deref().unwrap_or(self.zones.inner())
+    }
+
+    /// The names of the materials: of the zones from the centre outwards, or of warp and weft.
+    pub fn material_names(&self) -> String {
+        if self.threads.iter().all(Option::is_none) {
+            return self.zones.names();
         }
+        Family::BOTH.map(|family| format!("{} {}", family.name(), self.material(family).name())).join("; ")
     }
 }

@@ -1,20 +1,22 @@
 //! The figures of a scene: a line for every case, how it ended, with what speed, deflection, damage and cost.
 
-use std::path::Path;
 use std::time::Duration;
 
 use super::judgement::{Measures, judge};
-use super::measure::Sample;
+use super::measure::{OfPanel, Sample};
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
-use crate::common::error::Error;
-use crate::common::text_table::{or_dash, write_csv};
-use crate::common::units::number;
+use crate::common::units::{LENGTH, SPEED, TIME, number};
 use crate::explicit::judgement::{Finding, verdict};
 use crate::explicit::lanes::{largest, smallest};
-use crate::material::model;
+use crate::struck::history::{Column, title};
+use crate::struck::summary::{Cells, Line};
 use crate::weave::model::Model;
 use toron::host::units::UnitSystem;
+use toron::law::parameters::{Dimension, ENERGY_DENSITY, NUMBER};
+
+/// Of angles.
+const DEGREES: Dimension = Dimension { mass: 0, length: 0, time: 0, name: "°" };
 
 /// The front has reached the rim at this part of the way to it: the rim is held, and beside it there is no deflection to see.
 const AT_RIM: f64 = 0.95;
@@ -32,7 +34,6 @@ pub struct Figures {
     pub worst: [f64; 2],
     /// The largest energy densities of all times.
     pub densities: [f64; 5],
-    pub ns_per_zone_cycle: f64,
     /// Up to the first failure, and what is wrong with the run.
     pub measures: Measures,
     pub findings: Vec<Finding>,
@@ -43,21 +44,19 @@ impl Figures {
         let samples = &outcome.measured;
         let most = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(0.0, largest);
         let least = |of: fn(&Sample) -> f64| samples.iter().map(of).fold(1.0, smallest);
-        let deflection = most(|sample| sample.deflection);
-        let deepest = samples.iter().find(|sample| sample.deflection == deflection);
+        let deflection = most(|sample| sample.own.deflection);
+        let deepest = samples.iter().find(|sample| sample.own.deflection == deflection);
         let rim = AT_RIM * rim(panel);
         let internal = most(|sample| sample.energies.internal);
-        let front_at_rim = samples.iter().find(|sample| sample.front >= rim).map(|sample| sample.time);
+        let front_at_rim = samples.iter().find(|sample| sample.own.front >= rim).map(|sample| sample.time);
         let measures = Measures::of(outcome);
-        let cycles = outcome.cost.steps as f64 * outcome.elements as f64;
         Figures {
-            last: samples.last().copied().unwrap_or_default(),
+            last: outcome.last(),
             deflection: (deflection, deepest.map_or(0.0, |sample| sample.time)),
             front_at_rim,
             hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
-            worst: [least(|sample| sample.least_volume_ratio), least(|sample| sample.least_scaled_jacobian)],
+            worst: [least(|sample| sample.own.least_volume_ratio), least(|sample| sample.own.least_scaled_jacobian)],
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
-            ns_per_zone_cycle: outcome.cost.total().as_nanos() as f64 / cycles.max(1.0),
             findings: judge(units, case, panel, outcome, &measures, front_at_rim),
             measures,
         }
@@ -73,14 +72,15 @@ fn rim(panel: &Model) -> f64 {
 }
 
 /// How a case ended, in words.
-pub fn ending(outcome: &Outcome) -> &'static str {
+pub fn ending(case: &Case, outcome: &Outcome) -> String {
+    let strikes = case.sphere.shape.name();
     match outcome.end {
-        End::Time => "time is over",
-        End::Stopped => "sphere stopped",
-        End::Rebounded => "sphere flies back",
-        End::Left => "sphere went through",
-        End::Interrupted => "interrupted",
-        End::Failed => "an error",
+        End::Time => "time is over".to_string(),
+        End::Stopped => format!("{strikes} stopped"),
+        End::Rebounded => format!("{strikes} flies back"),
+        End::Left => format!("{strikes} went through"),
+        End::Interrupted => "interrupted".to_string(),
+        End::Failed => "an error".to_string(),
     }
 }
 
@@ -93,15 +93,6 @@ pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     }
 }
 
-/// The names of a case's materials, from the centre outwards.
-pub fn yarns(case: &Case) -> String {
-    let to = match case.zones {
-        Zones::One(_) => String::new(),
-        Zones::Two(_, radius) => number(radius),
-    };
-    model::names(case.zones.materials(), &to)
-}
-
 fn law(case: &Case) -> String {
     match &case.zones {
         Zones::One(material) => material.law_name().to_string(),
@@ -109,60 +100,63 @@ fn law(case: &Case) -> String {
     }
 }
 
-/// Titles and entries of a case's line.
-fn cells(case: &Case, outcome: &Outcome, figures: &Figures) -> Vec<(&'static str, String)> {
+/// A case's line in the summary.
+pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figures) -> Cells {
     let Figures { last, deflection: (deflection, deepest_at), measures, .. } = figures;
     let seconds = |time: Duration| time.as_secs_f64();
     let total = seconds(outcome.cost.total()).max(f64::MIN_POSITIVE);
-    let share = |time: Duration| format!("{:.2}", seconds(time) / total);
-    let mut cells = vec![
-        ("case", case.name.clone()),
-        ("law", law(case)),
-        ("precision", if case.single_precision { "f32" } else { "f64" }.to_string()),
-        ("elements", outcome.elements.to_string()),
-        ("speed", number(case.speed)),
-        ("ending", ending(outcome).to_string()),
-        ("end", number(last.time)),
-        ("residual_speed", or_dash(residual_speed(outcome, figures), number)),
-        ("speed_at_end", number(last.speed)),
-        ("verdict", verdict(&figures.findings)),
-        ("material", yarns(case)),
-        ("deflection_max", number(*deflection)),
-        ("deflection_max_at", number(*deepest_at)),
-        ("front_at_rim", or_dash(figures.front_at_rim, number)),
-        ("first_failure_at", or_dash(outcome.failed, number)),
-        ("torn_yarns", last.torn.to_string()),
-        ("deleted", last.deleted.to_string()),
-        ("collapsed", last.collapsed.to_string()),
-        ("imbalance", format!("{:.1e}", outcome.balance.imbalance())),
-        ("hourglass_share", format!("{:.4}", figures.hourglass)),
-        ("tilt_at_end", format!("{:.1}", last.tilt)),
-        ("slip_at_end", number(last.slip)),
-        ("least_volume_ratio", number(figures.worst[0])),
-        ("least_scaled_jacobian", number(figures.worst[1])),
-        ("hourglass_to_failure", format!("{:.4}", measures.hourglass)),
-        ("w_ld_to_failure", format!("{:.4}", measures.shear)),
-        ("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian)),
-        ("contact_to_failure", format!("{:.4}", measures.contact)),
-    ];
-    let names = ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"];
-    cells.extend(names.into_iter().zip(figures.densities.map(number)));
-    cells.extend([
-        ("steps", outcome.cost.steps.to_string()),
-        ("searches", outcome.searches.to_string()),
-        ("ns_per_zone_cycle", format!("{:.1}", figures.ns_per_zone_cycle)),
-        ("contact_share", share(outcome.cost.contact)),
-        ("law_share", share(outcome.cost.law)),
-        ("seconds", format!("{:.2}", seconds(outcome.wall))),
-    ]);
-    cells
+    let mut line = Line::new(units);
+    line.add("case", &case.name);
+    line.add("law", law(case));
+    line.add("precision", if case.single_precision { "f32" } else { "f64" });
+    line.add("elements", outcome.elements);
+    line.quantity("speed", SPEED, case.speed);
+    line.add("ending", ending(case, outcome));
+    line.quantity("end", TIME, last.time);
+    line.quantity("residual_speed", SPEED, residual_speed(outcome, figures));
+    line.quantity("speed_at_end", SPEED, last.speed);
+    line.add("verdict", verdict(&figures.findings));
+    line.add("material", case.material_names());
+    line.quantity("deflection_max", LENGTH, *deflection);
+    line.quantity("deflection_max_at", TIME, *deepest_at);
+    line.quantity("front_at_rim", TIME, figures.front_at_rim);
+    line.quantity("first_failure_at", TIME, outcome.failed);
+    line.add("torn_yarns", last.own.torn);
+    line.add("deleted", last.deleted);
+    line.add("collapsed", last.collapsed);
+    line.add("imbalance", format_args!("{:.1e}", outcome.balance.imbalance()));
+    line.decimals("hourglass_share", figures.hourglass, 4);
+    line.add(&title("tilt_at_end", DEGREES, units), format_args!("{:.1}", last.own.tilt));
+    line.quantity("slip_at_end", LENGTH, last.own.slip);
+    line.add("least_volume_ratio", number(figures.worst[0]));
+    line.add("least_scaled_jacobian", number(figures.worst[1]));
+    line.decimals("hourglass_to_failure", measures.hourglass, 4);
+    line.decimals("w_ld_to_failure", measures.shear, 4);
+    line.add("scaled_jacobian_to_failure", number(measures.least_scaled_jacobian));
+    line.decimals("contact_to_failure", measures.contact, 4);
+    for (name, density) in
+        ["w_el_max", "w_tc_max", "w_td_max", "w_ld_max", "work_max"].into_iter().zip(figures.densities)
+    {
+        line.quantity(name, ENERGY_DENSITY, density);
+    }
+    line.add("steps", outcome.cost.steps);
+    line.add("searches", outcome.searches);
+    line.decimals("ns_per_zone_cycle", outcome.ns_per_zone_cycle(), 1);
+    line.decimals("contact_time_share", seconds(outcome.cost.contact) / total, 2);
+    line.decimals("law_time_share", seconds(outcome.cost.law) / total, 2);
+    line.decimals("seconds", seconds(outcome.wall), 2);
+    line.cells
 }
 
-/// Writes the table as CSV.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write(file: &Path, results: &[(&Case, Outcome, Figures)]) -> Result<(), Error> {
-    let lines: Vec<_> = results.iter().map(|(case, outcome, figures)| cells(case, outcome, figures)).collect();
-    write_csv(file, &lines)
+/// The columns of the history that a panel has besides those of all scenes.
+pub fn columns() -> Vec<Column<OfPanel>> {
+    vec![
+        Column::own("deflection", LENGTH, |own: &OfPanel| own.deflection),
+        Column::own("transverse_front", LENGTH, |own: &OfPanel| own.front),
+        Column::own("torn_yarns", NUMBER, |own: &OfPanel| own.torn as f64),
+        Column::own("tilt", DEGREES, |own: &OfPanel| own.tilt),
+        Column::own("slip", LENGTH, |own: &OfPanel| own.slip),
+        Column::own("least_volume_ratio", NUMBER, |own: &OfPanel| own.least_volume_ratio),
+        Column::own("least_scaled_jacobian", NUMBER, |own: &OfPanel| own.least_scaled_jacobian),
+    ]
 }

@@ -13,7 +13,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
     let text = format!(
         "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 8\ncolumns = 4\n\
          [weave.panel]\nshape = \"rectangle\"\nhalf = [2.0, 0.35]\n\
-         [scene]\nspeed = 1.0\nmass = 1.0\nradius = 1.0\ncontact-stiffness = 1e5\nend = 1.0\n\
+         [scene]\nspeed = 1.0\nmass = 0.03\nradius = 1.0\ncontact-stiffness = 1e5\nend = 1.0\n\
          yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
@@ -68,9 +68,8 @@ fn pull(friction: f64) -> Pull {
     for body in &mut solver.bodies[1..] {
         (0..body.mesh.nodes.len()).for_each(|node| body.support(node, held([0.0; 3])));
     }
-    solver.ramp = Some(Ramp { start: 0.0, duration: 0.04 });
-    solver.brake = 1e3;
-    while solver.time < 0.03 {
+    solver.ramp = Some(Ramp { start: 0.0, duration: 0.04, brake: [1e3; 2] });
+    while solver.state.time < 0.03 {
         solver.accelerate(false, 1.0).expect("stable");
         solver.displace();
     }
@@ -82,7 +81,7 @@ fn pull(friction: f64) -> Pull {
         turn: slopes.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
         pressing: force(middle, 0..middle.mesh.nodes.len()).z.abs(),
         steepest: slopes[slopes.len() / 4..3 * slopes.len() / 4].iter().fold(0.0, |most, slope| slope.abs().max(most)),
-        friction: solver.energies.friction,
+        friction: solver.state.energies.friction,
     }
 }
 
@@ -133,7 +132,7 @@ fn every_example_is_valid() {
 fn the_sphere_meets_what_stands_inside_a_yarn() {
     let text = "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
          [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
-         [scene]\nspeed = 1.0\nmass = 1.0\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
+         [scene]\nspeed = 1.0\nmass = 2e-6\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
     let scene = Scene::parse("patch.toml", text).expect("a scene");
     let panel = scene.cases[0].woven.model();
     let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");

@@ -31,7 +31,7 @@ pub struct Arguments {
     /// The scene (see docs/guides/fibres.md and examples/fibre_scale/).
     scene: PathBuf,
     /// Where the files go.
-    #[arg(short, long, default_value = "toron-out")]
+    #[arg(short, long, default_value = "toron-out/fibres")]
     pub output: PathBuf,
     /// Write what LAMMPS reads, and do not run it.
     #[arg(long)]
@@ -77,8 +77,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     directory.remove(SUMMARY)?;
     directory.remove(FIT)?;
     for case in &scene.cases {
-        directory.remove_files_of(&case.name, PICTURES, 0)?;
-        directory.remove_series(&case.name, STRAINS)?;
+        directory.remove_files_of(&case.name, PICTURES, Some(STRAINS), 0)?;
     }
     let bar = progress::bar(
         TICKS as u64 * scene.cases.len() as u64,

@@ -15,9 +15,10 @@ use super::report::{digits, line, table};
 use super::uncertainty::Estimate;
 use crate::common::error::Error;
 use crate::common::units::{SPEED, number, unit};
-use crate::impact::run::{self, Observer};
+use crate::impact::run;
 use crate::impact::scene::{Case, Scene, Zones};
 use crate::material::model::{Law, Material};
+use crate::struck::plan::Plan;
 use toron::law::parameters::{DENSITY, ENERGY_DENSITY};
 
 /// A run of a case.
@@ -35,17 +36,6 @@ pub struct Trial {
     pub densities: [f64; 3],
     /// Of the section, when the transverse wave is at the clamp.
     pub widening: Option<f64>,
-}
-
-/// Nobody watches these runs.
-struct Unwatched;
-
-impl Observer for Unwatched {
-    fn progress(&mut self, _: f64) {}
-
-    fn frame(&mut self, _: f64, _: &str) -> Result<(), Error> {
-        Ok(())
-    }
 }
 
 /// Runs the scene's cases with all these sets of parameters.
@@ -124,8 +114,9 @@ fn follow(fit: &Fit, moved: &Estimate, end: f64, other: &Estimate) -> f64 {
 fn trial(job: &Job, scene: &Scene, index: usize, set: &Set) -> Result<Trial, Error> {
     let case = scene.cases[index].clone();
     let material = with(job, scene, case.zones.inner(), set)?;
-    let case = Case { zones: Zones::One(Box::new(material)), pictures: Vec::new(), frames: 0, ..case };
-    let outcome = run::run(&case, &mut Unwatched)?;
+    let plan = Plan { pictures: Vec::new(), frames: 0, checkpoints: 0, ..case.plan };
+    let case = Case { zones: Zones::One(Box::new(material)), plan, ..case };
+    let outcome = run::run(&case, &mut ())?;
     Ok(Trial {
         case: index,
         moved: set.moved,

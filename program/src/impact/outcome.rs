@@ -1,12 +1,15 @@
 //! The result of a case: its history, and the quantities computed from it.
 
-use std::time::Duration;
+use std::ops::{Deref, DerefMut};
 
-use crate::explicit::energies::{Balance, Cost, Energies};
+use serde::{Deserialize, Serialize};
+
 use crate::explicit::lanes::largest;
 use crate::explicit::mesh::Mesh;
 use crate::explicit::snapshot::Snapshot;
 use crate::material::smith::Smith;
+use crate::struck;
+pub use crate::struck::run::End;
 
 /// Where the section's width is measured, as fractions of half the span (Fig. 4.16 has four points).
 pub const STATIONS: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
@@ -15,30 +18,13 @@ const FITTED: [f64; 2] = [0.4, 0.85];
 /// A transverse front this near the clamp has reached it but for what its own length adds.
 const AT_CLAMP: [f64; 2] = [0.75, 0.95];
 
-/// A line of the history.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sample {
-    pub time: f64,
-    /// Of the projectile, along its way; and how far it has come.
-    pub speed: f64,
-    pub travel: f64,
-    /// Contact force of the half model.
-    pub force: f64,
-    /// Of the whole yarn: twice the half model's.
-    pub energies: Energies,
-    /// The parts of the internal energy, as `ENERGY_NAMES` has them.
-    pub parts: [f64; 5],
-    /// Largest energy densities: in the yarn, and further than a radius from mid-span and from the clamp, where neither
-    /// touches the yarn.
-    pub largest: [f64; 5],
+/// What a sample of a yarn has besides the quantities of all scenes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct OfYarn {
+    /// Largest energy densities further than a radius from mid-span and from the clamp, where neither touches the yarn.
     pub free: [f64; 5],
     /// Least energy density of elongation, or of the linear law's work.
     pub least: f64,
-    /// The largest failure index of what stands.
-    pub index: f64,
-    /// Elements deleted so far, and how many of them because they had collapsed.
-    pub deleted: usize,
-    pub collapsed: usize,
     /// The front of the elongation, by reference length, and of the kink, in space.
     pub longitudinal: f64,
     pub transverse: f64,
@@ -48,37 +34,40 @@ pub struct Sample {
     pub strain: f64,
 }
 
-/// How a case ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
-    /// At the end of the time asked for.
-    Time,
-    /// The projectile has stopped.
-    Stopped,
-    /// It has left the broken yarn behind.
-    Left,
+pub type Sample = struck::sample::Sample<OfYarn>;
+
+/// The lines of elements along the fibre, and whether they have torn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// Deleted elements so far, and the lines that have lost one.
+    pub deleted: usize,
+    pub torn: Vec<bool>,
+    /// When the last line tore, and the projectile's speed then.
+    pub broken: Option<(f64, f64)>,
 }
 
 /// The result of a case.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Measured every [`MEASURED_EVERY`](crate::explicit::judgement::MEASURED_EVERY) steps: all figures come from these.
-    pub measured: Vec<Sample>,
-    pub balance: Balance,
-    /// Measured when it was asked for.
-    pub history: Vec<Sample>,
-    pub snapshots: Vec<Snapshot>,
+    pub run: struck::run::Outcome<OfYarn, Course>,
     pub mesh: Mesh,
-    pub end: End,
     /// Whether a projectile strikes whose speed is its own, neither held nor driven.
     pub own_speed: bool,
-    /// When the first element reached a failure index of 1.
-    pub failed: Option<f64>,
-    /// When the last line of elements along the fibre tore, and the projectile's speed then.
-    pub broken: Option<(f64, f64)>,
-    pub cost: Cost,
-    pub wall: Duration,
     pub smith: Smith,
+}
+
+impl Deref for Outcome {
+    type Target = struck::run::Outcome<OfYarn, Course>;
+
+    fn deref(&self) -> &Self::Target {
+        &self.run
+    }
+}
+
+impl DerefMut for Outcome {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.run
+    }
 }
 
 impl Outcome {
@@ -108,11 +97,6 @@ impl Outcome {
         })
     }
 
-    /// The last measurement.
-    pub fn last(&self) -> Sample {
-        self.measured.last().copied().unwrap_or_default()
-    }
-
     /// The measurement at a time or the first one after.
     pub fn at(&self, time: f64) -> Sample {
         let found = self.measured.iter().find(|sample| sample.time >= time);
@@ -131,7 +115,7 @@ impl Outcome {
 
     /// The largest of a quantity up to the break.
     fn largest_before_break(&self, of: impl Fn(&Sample) -> f64) -> f64 {
-        let end = self.broken.map_or(f64::INFINITY, |(time, _)| time);
+        let end = self.course.broken.map_or(f64::INFINITY, |(time, _)| time);
         self.measured.iter().take_while(|sample| sample.time <= end).map(of).fold(0.0, largest)
     }
 
@@ -160,8 +144,8 @@ impl Outcome {
 
     /// How much wider the section is than at rest when the transverse wave is at the clamp: the most of the stations.
     pub fn widening(&self, half_length: f64) -> Option<f64> {
-        let rest = self.measured.first()?.widths;
-        let then = self.at(self.transverse_at_clamp(half_length)?).widths;
+        let rest = self.measured.first()?.own.widths;
+        let then = self.at(self.transverse_at_clamp(half_length)?).own.widths;
         let growth = then.iter().zip(rest).map(|(then, rest)| then / rest - 1.0);
         growth.reduce(f64::max)
     }
@@ -169,8 +153,8 @@ impl Outcome {
     /// The measurements in which the wave of elongation passes the middle of half the span.
     fn passing(&self, half_length: f64) -> &[Sample] {
         let [from, to] = FITTED.map(|fraction| fraction * half_length);
-        let Some(end) = self.measured.iter().position(|sample| sample.longitudinal >= to) else { return &[] };
-        let start = self.measured[..end].iter().rposition(|sample| sample.longitudinal < from).map_or(0, |i| i + 1);
+        let Some(end) = self.measured.iter().position(|sample| sample.own.longitudinal >= to) else { return &[] };
+        let start = self.measured[..end].iter().rposition(|sample| sample.own.longitudinal < from).map_or(0, |i| i + 1);
         &self.measured[start..end]
     }
 
@@ -188,7 +172,7 @@ impl Outcome {
     /// Mean strain behind the wave of elongation meanwhile.
     pub fn plateau(&self, half_length: f64) -> Option<f64> {
         let passing = self.passing(half_length);
-        let sum: f64 = passing.iter().map(|sample| sample.strain).sum();
+        let sum: f64 = passing.iter().map(|sample| sample.own.strain).sum();
         (!passing.is_empty()).then(|| sum / passing.len() as f64)
     }
 
@@ -196,14 +180,9 @@ impl Outcome {
     pub fn transverse_at_clamp(&self, half_length: f64) -> Option<f64> {
         let [a, b] = AT_CLAMP.map(|fraction| {
             let place = fraction * half_length;
-            self.measured.iter().find(|sample| sample.transverse >= place).map(|sample| sample.time)
+            self.measured.iter().find(|sample| sample.own.transverse >= place).map(|sample| sample.time)
         });
         let (a, b) = (a?, b?);
         Some(b + (b - a) * (1.0 - AT_CLAMP[1]) / (AT_CLAMP[1] - AT_CLAMP[0]))
-    }
-
-    /// Number of steps times elements.
-    pub fn zone_cycles(&self) -> f64 {
-        self.cost.steps as f64 * self.mesh.elements.len() as f64
     }
 }

@@ -24,7 +24,7 @@ pub fn write_history(svg: &Path, png: &Path, scene: &Scene, case: &Case, result:
     let abscissa = panel::Abscissa {
         label: format!("time ({})", unit(&scene.units, TIME)),
         values: result.history.iter().map(|sample| sample.time).collect(),
-        failure: result.broken.map(|(time, _)| time),
+        failure: result.course.broken.map(|(time, _)| time),
     };
     history::write(svg, png, [&scene.title, &case.name], panels(scene, case, result), &abscissa)
 }
@@ -67,7 +67,7 @@ fn panels(scene: &Scene, case: &Case, result: &Outcome) -> [Panel; 4] {
         Panel {
             title: "Width of the section by place",
             unit: length.to_string(),
-            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.widths[i])).collect(),
+            series: (0..STATIONS.len()).map(|i| line(i, &station(i), &|s| s.own.widths[i])).collect(),
             limit: None,
         },
     ]

@@ -5,11 +5,12 @@ use std::path::Path;
 use super::judgement::judge;
 use super::outcome::Outcome;
 use super::scene::{Case, Scene, Striker};
-use super::summary::{outcome, yarns};
+use super::summary::outcome;
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
 use crate::material::fibre_wave::FibreWave;
+use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
 const WIDTH: usize = 100;
@@ -21,14 +22,14 @@ type Results<'a> = [(&'a Case, Outcome)];
 /// Title, tables, warnings and the files in `output`.
 pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let waves = waves(scene, results);
-    let yarns: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), yarns(case))).collect();
+    let yarns: Vec<_> = results.iter().map(|(case, _)| (case.name.as_str(), case.zones.names())).collect();
     let findings: Vec<_> = results.iter().map(|(case, result)| (case, judge(&scene.units, case, result))).collect();
     let warnings = warnings(findings.iter().map(|(case, findings)| (case.name.as_str(), &findings[..])));
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
         yarns_of_cases(&yarns, WIDTH) + &wave_line(&waves),
-        warnings,
+        after_failure(results.iter().map(|(case, result)| (case.name.as_str(), &result.run)), WIDTH) + &warnings,
         list_files(scene, results, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
@@ -73,7 +74,7 @@ fn column(cases: &[&(&Case, Outcome)], [above, below]: [&str; 2], entry: impl Fn
 }
 
 fn broken_at(_: &Case, result: &Outcome) -> String {
-    or_dash(result.broken.map(|(time, _)| time), number)
+    or_dash(result.course.broken.map(|(time, _)| time), number)
 }
 
 /// The columns for what a projectile has struck, the most important first.
@@ -104,8 +105,8 @@ fn struck(scene: &Scene, results: &Results) -> Vec<Column> {
 fn driven(scene: &Scene, results: &Results) -> Vec<Column> {
     let cases: Vec<_> = results.iter().filter(|(case, _)| case.striker == Striker::Driven).collect();
     let speed = unit(&scene.units, SPEED);
-    let wave = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.longitudinal);
-    let kink = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.transverse);
+    let wave = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.own.longitudinal);
+    let kink = |case: &Case, result: &Outcome| result.front_speed(case.yarn.length, |sample| sample.own.transverse);
     let percent = |strain: f64| number(100.0 * strain);
     let strain = |case: &Case, result: &Outcome| result.plateau(case.yarn.length);
     // Theory stands only beside what was measured.
@@ -136,7 +137,7 @@ fn costs(cases: &[&(&Case, Outcome)]) -> [Column; 2] {
 /// The names of what was written, with `NAME` for the cases.
 fn list_files(scene: &Scene, results: &Results, output: &Path) -> String {
     let pictures = results.iter().any(|(_, result)| !result.snapshots.is_empty());
-    let frames = results.iter().any(|(case, _)| case.frames > 0);
+    let frames = results.iter().any(|(case, _)| case.plan.frames > 0);
     let written = [
         (true, "summary.csv", "a line for every case, with all that is known of it"),
         (scene.abscissa.is_some(), "residual-speed.svg, .png", "the cases side by side"),

@@ -1,183 +1,107 @@
-//! A case from its first step to its last, and what is measured on the way.
+//! A yarn as it is struck: how it is set up, what is measured of it, and when it has broken.
 
-use std::time::Instant;
-
-use super::outcome::{End, Outcome, STATIONS, Sample};
-use super::scene::{Case, Outputs, Precision, Striker, Zones};
+use super::outcome::{Course, OfYarn, Outcome, STATIONS, Sample};
+use super::scene::{Case, Outputs, Striker, Zones};
 use crate::common::error::Error;
-use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
 use crate::explicit::contact::Contact;
-use crate::explicit::energies::{Balance, Energies};
-use crate::explicit::judgement::MEASURED_EVERY;
 use crate::explicit::lanes::{Number, largest};
 use crate::explicit::medium::Medium;
 use crate::explicit::projectile::Projectile;
-use crate::explicit::snapshot::Snapshot;
 use crate::explicit::solver::Solver;
-use crate::explicit::vtu;
 use crate::material::model::Material;
 use crate::material::smith::{LARGEST_STRAIN, Smith, Tension};
+use crate::struck::plan::Plan;
+use crate::struck::run::{self, Observer, Struck};
 
 /// The front of the elongation is where the strain has this part of what Smith's theory gives behind it.
 pub const FRONT: f64 = 0.5;
 /// Where, as fractions of the way to the front of the elongation, the strain behind it is taken.
 pub const PLATEAU: [f64; 2] = [0.3, 0.7];
-/// The failure index of an element that has failed, but for the rounding of single precision.
-const FAILED: f64 = 1.0 - 1e-6;
-/// Times closer than this part of a case's time are the same.
-const ROUNDING: f64 = 1e-9;
-
-/// Receives the progress and the frames of a run.
-pub trait Observer {
-    /// The fraction of the case's time that has passed.
-    fn progress(&mut self, _fraction: f64) {}
-
-    /// The text of a VTU file, and its time.
-    ///
-    /// # Errors
-    /// What ends the run.
-    fn frame(&mut self, _time: f64, _text: &str) -> Result<(), Error> {
-        Ok(())
-    }
-}
-
-/// An observer that does nothing.
-impl Observer for () {}
+/// Half of the yarn is computed.
+const WHOLE: f64 = 2.0;
 
 /// Runs a case.
 ///
 /// # Errors
 /// A material that the host cannot use, a speed beyond every yarn, a run that is not stable, or the observer's.
-pub fn run(case: &Case, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-    match case.precision {
-        Precision::F64 => Run::<f64>::new(case)?.run(observer),
-        Precision::F32 => Run::<f32>::new(case)?.run(observer),
+pub fn run(case: &Case, observer: &mut (dyn Observer<OfYarn> + Send)) -> Result<Outcome, Error> {
+    let yarn = StruckYarn::new(case)?;
+    let outcome = yarn.outcome(run::run(&yarn, None, observer)?);
+    match outcome.failure.clone() {
+        None => Ok(outcome),
+        Some(failure) => Err(Error::Evaluation(failure)),
     }
 }
 
-struct Run<'a, T> {
-    case: &'a Case,
-    solver: Solver<T>,
+/// A case that can be run.
+pub struct StruckYarn<'a> {
+    pub case: &'a Case,
     smith: Smith,
-    measured: Vec<Sample>,
-    balance: Balance,
-    history: Vec<Sample>,
-    snapshots: Vec<Snapshot>,
-    failed: Option<f64>,
-    broken: Option<(f64, f64)>,
-    /// Deleted elements so far, and the lines of elements along the fibre that have lost one.
-    deleted: usize,
-    torn: Vec<bool>,
-    /// When the projectile was last in contact.
-    last_contact: f64,
-    start: f64,
 }
 
-impl<'a, T: Number> Run<'a, T> {
-    fn new(case: &'a Case) -> Result<Self, Error> {
-        let medium =
-            |material: &Material| Medium::<T>::new(material, material.density.unwrap_or_default(), case.control);
-        let mesh = case.yarn.mesh();
+impl<'a> StruckYarn<'a> {
+    /// # Errors
+    /// A material that the host cannot use, or a speed beyond every yarn.
+    pub fn new(case: &'a Case) -> Result<Self, Error> {
+        let material = case.zones.inner();
+        let density = material.density.unwrap_or_default();
+        let smith = Tension::of(material).and_then(|tension| tension.smith(case.speed, density)).ok_or_else(|| {
+            let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
+            Error::Input(format!("case {}: speed is {}; allowed: {allowed}", case.name, case.speed))
+        })?;
+        let yarn = StruckYarn { case, smith };
+        yarn.media::<f64>()?;
+        Ok(yarn)
+    }
+
+    /// What came of its run.
+    pub fn outcome(&self, run: run::Outcome<OfYarn, Course>) -> Outcome {
+        let own_speed = matches!(self.case.striker, Striker::Cylinder { held: false, .. });
+        Outcome { run, mesh: self.case.yarn.mesh(), own_speed, smith: self.smith }
+    }
+
+    fn media<T: Number>(&self) -> Result<Vec<Medium<T>>, Error> {
+        let Case { zones, control, .. } = self.case;
+        let medium = |material: &Material| Medium::new(material, material.density.unwrap_or_default(), *control);
+        zones.materials().iter().map(medium).collect()
+    }
+}
+
+impl Struck for StruckYarn<'_> {
+    type Own = OfYarn;
+    type Course = Course;
+
+    fn name(&self) -> &str {
+        &self.case.name
+    }
+
+    fn plan(&self) -> &Plan {
+        &self.case.plan
+    }
+
+    fn single_precision(&self) -> bool {
+        self.case.single_precision
+    }
+
+    fn identity(&self) -> String {
+        format!("{:?}", Case { plan: Plan::default(), ..self.case.clone() })
+    }
+
+    fn solver<T: Number>(&self) -> Result<Solver<T>, Error> {
+        let case = self.case;
+        let (mesh, media) = (case.yarn.mesh(), self.media()?);
         let per_layer = mesh.elements_per_layer;
-        let materials = case.zones.materials();
         let length = match case.zones {
             Zones::One(_) => case.yarn.length,
             Zones::Two(_, length) => length,
         };
         let near = case.yarn.layers_to(length);
-        let media = materials.iter().map(medium).collect::<Result<Vec<_>, _>>()?;
         let yarn = Body::new(mesh, &media, |element| usize::from(element / per_layer >= near));
         let mut solver = Solver::new(vec![yarn], media);
-        let density = materials[0].density.unwrap_or_default();
-        let smith =
-            Tension::of(&materials[0]).and_then(|tension| tension.smith(case.speed, density)).ok_or_else(|| {
-                let allowed = format!("what stretches a yarn by up to {LARGEST_STRAIN}");
-                Error::Input(format!("case {}: speed is {}; allowed: {allowed}", case.name, case.speed))
-            })?;
         solver.all_outputs = case.outputs == Outputs::Full;
-        let start = set_up(case, &mut solver);
-        Ok(Run {
-            case,
-            solver,
-            smith,
-            measured: Vec::new(),
-            balance: Balance::default(),
-            history: Vec::new(),
-            snapshots: Vec::new(),
-            failed: None,
-            broken: None,
-            deleted: 0,
-            torn: vec![false; per_layer],
-            last_contact: 0.0,
-            start,
-        })
-    }
-
-    fn run(mut self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        let begun = Instant::now();
-        let (mut next_sample, mut next_frame) = (0.0, 0.0);
-        let frame = self.case.end / self.case.frames.max(1) as f64;
-        let mut pictures = self.case.pictures.clone();
-        pictures.sort_by(|a, b| b.total_cmp(a));
-        let mut end = None;
-        let end = loop {
-            let time = self.solver.time;
-            let reached = |instant: f64| time >= instant - ROUNDING * self.case.end;
-            end = end.or(reached(self.case.end).then_some(End::Time));
-            let measured = self.solver.cost.steps.is_multiple_of(MEASURED_EVERY) || end.is_some();
-            let sampled = reached(next_sample) || end.is_some();
-            let drawn = pictures.last().is_some_and(|&picture| reached(picture));
-            let framed = self.case.frames > 0 && reached(next_frame);
-            let left = if end.is_some() { self.case.end } else { self.case.end - time };
-            let energies = measured || sampled || drawn || framed;
-            self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
-            if measured || sampled {
-                let sample = self.sample(time);
-                if sampled {
-                    self.history.push(sample);
-                    next_sample += self.case.sample;
-                }
-                if measured {
-                    self.measure(sample)?;
-                    observer.progress(time / self.case.end);
-                }
-            }
-            if drawn {
-                pictures.pop();
-                self.snapshots.push(Snapshot::of(&self.solver, self.radius()));
-            }
-            if framed {
-                next_frame += frame;
-                observer.frame(time, &vtu::unstructured_grid(&self.solver)?)?;
-            }
-            if let Some(end) = end {
-                break end;
-            }
-            // How it stands after the last step: sampled, and the end.
-            end = self.ended(time);
-            self.solver.displace();
-        };
-        observer.progress(1.0);
-        Ok(Outcome {
-            measured: self.measured,
-            balance: self.balance,
-            history: self.history,
-            snapshots: self.snapshots,
-            end,
-            own_speed: matches!(self.case.striker, Striker::Cylinder { held: false, .. }),
-            failed: self.failed,
-            broken: self.broken,
-            cost: self.solver.cost,
-            wall: begun.elapsed(),
-            smith: self.smith,
-            mesh: self.solver.bodies.swap_remove(0).mesh,
-        })
-    }
-
-    /// The only body.
-    fn yarn(&self) -> &Body<T> {
-        &self.solver.bodies[0]
+        set_up(case, &mut solver);
+        Ok(solver)
     }
 
     fn radius(&self) -> f64 {
@@ -187,99 +111,65 @@ impl<'a, T: Number> Run<'a, T> {
         }
     }
 
-    fn speed(&self) -> f64 {
-        self.solver.projectile.as_ref().map_or(self.case.speed, |projectile| -projectile.velocity)
-    }
-
-    /// Whether the run is over.
-    fn ended(&mut self, time: f64) -> Option<End> {
-        if self.broken.is_none() && self.check_broken(time) {
-            self.broken = Some((time, self.speed()));
+    fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample {
+        let mut sample = Sample::of(solver, WHOLE, start);
+        if self.case.striker == Striker::Driven {
+            (sample.speed, sample.travel) = (self.case.speed, sample.time * self.case.speed);
         }
-        if let Some(projectile) = &self.solver.projectile {
-            if projectile.force != 0.0 {
-                self.last_contact = time;
-            }
-            if projectile.velocity >= 0.0 {
-                return Some(End::Stopped);
-            }
-        }
-        // As long as a wave takes to the clamp and back: after that, what is left of the yarn no longer touches it.
-        let waiting_time = 2.0 * self.case.yarn.length / self.smith.fastest;
-        if self.broken.is_some() && time - self.last_contact > waiting_time {
-            return Some(End::Left);
-        }
-        (time >= self.case.end).then_some(End::Time)
-    }
-
-    /// Whether every line of elements along the fibre has lost one. The laws resist shear along the fibre little or not at
-    /// all, so that a torn line carries no tension, whatever its neighbours do.
-    fn check_broken(&mut self, time: f64) -> bool {
-        let yarn = &self.solver.bodies[0];
-        for &element in &yarn.deleted[self.deleted..] {
-            self.torn[element % yarn.mesh.elements_per_layer] = true;
-            // The index of what has failed stays as it was then; what has collapsed has a lower one.
-            if yarn.failure_index(&self.solver.media, element) >= FAILED {
-                self.failed = self.failed.or(Some(time));
-            }
-        }
-        self.deleted = yarn.deleted.len();
-        self.torn.iter().all(|&torn| torn)
-    }
-
-    /// The error of a case without a result.
-    fn error(&self, reason: &str) -> Error {
-        Error::Evaluation(format!("case {} at time {}: {reason}", self.case.name, number(self.solver.time)))
-    }
-
-    /// What all figures come from.
-    ///
-    /// # Errors
-    /// The balance of energy is lost.
-    fn measure(&mut self, sample: Sample) -> Result<(), Error> {
-        self.measured.push(sample);
-        self.balance.add(&sample.energies);
-        self.balance.lost().map_or(Ok(()), |moved| {
-            let moved = number(moved);
-            Err(self.error(&format!("the total energy is {moved} % from what it was: not stable")))
-        })
-    }
-
-    fn sample(&self, time: f64) -> Sample {
-        let (deleted, collapsed) = (self.yarn().deleted.len(), self.yarn().collapsed);
-        let mut sample = Sample { time, speed: self.speed(), deleted, collapsed, ..Sample::default() };
-        if let Some(projectile) = &self.solver.projectile {
-            sample.travel = self.start - projectile.position;
-            sample.force = projectile.force;
-        } else {
-            sample.travel = time * self.case.speed;
-        }
-        sample.energies = whole(&self.solver.energies);
-        self.measure_densities(&mut sample);
-        self.measure_fronts(&mut sample);
-        sample.widths = STATIONS.map(|station| self.width(station));
+        let measured = Measured { case: self.case, smith: &self.smith, solver };
+        measured.measure_densities(self.radius(), &mut sample.own);
+        measured.measure_fronts(&mut sample.own);
+        sample.own.widths = STATIONS.map(|station| measured.width(station));
         sample
     }
 
-    fn measure_densities(&self, sample: &mut Sample) {
-        let yarn = self.yarn();
-        let (length, radius) = (self.case.yarn.length, self.radius());
+    /// The yarn has broken when every line of elements along the fibre has lost one. The laws resist shear along the fibre little or
+    /// not at all, so that a torn line carries no tension, whatever its neighbours do.
+    fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Course) -> Result<(), Error> {
+        let yarn = &solver.bodies[0];
+        course.torn.resize(yarn.mesh.elements_per_layer, false);
+        for &element in &yarn.state.deleted[course.deleted..] {
+            course.torn[element % yarn.mesh.elements_per_layer] = true;
+        }
+        course.deleted = yarn.state.deleted.len();
+        if course.broken.is_none() && course.torn.iter().all(|&torn| torn) {
+            let speed = solver.projectile.as_ref().map_or(self.case.speed, |projectile| -projectile.velocity);
+            course.broken = Some((solver.state.time, speed));
+        }
+        Ok(())
+    }
+
+    /// As long as a wave takes to the clamp and back: after that, what is left of the yarn no longer touches it.
+    fn has_left<T: Number>(&self, _: &Solver<T>, course: &Course, free: f64) -> bool {
+        course.broken.is_some() && free > 2.0 * self.case.yarn.length / self.smith.fastest
+    }
+}
+
+/// A yarn at an instant.
+struct Measured<'a, T> {
+    case: &'a Case,
+    smith: &'a Smith,
+    solver: &'a Solver<T>,
+}
+
+impl<T: Number> Measured<'_, T> {
+    /// The only body.
+    fn yarn(&self) -> &Body<T> {
+        &self.solver.bodies[0]
+    }
+
+    fn measure_densities(&self, radius: f64, sample: &mut OfYarn) {
+        let (yarn, length) = (self.yarn(), self.case.yarn.length);
         sample.least = f64::INFINITY;
-        for i in 0..yarn.mesh.elements.len() {
+        for i in (0..yarn.mesh.elements.len()).filter(|&i| yarn.is_intact(i)) {
             let densities = yarn.energy_densities(&self.solver.media, i);
-            for (part, density) in sample.parts.iter_mut().zip(densities) {
-                *part += 2.0 * density * yarn.volume(i);
-            }
-            if !yarn.is_intact(i) {
-                continue;
-            }
             let place = (yarn.mesh.layer(i) as f64 + 0.5) / self.case.yarn.layers as f64 * length;
-            update_maxima(&mut sample.largest, densities);
             if place > radius && place < length - radius {
-                update_maxima(&mut sample.free, densities);
+                for (most, density) in sample.free.iter_mut().zip(densities) {
+                    *most = largest(*most, density);
+                }
             }
             sample.least = sample.least.min(densities[0] + densities[4]);
-            sample.index = largest(sample.index, yarn.failure_index(&self.solver.media, i));
         }
     }
 
@@ -295,7 +185,7 @@ impl<'a, T: Number> Run<'a, T> {
         if whole == 0.0 { 0.0 } else { sum / whole }
     }
 
-    fn measure_fronts(&self, sample: &mut Sample) {
+    fn measure_fronts(&self, sample: &mut OfYarn) {
         let layers = self.case.yarn.layers;
         let length = self.case.yarn.length / layers as f64;
         let threshold = FRONT * self.smith.strain.ln_1p();
@@ -320,7 +210,7 @@ impl<'a, T: Number> Run<'a, T> {
         let nodes = section * count..(section + 1) * count;
         let (mass, x, v) = nodes.fold((0.0, 0.0, 0.0), |(sum, x, v), node| {
             let mass = yarn.mass[node];
-            let [place, velocity] = [yarn.position(node)[0], yarn.velocity[node][1].into()];
+            let [place, velocity] = [yarn.position(node)[0], yarn.state.velocity[node][1].into()];
             (sum + mass, x + mass * place, v + mass * velocity)
         });
         (x / mass, v / mass)
@@ -343,28 +233,8 @@ pub fn front(values: &[f64], threshold: f64) -> Option<f64> {
     Some(last as f64 + (values[last] - threshold) / (values[last] - next))
 }
 
-fn update_maxima(all: &mut [f64; 5], values: [f64; 5]) {
-    for (most, value) in all.iter_mut().zip(values) {
-        *most = largest(*most, value);
-    }
-}
-
-/// Energies of the whole yarn from those of its half.
-fn whole(half: &Energies) -> Energies {
-    Energies {
-        projectile: 2.0 * half.projectile,
-        kinetic: 2.0 * half.kinetic,
-        internal: 2.0 * half.internal,
-        hourglass: 2.0 * half.hourglass,
-        viscosity: 2.0 * half.viscosity,
-        friction: 2.0 * half.friction,
-        contact: 2.0 * half.contact,
-        external: 2.0 * half.external,
-    }
-}
-
-/// Symmetry at mid-span, the clamp at the other end, and what strikes; returns the height at which its axis starts.
-fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
+/// Symmetry at mid-span, the clamp at the other end, and what strikes.
+fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) {
     let yarn = &mut solver.bodies[0];
     let count = yarn.mesh.nodes_per_section;
     let last = case.yarn.layers * count;
@@ -377,11 +247,10 @@ fn set_up<T: Number>(case: &Case, solver: &mut Solver<T>) -> f64 {
         yarn.support(node, symmetric);
         yarn.support(last + node, Support { free: [false; 3], velocity: rest });
     }
-    let Striker::Cylinder { cylinder, mass, held } = case.striker else { return 0.0 };
+    let Striker::Cylinder { cylinder, mass, held } = case.striker else { return };
     let top = yarn.mesh.nodes.iter().map(|node| node[1]).fold(0.0, f64::max);
     let start = top + cylinder.radius;
     let contact = Contact::new(cylinder, &yarn.mesh.surface, &yarn.mass);
     // Half of it strikes the half model.
     solver.projectile = Some(Projectile::new(0.5 * mass, start, -case.speed, held, vec![contact]));
-    start
 }

@@ -3,15 +3,17 @@
 use std::path::Path;
 
 use super::judgement::judge;
-use super::outcome::{End, Outcome};
-use super::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use super::outcome::{End, OfYarn, Outcome};
+use super::scene::{Case, Outputs, Striker, Zones};
 use crate::common::error::Error;
 use crate::common::text_table::{or_dash, write_csv};
-use crate::common::units::number;
+use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME, number};
 use crate::explicit::judgement::verdict;
-use crate::material::model;
 use crate::material::smith::Smith;
+use crate::struck::history::Column;
+use crate::struck::summary::{Cells, Line};
 use toron::host::units::UnitSystem;
+use toron::law::parameters::{ENERGY_DENSITY, NUMBER};
 
 /// Between a case's name and the number of a table of strains.
 pub const STRAINS: &str = "-strain-";
@@ -30,22 +32,17 @@ pub fn write_strains(file: &Path, layers: impl Iterator<Item = (f64, [f64; 2])>)
 
 /// How a case ended, in words.
 pub fn outcome(result: &Outcome) -> &'static str {
-    match (result.end, result.broken) {
+    match (result.end, result.course.broken) {
+        (End::Interrupted, _) => "interrupted",
+        (End::Failed, _) => "an error",
+        (End::Rebounded, None) => "flies back",
+        (End::Rebounded, Some(_)) => "broken, flies back",
         (End::Stopped, None) => "not penetrated",
         (End::Stopped, Some(_)) => "broken, stopped",
         (End::Left, _) => "penetrated",
         (End::Time, Some(_)) => "broken, not over",
         (End::Time, None) => "unbroken, not over",
     }
-}
-
-/// The names of a case's materials, from mid-span outwards.
-pub fn yarns(case: &Case) -> String {
-    let to = match case.zones {
-        Zones::One(_) => String::new(),
-        Zones::Two(_, length) => number(length),
-    };
-    model::names(case.zones.materials(), &to)
 }
 
 fn law(case: &Case) -> String {
@@ -56,7 +53,7 @@ fn law(case: &Case) -> String {
             format!("hyperelastic to {}", number(layers / case.yarn.layers as f64 * case.yarn.length))
         }
     };
-    if case.precision == Precision::F32 {
+    if case.single_precision {
         name.push_str(", f32");
     }
     if case.outputs == Outputs::Stress {
@@ -65,152 +62,80 @@ fn law(case: &Case) -> String {
     name
 }
 
-/// Titles and entries of a case's line.
-fn cells(units: &UnitSystem, case: &Case, result: &Outcome) -> Vec<(&'static str, String)> {
+/// A case's line in the summary.
+pub fn line(units: &UnitSystem, case: &Case, result: &Outcome) -> Cells {
     let length = case.yarn.length;
-    let mut cells = vec![
-        ("case", case.name.clone()),
-        ("law", law(case)),
-        ("material", yarns(case)),
-        ("verdict", verdict(&judge(units, case, result))),
-        ("elements", result.mesh.elements.len().to_string()),
-        ("speed", number(case.speed)),
-        ("longitudinal_speed", or_dash(result.front_speed(length, |sample| sample.longitudinal), number)),
-    ];
+    let mut line = Line::new(units);
+    line.add("case", &case.name);
+    line.add("law", law(case));
+    line.add("material", case.zones.names());
+    line.add("verdict", verdict(&judge(units, case, result)));
+    line.add("elements", result.elements);
+    line.quantity("speed", SPEED, case.speed);
+    line.quantity("longitudinal_speed", SPEED, result.front_speed(length, |sample| sample.own.longitudinal));
     match case.striker {
-        Striker::Cylinder { cylinder, .. } => strike_cells(case, result, cylinder.stiffness, &mut cells),
-        Striker::Driven => smith_cells(length, result, &mut cells),
+        Striker::Cylinder { cylinder, .. } => add_strike(&mut line, case, result, cylinder.stiffness),
+        Striker::Driven => add_smith(&mut line, length, result),
     }
-    cells.extend([
-        ("imbalance", format!("{:.0e}", result.balance.imbalance())),
-        ("steps", result.cost.steps.to_string()),
-        ("seconds", decimals(result.cost.total().as_secs_f64(), 2)),
-        ("ns_per_zone_cycle", decimals(result.cost.total().as_nanos() as f64 / result.zone_cycles(), 1)),
-        ("law_share", decimals(result.cost.law.as_secs_f64() / result.cost.total().as_secs_f64(), 2)),
-    ]);
-    cells
+    let cost = result.cost;
+    line.add("imbalance", format_args!("{:.0e}", result.balance.imbalance()));
+    line.add("steps", cost.steps);
+    line.decimals("seconds", cost.total().as_secs_f64(), 2);
+    line.decimals("ns_per_zone_cycle", result.ns_per_zone_cycle(), 1);
+    line.decimals("law_time_share", cost.law.as_secs_f64() / cost.total().as_secs_f64(), 2);
+    line.cells
 }
 
-/// A number of so many decimals, for what has no unit or seconds.
-fn decimals(value: f64, digits: usize) -> String {
-    format!("{value:.digits$}")
+/// How a case ended, and when it broke.
+fn add_ending(line: &mut Line, result: &Outcome) {
+    line.add("ending", outcome(result));
+    line.quantity("first_failure_at", TIME, result.failed);
+    line.quantity("broken_at", TIME, result.course.broken.map(|(time, _)| time));
+    line.add("deleted", result.last().deleted);
+    line.add("collapsed", result.last().collapsed);
+    line.quantity("end", TIME, result.last().time);
 }
 
 /// The entries of a case with a projectile.
-fn strike_cells(case: &Case, result: &Outcome, stiffness: f64, cells: &mut Vec<(&'static str, String)>) {
+fn add_strike(line: &mut Line, case: &Case, result: &Outcome, stiffness: f64) {
     let last = result.last();
-    let broken = |of: fn((f64, f64)) -> f64| or_dash(result.broken.map(of), number);
-    cells.extend([
-        ("contact_stiffness", format!("{stiffness:e}")),
-        ("transverse_at_clamp", or_dash(result.transverse_at_clamp(case.yarn.length), number)),
-        ("outcome", outcome(result).to_string()),
-        ("residual_speed", or_dash(result.residual_speed(), number)),
-        ("speed_at_end", number(last.speed)),
-        ("first_failure_at", or_dash(result.failed, number)),
-        ("broken_at", broken(|(time, _)| time)),
-        ("speed_then", broken(|(_, speed)| speed)),
-        ("deleted", last.deleted.to_string()),
-        ("collapsed", last.collapsed.to_string()),
-        ("end", number(last.time)),
-        ("hourglass_share", decimals(result.hourglass_share(), 3)),
-        ("contact_share", decimals(result.contact_share(), 3)),
-        ("index_max", decimals(result.largest_index(), 3)),
-        ("w_el_at_end", number(last.largest[0])),
-        ("w_tc_at_end", number(last.largest[1])),
-        ("w_td_at_end", number(last.largest[2])),
-        ("work_at_end", number(last.largest[4])),
-    ]);
+    line.quantity("contact_stiffness", CONTACT_STIFFNESS, stiffness);
+    line.quantity("transverse_at_clamp", TIME, result.transverse_at_clamp(case.yarn.length));
+    add_ending(line, result);
+    line.quantity("residual_speed", SPEED, result.residual_speed());
+    line.quantity("speed_at_end", SPEED, last.speed);
+    line.quantity("speed_at_break", SPEED, result.course.broken.map(|(_, speed)| speed));
+    line.decimals("hourglass_share", result.hourglass_share(), 3);
+    line.decimals("contact_share", result.contact_share(), 3);
+    line.decimals("failure_index_max", result.largest_index(), 3);
+    for (name, mode) in [("w_el_at_end", 0), ("w_tc_at_end", 1), ("w_td_at_end", 2), ("work_at_end", 4)] {
+        line.quantity(name, ENERGY_DENSITY, last.largest[mode]);
+    }
 }
 
 /// The entries that Smith's theory is compared with.
-fn smith_cells(length: f64, result: &Outcome, cells: &mut Vec<(&'static str, String)>) {
+fn add_smith(line: &mut Line, length: f64, result: &Outcome) {
     let Smith { strain, fastest, slowest, transverse } = result.smith;
-    cells.extend([
-        ("longitudinal_theory", format!("{}-{}", number(fastest), number(slowest))),
-        ("strain_percent", or_dash(result.plateau(length), |strain| number(100.0 * strain))),
-        ("strain_theory", number(100.0 * strain)),
-        ("transverse_speed", or_dash(result.front_speed(length, |sample| sample.transverse), number)),
-        ("transverse_theory", number(transverse)),
-        ("outcome", outcome(result).to_string()),
-        ("first_failure_at", or_dash(result.failed, number)),
-        ("broken_at", or_dash(result.broken.map(|(time, _)| time), number)),
-        ("deleted", result.last().deleted.to_string()),
-        ("collapsed", result.last().collapsed.to_string()),
-        ("end", number(result.last().time)),
-    ]);
+    line.add("longitudinal_theory", format_args!("{}-{}", number(fastest), number(slowest)));
+    line.add("strain_percent", or_dash(result.plateau(length), |strain| number(100.0 * strain)));
+    line.add("strain_theory", number(100.0 * strain));
+    line.quantity("transverse_speed", SPEED, result.front_speed(length, |sample| sample.own.transverse));
+    line.quantity("transverse_theory", SPEED, transverse);
+    add_ending(line, result);
 }
 
-/// Writes the table as CSV.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write(file: &Path, scene: &Scene, results: &[(&Case, Outcome)]) -> Result<(), Error> {
-    let lines: Vec<_> = results.iter().map(|(case, result)| cells(&scene.units, case, result)).collect();
-    write_csv(file, &lines)
-}
-
-/// Writes the history of a case.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn write_history(file: &Path, result: &Outcome) -> Result<(), Error> {
-    let file_error = |error: csv::Error| Error::Input(format!("{}: {error}", file.display()));
-    let mut writer = csv::Writer::from_path(file).map_err(file_error)?;
-    writer
-        .write_record([
-            "time",
-            "speed",
-            "travel",
-            "force",
-            "projectile_energy",
-            "kinetic_energy",
-            "internal_energy",
-            "hourglass_energy",
-            "viscosity_energy",
-            "friction_energy",
-            "contact_energy",
-            "external_work",
-            "total_energy",
-            "elongation_energy",
-            "compaction_energy",
-            "distortion_energy",
-            "shear_energy",
-            "linear_work",
-            "w_el_max",
-            "w_tc_max",
-            "w_td_max",
-            "w_ld_max",
-            "work_max",
-            "w_el_min",
-            "w_tc_free",
-            "w_td_free",
-            "failure_index_max",
-            "deleted",
-            "collapsed",
-            "longitudinal_front",
-            "transverse_front",
-            "strain",
-            "width_1",
-            "width_2",
-            "width_3",
-            "width_4",
-        ])
-        .map_err(file_error)?;
-    for sample in &result.history {
-        let e = sample.energies;
-        let line = (
-            [sample.time, sample.speed, sample.travel, sample.force],
-            [e.projectile, e.kinetic, e.internal, e.hourglass, e.viscosity, e.friction, e.contact, e.external],
-            e.total(),
-            sample.parts,
-            sample.largest,
-            [sample.least, sample.free[1], sample.free[2], sample.index],
-            sample.deleted,
-            sample.collapsed,
-            [sample.longitudinal, sample.transverse, sample.strain],
-            sample.widths,
-        );
-        writer.serialize(line).map_err(file_error)?;
+/// The columns of the history that a yarn has besides those of all scenes.
+pub fn columns() -> Vec<Column<OfYarn>> {
+    let mut columns = vec![
+        Column::own("w_el_min", ENERGY_DENSITY, |own: &OfYarn| own.least),
+        Column::own("w_tc_free", ENERGY_DENSITY, |own: &OfYarn| own.free[1]),
+        Column::own("w_td_free", ENERGY_DENSITY, |own: &OfYarn| own.free[2]),
+        Column::own("longitudinal_front", LENGTH, |own: &OfYarn| own.longitudinal),
+        Column::own("transverse_front", LENGTH, |own: &OfYarn| own.transverse),
+        Column::own("strain", NUMBER, |own: &OfYarn| own.strain),
+    ];
+    for (station, name) in ["width_1", "width_2", "width_3", "width_4"].into_iter().enumerate() {
+        columns.push(Column::own(name, LENGTH, move |own: &OfYarn| own.widths[station]));
     }
-    writer.flush().map_err(|error| file_error(error.into()))
+    columns
 }

@@ -17,8 +17,8 @@ pub struct Figures {
     pub crimp: [f64; 2],
     /// From the lowest to the highest node.
     pub thickness: f64,
-    /// Volume of the yarns over the panel's area: times their density, the areal density.
-    pub volume_by_area: f64,
+    /// Volume of the yarns of warp and weft over the panel's area: times their density, the areal density.
+    pub volumes_by_area: [f64; 2],
     /// The least at a corner of an element, and the least divided by the lengths of the three edges there.
     pub least_jacobian: f64,
     pub least_scaled_jacobian: f64,
@@ -35,7 +35,7 @@ impl Figures {
             elements: model.elements.len(),
             crimp: Family::BOTH.map(|family| geometry.crimp(family)),
             thickness: heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min),
-            volume_by_area: Family::BOTH.map(|family| volume_by_area(model, geometry, family)).iter().sum(),
+            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, geometry, family)),
             least_jacobian: f64::INFINITY,
             least_scaled_jacobian: f64::INFINITY,
             shortest_edge: f64::INFINITY,
@@ -51,6 +51,10 @@ impl Figures {
             figures.shortest_edge = edges.lengths().into_iter().flatten().fold(figures.shortest_edge, f64::min);
         }
         figures
+    }
+
+    pub fn volume_by_area(&self) -> f64 {
+        self.volumes_by_area.iter().sum()
     }
 }
 

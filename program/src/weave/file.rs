@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::de::{SeqAccess, Visitor};
+use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
@@ -18,6 +18,11 @@ pub struct SceneFile {
     pub units: Spanned<String>,
     pub weave: Spanned<WeaveFile>,
     pub material: Option<Spanned<MaterialFile>>,
+    /// How the panel is struck, which is nothing to its mesh.
+    #[serde(rename = "scene")]
+    _scene: Option<IgnoredAny>,
+    #[serde(rename = "case")]
+    _case: Option<IgnoredAny>,
 }
 
 /// The table `[weave]`, and what a case has otherwise.
@@ -63,6 +68,8 @@ pub struct ThreadFile {
     pub section: Option<Section>,
     pub width: Option<Spanned<f64>>,
     pub height: Option<Spanned<f64>>,
+    /// For who strikes the panel: what these yarns are made of, other than the rest.
+    pub material: Option<Spanned<MaterialFile>>,
 }
 
 impl ThreadFile {
@@ -73,6 +80,7 @@ impl ThreadFile {
             section: own.section.or(base.section),
             width: own.width.or(base.width),
             height: own.height.or(base.height),
+            material: over(&own.material, &base.material, MaterialFile::over),
         }
     }
 }

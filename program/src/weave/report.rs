@@ -42,7 +42,7 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
     let [warps, wefts] = figures.yarns;
     let density = scene.material.as_ref().and_then(|material| material.density);
     let areal_density = density.map_or("no material that has a density".to_string(), |density| {
-        format!("{} kg/m²", number(areal_density(figures.volume_by_area, density, &scene.units)))
+        format!("{} kg/m²", number(areal_density(figures.volume_by_area(), density, &scene.units)))
     });
     let rows = [
         ("yarns", format!("{warps} warp, {wefts} weft")),
@@ -51,7 +51,7 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
         ("amplitude of the centre lines", format!("{} {length}", number(geometry.amplitude))),
         ("least distance of yarns", format!("{} {length}", number(geometry.weave.clearance))),
         ("thickness", format!("{} {length}", number(figures.thickness))),
-        ("volume over area", format!("{} {length}", number(figures.volume_by_area))),
+        ("volume over area", format!("{} {length}", number(figures.volume_by_area()))),
         ("areal density", areal_density),
         (
             "least Jacobian",
@@ -65,7 +65,7 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
     }
     let wave = scene.material.as_ref().and_then(|material| FibreWave::of(material, &scene.units));
     let of_wave = wave.and_then(|wave| wave.unit_warning(&scene.units));
-    let of_area = density.and_then(|density| areal_density_warning(figures.volume_by_area, density, &scene.units));
+    let of_area = density.and_then(|density| areal_density_warning(figures.volume_by_area(), density, &scene.units));
     let warnings: Vec<String> = of_wave.into_iter().chain(of_area).collect();
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };

@@ -124,7 +124,7 @@ fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
     let model = Model::new(&weave, &disc).expect("a mesh");
     let figures = Figures::of(&model, &geometry);
     let density = 1.3514e-6; // kg/mm³
-    let areal = 1e6 * density * figures.volume_by_area;
+    let areal = 1e6 * density * figures.volume_by_area();
     let straight = 1e6 * density * 2.0 * weave.threads[0].area() / weave.threads[0].pitch;
     assert!((straight - 0.1744).abs() < 1e-4, "{straight}");
     assert!((areal / (0.1744 * (1.0 + figures.crimp[0])) - 1.0).abs() < 1e-3, "{areal}");

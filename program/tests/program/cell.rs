@@ -21,13 +21,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use toron_program::cell::arrangement;
 use toron_program::cell::disc::Disc;
 use toron_program::cell::energies::Increment;
-use toron_program::cell::explicit_run;
+use toron_program::cell::explicit_run::{self, OfSection};
 use toron_program::cell::model::Model;
 use toron_program::cell::output;
 use toron_program::cell::report::largest_spring_share;
 use toron_program::cell::run::{self, Outcome};
 use toron_program::cell::scene::{Arrangement, BoxOf, Load, Packing, Scene};
 use toron_program::cell::solver::Job;
+use toron_program::common::error::Error;
+use toron_program::struck::run::Observer;
 
 use crate::calculix_decks::SOLVER;
 
@@ -158,7 +160,7 @@ fn the_explicit_host_agrees_with_calculix() {
     let scene = Scene { elements: 6, increments: 12, ..scene() };
     let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
     for load in [Load::Compaction, Load::AcrossRows] {
-        let explicit = explicit_run::run(&scene, &model, load, &mut |_| {}).expect("it runs");
+        let explicit = explicit_run::run(&scene, &model, load, None, &mut ()).expect("it runs");
         assert_eq!(explicit.failure, None);
         let calculix = on_model(&scene, &model, load);
         let [found, expected] = [&explicit, &calculix].map(|outcome| last(outcome).energy);
@@ -173,7 +175,7 @@ fn fibres_at_random_are_pressed() {
     let arrangement = Arrangement::Box(BoxOf::Random { fibres: 8, seed: 1 });
     let scene = Scene { arrangement, elements: 2, increments: 6, ..scene() };
     let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
-    let outcome = explicit_run::run(&scene, &model, Load::Compaction, &mut |_| {}).expect("it runs");
+    let outcome = explicit_run::run(&scene, &model, Load::Compaction, None, &mut ()).expect("it runs");
     assert_eq!(outcome.failure, None);
     let shares = outcome.shares.expect("the explicit host tells");
     println!("{:.3} MPa: {shares:?}", last(&outcome).energy);
@@ -513,7 +515,7 @@ fn the_box_of_the_thesis_in_calculix() {
     let example = Scene::read(&example("box.toml")).expect("the scene is valid");
     let boxed = Scene { explicit: false, largest: 0.11, ..example };
     let model = arrangement::model(&boxed.arrangement, boxed.elements).expect("a model");
-    let explicit = explicit_run::run(&boxed, &model, Load::Compaction, &mut |_| {}).expect("it runs");
+    let explicit = explicit_run::run(&boxed, &model, Load::Compaction, None, &mut ()).expect("it runs");
     let compaction = on_model(&boxed, &model, Load::Compaction);
     for (host, outcome) in [("explicit host", &explicit), ("CalculiX", &compaction)] {
         let [seconds, least] = [outcome.elapsed.as_secs_f64(), least_area(&model, outcome)];
@@ -538,6 +540,36 @@ fn the_box_of_the_thesis_in_calculix() {
     }
 }
 
+/// Keeps the checkpoints of a load.
+#[derive(Default)]
+struct Checkpoints(Vec<Vec<u8>>);
+
+impl Observer<OfSection> for Checkpoints {
+    fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.0.push(bytes.to_vec());
+        Ok(())
+    }
+}
+
+/// From the increment in which it was interrupted, and from its end.
+#[test]
+fn a_load_in_the_explicit_host_goes_on_from_its_checkpoint_with_the_same_bits() {
+    let text = std::fs::read_to_string(example("random.toml")).expect("the example");
+    let text = text.replace("fibres = 25", "fibres = 3").replace("elements = 3", "elements = 1");
+    let text = text.replace("increments = 24", "increments = 3").replace("largest = 0.12", "largest = 0.02");
+    let scene = Scene::parse("few.toml", &text).expect("the scene is valid");
+    let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
+    let mut checkpoints = Checkpoints::default();
+    let whole = explicit_run::run(&scene, &model, Load::Compaction, None, &mut checkpoints).expect("it runs");
+    assert!(whole.increments.len() == 3 && checkpoints.0.len() >= 3, "{}", checkpoints.0.len());
+    for bytes in [&checkpoints.0[1], &checkpoints.0[checkpoints.0.len() - 1]] {
+        let again = explicit_run::run(&scene, &model, Load::Compaction, Some(bytes), &mut ()).expect("it goes on");
+        assert_eq!((again.increments, &again.shape.patches), (whole.increments.clone(), &whole.shape.patches));
+    }
+    let other = explicit_run::run(&scene, &model, Load::AlongRows, Some(&checkpoints.0[1]), &mut ());
+    assert!(other.expect_err("another load").to_string().contains("is of another scene"));
+}
+
 /// The thesis's 115 fibres to its own range, in the explicit host.
 #[test]
 #[ignore = "takes half an hour"]
@@ -546,7 +578,7 @@ fn the_box_of_the_thesis() {
     assert!(boxed.explicit && boxed.largest == 0.12);
     let run = |scene: &Scene| {
         let model = arrangement::model(&scene.arrangement, scene.elements).expect("a model");
-        let load = |load| explicit_run::run(scene, &model, load, &mut |_| {}).expect("it runs");
+        let load = |load| explicit_run::run(scene, &model, load, None, &mut ()).expect("it runs");
         ([Load::Compaction, Load::AlongRows, Load::AcrossRows].map(load), model)
     };
     let (outcomes, model) = run(&boxed);

@@ -550,7 +550,7 @@ fn the_readme_s_figure_of_the_yarn_is_what_its_command_gives() {
     run(program.args(command.split(' ')).arg("-o").arg(&output).current_dir(ROOT), "");
     let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
     let lines: Vec<Vec<&str>> = summary.lines().map(|line| line.split(',').collect()).collect();
-    let place = lines[0].iter().position(|title| *title == "residual_speed").expect("a column");
+    let place = lines[0].iter().position(|title| *title == "residual_speed (mm/ms)").expect("a column");
     let speed: f64 = lines[1][place].parse().expect("a speed");
     let words: Vec<String> = read("../README.md").split_whitespace().map(String::from).collect();
     let said = format!("the residual speed is {speed:.0} m/s at 120 m/s (thesis: 64;");

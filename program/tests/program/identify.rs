@@ -651,19 +651,9 @@ fn a_scene_shows_what_the_parameters_are_worth() {
     let text = scene("hyperelastic = { preset = \"kevlar-identified.toml\" }\n");
     std::fs::write(folder.join("with-preset.toml"), text).expect("a file");
     let with_preset = Scene::read(&folder.join("with-preset.toml")).expect("a scene");
-    let outcome = impact::run::run(&with_preset.cases[0], &mut Silent).expect("a run");
+    let outcome = impact::run::run(&with_preset.cases[0], &mut ()).expect("a run");
     // The same but for the conversion of units.
     assert_relative_eq!(trials[0].speed, outcome.last().speed, max_relative = 1e-9);
-}
-
-struct Silent;
-
-impl impact::run::Observer for Silent {
-    fn progress(&mut self, _: f64) {}
-
-    fn frame(&mut self, _: f64, _: &str) -> Result<(), toron_program::common::error::Error> {
-        Ok(())
-    }
 }
 
 /// A set with the weight 4 counts as much as one whose known deviations are half as large, but is no surer for it.

@@ -16,13 +16,16 @@
 use std::path::{Path, PathBuf};
 
 use toron::Rotation;
+use toron_program::common::error::Error;
 use toron_program::explicit::judgement::Finding;
 use toron_program::identify::parameter::Parameter;
 use toron_program::impact::judgement::{contact, hourglass};
-use toron_program::impact::outcome::{End, Outcome, Sample};
-use toron_program::impact::run;
-use toron_program::impact::scene::{Case, Outputs, Precision, Scene, Striker, Zones};
+use toron_program::impact::outcome::{End, OfYarn, Outcome, Sample};
+use toron_program::impact::run::{self, StruckYarn};
+use toron_program::impact::scene::{Case, Outputs, Scene, Striker, Zones};
 use toron_program::material::model::Law;
+use toron_program::struck::run::Observer;
+use toron_program::struck::{self, checkpoint};
 
 fn folder() -> PathBuf {
     Path::new(crate::library::ROOT).join("examples/yarn_impact")
@@ -85,7 +88,7 @@ fn tiny(scene: &str, name: &str, rows: usize) -> Case {
 #[test]
 fn a_slow_projectile_is_held() {
     let result = run(&tiny("table_4_5.toml", "mf-80", 2));
-    assert_eq!((result.end, result.broken, result.residual_speed()), (End::Stopped, None, Some(0.0)));
+    assert_eq!((result.end, result.course.broken, result.residual_speed()), (End::Stopped, None, Some(0.0)));
     assert_eq!((result.last().deleted, result.failed), (0, None));
     assert_balanced(&result);
 }
@@ -108,7 +111,7 @@ fn uniaxial_failure_holds_it() {
     let mut case = coarse("table_4_5.toml", "uf-120");
     case.yarn.rows = 1;
     let result = run(&case);
-    assert_eq!((result.end, result.broken), (End::Stopped, None));
+    assert_eq!((result.end, result.course.broken), (End::Stopped, None));
     assert_balanced(&result);
 }
 
@@ -126,10 +129,10 @@ fn waves_spread_the_section_outside_the_contact() {
     }
     assert_between(result.transverse_at_clamp(case.yarn.length).expect("it arrives"), 0.0175, 0.0195);
     // √(k_el/ρ) = 7806 m/s.
-    let wave = result.front_speed(case.yarn.length, |sample| sample.longitudinal).expect("the wave passes");
+    let wave = result.front_speed(case.yarn.length, |sample| sample.own.longitudinal).expect("the wave passes");
     assert_between(wave, 0.98 * 7806.0, 1.02 * 7806.0);
     // The wave passes the second station around 9 µs and widens the section there by a tenth and more.
-    let growth = |time: f64| result.at(time).widths[1] / result.at(0.0).widths[1] - 1.0;
+    let growth = |time: f64| result.at(time).own.widths[1] / result.at(0.0).own.widths[1] - 1.0;
     assert_between(growth(0.006), 0.0, 0.08);
     assert_between(growth(0.015), 0.07, 0.18);
     let last = result.last();
@@ -139,10 +142,10 @@ fn waves_spread_the_section_outside_the_contact() {
         result.measured.iter().map(|sample| of(sample)[mode]).fold(0.0, f64::max)
     };
     for (mode, share) in [(1, 1e-3), (2, 0.02)] {
-        let (free, largest) = (most(mode, |sample| sample.free), most(mode, |sample| sample.largest));
+        let (free, largest) = (most(mode, |sample| sample.own.free), most(mode, |sample| sample.largest));
         assert!(free < share * largest && largest > 1.0, "mode {mode}: {free} of {largest}");
     }
-    assert!(last.least > 15.0, "elongation is everywhere: {}", last.least);
+    assert!(last.own.least > 15.0, "elongation is everywhere: {}", last.own.least);
     assert_balanced(&result);
 }
 
@@ -150,7 +153,7 @@ fn waves_spread_the_section_outside_the_contact() {
 #[test]
 fn two_laws_share_a_yarn() {
     let mut hybrid = coarse("hybrid.toml", "hybrid-2.5");
-    (hybrid.yarn.rows, hybrid.yarn.columns, hybrid.end) = (1, 2, 0.006);
+    (hybrid.yarn.rows, hybrid.yarn.columns, hybrid.plan.end) = (1, 2, 0.006);
     let result = run(&hybrid);
     let Sample { parts: [el, tc, td, ld, work], energies, largest, .. } = result.last();
     assert!(el > 0.1 && td > 0.01 && ld == 0.0 && work > 0.5, "{:?}", result.last().parts);
@@ -158,7 +161,7 @@ fn two_laws_share_a_yarn() {
     assert!(largest[0] > 0.0 && largest[4] > 0.0 && largest[0] != largest[4]);
     assert_balanced(&result);
     let mut full = coarse("hybrid.toml", "hyperelastic");
-    (full.yarn.rows, full.yarn.columns, full.end) = (1, 2, 0.006);
+    (full.yarn.rows, full.yarn.columns, full.plan.end) = (1, 2, 0.006);
     let Zones::Two(materials, _) = hybrid.zones else { panic!("it has two zones") };
     hybrid.zones = Zones::Two(materials, hybrid.yarn.length);
     assert_eq!(run(&hybrid).measured, run(&full).measured);
@@ -168,9 +171,9 @@ fn two_laws_share_a_yarn() {
 #[test]
 fn the_linear_law_s_wave_has_its_speed() {
     let mut case = coarse("no_failure.toml", "linear");
-    (case.yarn.layers, case.end) = (100, 0.002);
+    (case.yarn.layers, case.plan.end) = (100, 0.002);
     let result = run(&case);
-    let wave = result.front_speed(case.yarn.length, |sample| sample.longitudinal).expect("the wave passes");
+    let wave = result.front_speed(case.yarn.length, |sample| sample.own.longitudinal).expect("the wave passes");
     assert_between(wave, 0.98 * 7666.0, 1.02 * 7666.0);
     assert_balanced(&result);
 }
@@ -179,9 +182,9 @@ fn the_linear_law_s_wave_has_its_speed() {
 #[test]
 fn the_linear_law_keeps_the_section() {
     let mut case = coarse("no_failure.toml", "linear");
-    (case.yarn.rows, case.yarn.columns, case.end) = (1, 2, 0.015);
+    (case.yarn.rows, case.yarn.columns, case.plan.end) = (1, 2, 0.015);
     let result = run(&case);
-    let widths = |sample: Sample| sample.widths;
+    let widths = |sample: Sample| sample.own.widths;
     for (now, before) in widths(result.last()).into_iter().zip(widths(result.at(0.0))) {
         assert_between(now / before, 0.99, 1.01);
     }
@@ -193,7 +196,7 @@ fn the_linear_law_keeps_the_section() {
 fn events_of_the_short_period_are_in_order() {
     // With fewer elements in the section its distortion rebounds once more.
     let mut case = case("short_period.toml", "12x4");
-    case.end = 0.0018;
+    case.plan.end = 0.0018;
     let result = run(&case);
     // Both peak before 0.25 µs, the largest densities and the energies of the whole yarn; and not again.
     let until = |time: f64| result.measured.iter().take_while(move |sample| sample.time <= time);
@@ -217,9 +220,9 @@ fn events_of_the_short_period_are_in_order() {
     assert!(last.largest[1] < 0.06 * peak && last.parts[1] < 0.01 * result.at(0.0002).parts[1], "{:?}", last.parts);
     assert!(last.largest[0] > 1.0 && last.largest[2] > 0.5, "{:?}", last.largest);
     // The wave of elongation is at the clamp, 12.7 mm away, at 1.6 to 1.7 µs: something of it stirs there.
-    let arrived = result.measured.iter().find(|sample| sample.least > 1e-3).expect("it arrives");
+    let arrived = result.measured.iter().find(|sample| sample.own.least > 1e-3).expect("it arrives");
     assert_between(arrived.time, 0.0016, 0.0017);
-    let front = result.measured.iter().find(|sample| sample.longitudinal > 12.6).expect("it arrives");
+    let front = result.measured.iter().find(|sample| sample.own.longitudinal > 12.6).expect("it arrives");
     assert_between(front.time, 0.0016, 0.0018);
     assert_balanced(&result);
 }
@@ -228,7 +231,7 @@ fn events_of_the_short_period_are_in_order() {
 #[test]
 fn a_coarse_section_has_the_events_too() {
     let mut case = case("short_period.toml", "hyperelastic");
-    case.end = 0.001;
+    case.plan.end = 0.001;
     let result = run(&case);
     let peak = |mode: usize, until: f64| {
         let early = result.measured.iter().take_while(|sample| sample.time <= until);
@@ -250,7 +253,7 @@ fn strong_viscosity_is_stable() {
     for (linear, quadratic, shape) in [(2.0, 1.5, 2.0), (0.0, 0.0, 5.0)] {
         let mut case = tiny("table_4_5.toml", "mf-120", 2);
         (case.control.linear, case.control.quadratic, case.control.shape) = (linear, quadratic, shape);
-        case.end = 0.002;
+        case.plan.end = 0.002;
         let result = run(&case);
         assert!(result.last().energies.viscosity > 0.0);
         assert_balanced(&result);
@@ -263,7 +266,7 @@ fn a_driven_yarn_follows_smith() {
     for name in ["hyperelastic-200", "hyperelastic-400", "linear-400"] {
         let mut case = case("smith.toml", name);
         // A shorter yarn of fewer elements.
-        (case.yarn.length, case.yarn.layers, case.end) = (50.0, 500, 0.0064);
+        (case.yarn.length, case.yarn.layers, case.plan.end) = (50.0, 500, 0.0064);
         let result = run(&case);
         let length = case.yarn.length;
         let near = |found: Option<f64>, expected: f64| {
@@ -271,9 +274,9 @@ fn a_driven_yarn_follows_smith() {
             assert!((found / expected - 1.0).abs() < 0.02, "{name}: {found}, expected {expected}");
         };
         near(result.plateau(length), result.smith.strain);
-        near(result.front_speed(length, |sample| sample.transverse), result.smith.transverse);
+        near(result.front_speed(length, |sample| sample.own.transverse), result.smith.transverse);
         near(
-            result.front_speed(length, |sample| sample.longitudinal),
+            result.front_speed(length, |sample| sample.own.longitudinal),
             0.5 * (result.smith.fastest + result.smith.slowest),
         );
         assert_balanced(&result);
@@ -295,7 +298,7 @@ fn a_held_projectile_has_no_residual_speed() {
 #[test]
 fn much_hourglass_energy_is_warned_of() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
-    case.end = 0.004;
+    case.plan.end = 0.004;
     let mut result = run(&case);
     assert_eq!(hourglass(&case, &result), None, "{}", result.hourglass_share());
     let largest = result.last().energies.internal;
@@ -316,7 +319,7 @@ fn much_hourglass_energy_is_warned_of() {
 #[test]
 fn a_soft_contact_is_warned_of() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
-    case.end = 0.004;
+    case.plan.end = 0.004;
     let mut result = run(&case);
     assert_eq!(contact(&case, &result), None, "{}", result.contact_share());
     let energy = result.measured[0].energies.total();
@@ -334,12 +337,12 @@ fn a_soft_contact_is_warned_of() {
 fn runs_repeat_and_outputs_do_not_matter() {
     let mut case = tiny("table_4_5.toml", "mf-120", 2);
     let first = run(&case);
-    let (failed, broken) = (first.failed.expect("it fails"), first.broken.expect("it breaks").0);
+    let (failed, broken) = (first.failed.expect("it fails"), first.course.broken.expect("it breaks").0);
     assert!(0.0 < failed && failed <= broken && first.last().deleted > 0, "{failed} {broken}");
     assert_eq!(run(&case).measured, first.measured);
     case.outputs = Outputs::Stress;
     assert_eq!(run(&case).residual_speed(), first.residual_speed());
-    (case.outputs, case.precision) = (Outputs::Full, Precision::F32);
+    (case.outputs, case.single_precision) = (Outputs::Full, true);
     let single = run(&case);
     assert_eq!(single.end, End::Left);
     assert_balanced(&single);
@@ -351,11 +354,47 @@ fn runs_repeat_and_outputs_do_not_matter() {
 fn figures_do_not_depend_on_the_history() {
     let mut case = tiny("table_4_5.toml", "mf-120", 1);
     let often = run(&case);
-    case.sample = case.end;
+    case.plan.sample = case.plan.end;
     let seldom = run(&case);
     assert!(seldom.history.len() == 2 && often.history.len() > 100, "{}", often.history.len());
     assert_eq!((&seldom.measured, seldom.balance), (&often.measured, often.balance));
     assert!(seldom.largest_index() > 0.9 && seldom.transverse_at_clamp(case.yarn.length).is_some());
+}
+
+/// Keeps the checkpoints of a run.
+#[derive(Default)]
+struct Checkpoints(Vec<Vec<u8>>);
+
+impl Observer<OfYarn> for Checkpoints {
+    fn checkpoint(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.0.push(bytes.to_vec());
+        Ok(())
+    }
+}
+
+/// Whatever the precision and the laws; and a case that has ended is what it was.
+#[test]
+fn a_yarn_goes_on_from_its_checkpoint_with_the_same_bits() {
+    for (name, single_precision) in [("mf-120", false), ("linear-120", true)] {
+        let mut case = tiny("table_4_5.toml", name, 1);
+        (case.single_precision, case.plan.end, case.plan.checkpoints) = (single_precision, 0.02, 4);
+        let yarn = StruckYarn::new(&case).expect("it can be run");
+        let mut checkpoints = Checkpoints::default();
+        let whole = struck::run::run(&yarn, None, &mut checkpoints).expect("the case runs");
+        for bytes in [&checkpoints.0[0], &checkpoints.0[2]] {
+            let again = struck::run::run(&yarn, Some(bytes), &mut ()).expect("it goes on");
+            assert_eq!((&again.measured, &again.history), (&whole.measured, &whole.history), "{name}");
+            assert_eq!((&again.course, again.failed, again.end), (&whole.course, whole.failed, whole.end), "{name}");
+        }
+        let mut ended = whole.clone();
+        let bytes = checkpoint::of_outcome(&yarn, &mut ended).expect("it is written");
+        let again = struck::run::run(&yarn, Some(&bytes), &mut ()).expect("it has ended");
+        assert_eq!((again.measured, again.end), (whole.measured, whole.end));
+        case.speed += 1.0;
+        let other = StruckYarn::new(&case).expect("it can be run");
+        let error = struck::run::run(&other, Some(&checkpoints.0[0]), &mut ()).expect_err("another scene").to_string();
+        assert!(error.contains("is of another scene or another build"), "{error}");
+    }
 }
 
 /// A run that is not stable has no result, and says why.
@@ -608,7 +647,8 @@ fn the_program_writes_what_came_of_a_scene() {
     assert_eq!(read("a.pvd").matches("<DataSet").count(), 3); // the start, and two more
     let page = crate::documents::code_words("reference/impact-files.md");
     for file in ["b.csv", "summary.csv"] {
-        for column in read(file).lines().next().expect("a heading").split(',') {
+        for title in read(file).lines().next().expect("a heading").split(',') {
+            let column = title.split(" (").next().unwrap_or_default();
             let known = page.contains(column) || ["width_2", "width_3"].contains(&column);
             assert!(known, "docs/reference/impact-files.md does not know {column}");
         }
@@ -621,7 +661,10 @@ fn the_program_writes_what_came_of_a_scene() {
         assert!(grid.contains(part), "{part}");
     }
     let history = read("b.csv");
-    assert!(history.starts_with("time,speed,travel,force,") && history.lines().count() > 10, "{history}");
+    assert!(
+        history.starts_with("time (ms),speed (mm/ms),travel (mm),force (N),") && history.lines().count() > 10,
+        "{history}"
+    );
     for picture in ["a.svg", "a-yarn-1.svg", "residual-speed.svg"] {
         let svg = read(picture);
         assert!(svg.starts_with("<svg") && svg.ends_with("</svg>\n"), "{picture}");

@@ -131,7 +131,7 @@ fn strike(name: &str, scene: &str) -> [f64; 2] {
     let summary = std::fs::read_to_string(output.join("summary.csv")).expect("the summary");
     let lines: Vec<Vec<&str>> = summary.lines().map(|line| line.split(',').collect()).collect();
     let value = |case: usize, column: &str| -> Option<f64> {
-        let place = lines[0].iter().position(|title| *title == column)?;
+        let place = lines[0].iter().position(|title| title.split(" (").next() == Some(column))?;
         lines[1 + case][place].parse().ok()
     };
     let deflection = value(0, "deflection_max").expect("a deflection");

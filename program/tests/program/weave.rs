@@ -62,3 +62,13 @@ fn a_panel_that_no_fabric_weighs_is_warned_of() {
         assert!(answer.status.success() && text.contains(warning), "{text}");
     }
 }
+
+/// The scene of a strike has a panel as well.
+#[test]
+fn the_panel_of_a_strike_is_meshed() {
+    let output = folder("weave-strike");
+    let arguments = ["weave", "examples/fabric_impact/coarse.toml", "-o"];
+    run(Command::new(env!("CARGO_BIN_EXE_toron")).args(arguments).arg(&output).current_dir(ROOT), "");
+    let mesh = std::fs::read_to_string(output.join("weave.vtu")).expect("a mesh");
+    assert!(mesh.contains("NumberOfCells=\"32688\""), "{}", &mesh[..200]);
+}

@@ -37,7 +37,7 @@ const BORDER: f64 = 1e-2;
 pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: Vector) -> Option<Met> {
     let mut before = NONE;
     for _ in 0..MOVES {
-        if surface.gone[*face as usize] {
+        if surface.state.gone[*face as usize] {
             return None;
         }
         let patch = Patch::new(surface, *face);
@@ -91,7 +91,7 @@ impl Patch {
     #[inline(always)]
     fn new(surface: &Surface, face: u32) -> Patch {
         let [p, q, r, s] = surface.faces[face as usize];
-        let at = |corner: u32| surface.positions[corner as usize];
+        let at = |corner: u32| surface.state.positions[corner as usize];
         let (p, q, r, s) = (at(p), at(q), at(r), at(s));
         // Differences first: the corners' coordinates are large beside them.
         let (pq, sr) = (minus(q, p), minus(r, s));

@@ -10,6 +10,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "loops over the components of vectors")]
 
+mod bounds;
 mod face;
 mod motion;
 mod pair;
@@ -17,6 +18,7 @@ mod search;
 mod surface;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::archive::Archive;
 use super::body::Body;
@@ -69,13 +71,20 @@ impl Parameters {
 #[derive(Debug, Default)]
 struct Side {
     surface: Surface,
-    /// Its nodes near the faces of others, and the numbers of those that touch in this step.
-    pairs: Vec<Pair>,
+    state: SideState,
+    /// The numbers of the pairs that touch in this step.
     touched: Vec<u32>,
     /// Which touched pairs have it as their master: body and number.
     incoming: Vec<(u32, u32)>,
     /// Of each node, the stiffnesses that act on it.
     touching: Vec<f64>,
+}
+
+/// What a body's contact remembers from step to step.
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct SideState {
+    /// Its nodes near the faces of others.
+    pairs: Vec<Pair>,
     stored: f64,
     dissipated: f64,
     frequency: f64,
@@ -86,6 +95,12 @@ struct Side {
 pub struct MutualContact {
     parameters: Parameters,
     sides: Vec<Side>,
+    pub state: ContactState,
+}
+
+/// What the contact remembers from step to step, besides what its sides do.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub struct ContactState {
     motion: Motion,
     pub searches: u64,
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
@@ -105,47 +120,31 @@ impl MutualContact {
             surface,
             ..Side::default()
         });
-        MutualContact {
-            parameters,
-            sides: sides.collect(),
-            motion,
-            searches: 0,
-            stored: 0.0,
-            dissipated: 0.0,
-            released: 0.0,
-            frequency: 0.0,
-        }
+        MutualContact { parameters, sides: sides.collect(), state: ContactState { motion, ..ContactState::default() } }
     }
 
     /// # Errors
     /// The archive's.
     pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.searches)?;
-        self.motion.archive(archive)?;
-        let MutualContact { stored, dissipated, released, frequency, .. } = self;
-        [stored, dissipated, released, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
-        for side in &mut self.sides {
-            side.surface.archive(archive)?;
-            archive.keep(&mut side.pairs)?;
-            let Side { stored, dissipated, frequency, .. } = side;
-            [stored, dissipated, frequency].into_iter().try_for_each(|value| archive.keep(value))?;
-        }
-        Ok(())
+        archive.keep(&mut self.state)?;
+        self.sides
+            .iter_mut()
+            .try_for_each(|side| archive.keep(&mut side.surface.state).and_then(|()| archive.keep(&mut side.state)))
     }
 
     /// Adds the forces of the contact to those of the bodies.
     pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         self.sides.par_iter_mut().zip(&*bodies).for_each(|(side, body)| side.surface.follow(body));
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        if self.motion.advance(&surfaces, self.parameters.margin) {
+        if self.state.motion.advance(&surfaces, self.parameters.margin) {
             self.search();
         }
         self.press(bodies);
         self.collect(bodies);
         let sum = |value: fn(&Side) -> f64| self.sides.iter().map(value).sum::<f64>();
-        self.stored = self.released + sum(|side| side.stored);
-        self.dissipated = sum(|side| side.dissipated);
-        self.frequency = self.sides.iter().map(|side| side.frequency).fold(0.0, f64::max);
+        self.state.stored = self.state.released + sum(|side| side.state.stored);
+        self.state.dissipated = sum(|side| side.state.dissipated);
+        self.state.frequency = self.sides.iter().map(|side| side.state.frequency).fold(0.0, f64::max);
     }
 
     /// Finds the nodes near faces; pairs that go on keep their friction.
@@ -154,12 +153,12 @@ impl MutualContact {
         let grid = Grid::new(&surfaces, self.parameters.margin);
         let parameters = self.parameters;
         // Where bodies overlap from the start, they press each other.
-        let first = self.searches == 0;
+        let first = self.state.searches == 0;
         let near = |(number, side): (usize, &Side)| {
             let (mut pairs, mut faces) = (Vec::new(), Vec::new());
-            let nodes = if side.surface.wall { &[][..] } else { &side.surface.nodes };
+            let nodes = if side.surface.wall { &[][..] } else { &side.surface.state.nodes };
             for &node in nodes {
-                let point = side.surface.positions[node as usize];
+                let point = side.surface.state.positions[node as usize];
                 grid.near(number, point, &mut faces);
                 for of_body in faces.chunk_by(|a, b| a.body == b.body) {
                     let master = of_body[0].body;
@@ -178,7 +177,7 @@ impl MutualContact {
         let found: Vec<Vec<Pair>> = self.sides.par_iter().enumerate().map(near).collect();
         for (side, mut pairs) in self.sides.iter_mut().zip(found) {
             let key = |pair: &Pair| (pair.node, pair.master);
-            for old in &side.pairs {
+            for old in &side.state.pairs {
                 let place = pairs.binary_search_by_key(&key(old), key);
                 let touching = old.on_face.stiffness > 0.0;
                 match place {
@@ -189,11 +188,11 @@ impl MutualContact {
                     Err(_) => {}
                 }
             }
-            side.pairs = pairs;
+            side.state.pairs = pairs;
         }
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        self.motion.restart(&surfaces, self.parameters.margin);
-        self.searches += 1;
+        self.state.motion.restart(&surfaces, self.parameters.margin);
+        self.state.searches += 1;
     }
 
     /// Presses the nodes of every body out of the others' faces.
@@ -204,12 +203,12 @@ impl MutualContact {
             touching: Vec<f64>,
         }
         let taken = self.sides.iter_mut().map(|side| Work {
-            pairs: std::mem::take(&mut side.pairs),
+            pairs: std::mem::take(&mut side.state.pairs),
             touched: std::mem::take(&mut side.touched),
             touching: std::mem::take(&mut side.touching),
         });
         let mut taken: Vec<Work> = taken.collect();
-        let (parameters, motion) = (self.parameters, &self.motion);
+        let (parameters, motion) = (self.parameters, &self.state.motion);
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let press = |(number, (work, body)): (usize, (&mut Work, &mut Body<T>))| {
             let Work { pairs, touched, touching } = work;
@@ -236,15 +235,15 @@ impl MutualContact {
         };
         let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
         for ((side, work), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
-            Work { pairs: side.pairs, touched: side.touched, touching: side.touching } = work;
+            Work { pairs: side.state.pairs, touched: side.touched, touching: side.touching } = work;
             side.incoming.clear();
-            side.stored = stored;
-            side.dissipated += dissipated;
+            side.state.stored = stored;
+            side.state.dissipated += dissipated;
         }
         for body in 0..self.sides.len() {
             for place in 0..self.sides[body].touched.len() {
                 let pair = self.sides[body].touched[place];
-                let master = self.sides[body].pairs[pair as usize].master as usize;
+                let master = self.sides[body].state.pairs[pair as usize].master as usize;
                 self.sides[master].incoming.push((body as u32, pair));
             }
         }
@@ -258,7 +257,7 @@ impl MutualContact {
         let collect = |(number, (touching, body)): (usize, (&mut Vec<f64>, &mut Body<T>))| {
             let side = &sides[number];
             for &(other, pair) in &side.incoming {
-                let pair = &sides[other as usize].pairs[pair as usize];
+                let pair = &sides[other as usize].state.pairs[pair as usize];
                 let OnFace { force, weights, stiffness } = pair.on_face;
                 for (weight, corner) in weights.into_iter().zip(side.surface.faces[pair.face as usize]) {
                     let corner = corner as usize;
@@ -269,7 +268,7 @@ impl MutualContact {
                 }
             }
             let mut frequency: f64 = 0.0;
-            for &node in &side.surface.nodes {
+            for &node in &side.surface.state.nodes {
                 let node = node as usize;
                 if touching[node] > 0.0 {
                     frequency = frequency.max(2.0 * touching[node] / body.mass[node]);
@@ -279,7 +278,7 @@ impl MutualContact {
         };
         let frequencies: Vec<f64> = taken.par_iter_mut().zip(bodies).enumerate().map(collect).collect();
         for ((side, touching), frequency) in self.sides.iter_mut().zip(taken).zip(frequencies) {
-            (side.touching, side.frequency) = (touching, frequency);
+            (side.touching, side.state.frequency) = (touching, frequency);
         }
     }
 
@@ -288,16 +287,16 @@ impl MutualContact {
     pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
         let side = &mut self.sides[number];
         side.surface.remove(body);
-        let gone = side.surface.gone.clone();
-        let loose = side.pairs.iter_mut().filter(|pair| body.is_loose(pair.node as usize));
+        let gone = side.surface.state.gone.clone();
+        let loose = side.state.pairs.iter_mut().filter(|pair| body.is_loose(pair.node as usize));
         let mut released = loose.map(Pair::leave).sum::<f64>();
         for other in &mut self.sides {
             let on_it =
-                other.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);
+                other.state.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);
             released += on_it.map(Pair::leave).sum::<f64>();
         }
-        self.released += released;
-        self.motion.lose_track();
+        self.state.released += released;
+        self.state.motion.lose_track();
     }
 }
 

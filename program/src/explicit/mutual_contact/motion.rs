@@ -8,63 +8,13 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::bounds::Bounds;
 use super::surface::Surface;
-use crate::explicit::archive::Archive;
-use crate::explicit::vector::{Vector, dot, minus};
 
 /// Slabs that are closer than this many times the margin are followed in pairs, all others by the fastest.
 const NEAR: f64 = 8.0;
 /// Pairs that a thread takes at a time.
 const SHARE: usize = 8192;
-
-/// A box that contains vectors.
-#[derive(Clone, Copy, Debug)]
-pub struct Bounds {
-    low: Vector,
-    high: Vector,
-}
-
-impl Bounds {
-    pub const EMPTY: Bounds = Bounds { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-
-    #[inline(always)]
-    pub fn take(&mut self, vector: Vector) {
-        for i in 0..3 {
-            self.low[i] = if vector[i] < self.low[i] { vector[i] } else { self.low[i] };
-            self.high[i] = if vector[i] > self.high[i] { vector[i] } else { self.high[i] };
-        }
-    }
-
-    #[inline(always)]
-    fn with(mut self, other: Bounds) -> Bounds {
-        for i in 0..3 {
-            self.low[i] = self.low[i].min(other.low[i]);
-            self.high[i] = self.high[i].max(other.high[i]);
-        }
-        self
-    }
-
-    /// The largest difference of a vector in one and a vector in the other; negative infinity where one is empty.
-    #[inline(always)]
-    fn largest_difference(&self, other: &Bounds) -> f64 {
-        let a = minus(self.high, other.low);
-        let b = minus(other.high, self.low);
-        let mut farthest = [0.0; 3];
-        for i in 0..3 {
-            farthest[i] = if a[i] > b[i] { a[i] } else { b[i] };
-        }
-        if farthest[0] < 0.0 { f64::NEG_INFINITY } else { dot(farthest, farthest).sqrt() }
-    }
-
-    /// How far two boxes are from each other.
-    fn gap(&self, other: &Bounds) -> f64 {
-        let mut apart = [0.0; 3];
-        for i in 0..3 {
-            apart[i] = (other.low[i] - self.high[i]).max(self.low[i] - other.high[i]).max(0.0);
-        }
-        dot(apart, apart).sqrt()
-    }
-}
 
 /// Two slabs by their numbers, and how far they may have moved against each other since the last search.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -74,7 +24,7 @@ struct Approach {
 }
 
 /// The motion of all bodies' slabs since the last search.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Motion {
     /// The number of each body's first slab, and of all slabs.
     first: Vec<u32>,
@@ -94,14 +44,6 @@ impl Motion {
         let starts = vec![0; first[first.len() - 1] as usize + 1];
         // Before the first search.
         Motion { first, approaches: Vec::new(), starts, far: f64::INFINITY }
-    }
-
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep(&mut self.approaches)?;
-        archive.keep_all(&mut self.starts)?;
-        archive.keep(&mut self.far)
     }
 
     /// Adds the motion of a step. Returns whether what was farther than the margin may touch now.

@@ -61,7 +61,7 @@ impl Pair {
         if self.stiffness == 0.0 {
             return (None, 0.0);
         }
-        let met = face::meet(master, &mut self.face, &mut self.place, own.positions[node]);
+        let met = face::meet(master, &mut self.face, &mut self.place, own.state.positions[node]);
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
             // Beyond the surface's border it may touch an edge at once.
@@ -79,10 +79,10 @@ impl Pair {
             self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
-        let mut slip = own.moved[node];
+        let mut slip = own.state.moved[node];
         let corners = master.faces[self.face as usize];
         for k in 0..4 {
-            slip = add(slip, -met.weights[k], master.moved[corners[k] as usize]);
+            slip = add(slip, -met.weights[k], master.state.moved[corners[k] as usize]);
         }
         let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
         let force = self.stiffness * self.depth;

@@ -45,15 +45,15 @@ impl Grid {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut sum_of_reaches = 0.0;
         for (body, surface) in surfaces.iter().enumerate() {
-            for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.gone[face]) {
+            for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.state.gone[face]) {
                 let mut sum = [0.0; 3];
                 for &corner in corners {
-                    sum = add(sum, 1.0, surface.positions[corner as usize]);
+                    sum = add(sum, 1.0, surface.state.positions[corner as usize]);
                 }
                 let centre = times(0.25, sum);
                 let mut farthest: f64 = 0.0;
                 for &corner in corners {
-                    let from = minus(surface.positions[corner as usize], centre);
+                    let from = minus(surface.state.positions[corner as usize], centre);
                     farthest = farthest.max(dot(from, from));
                 }
                 let reach = farthest.sqrt() + margin;

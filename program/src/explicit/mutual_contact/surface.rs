@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::motion::Bounds;
-use crate::explicit::archive::Archive;
+use serde::{Deserialize, Serialize};
+
+use super::bounds::Bounds;
 use crate::explicit::body::Body;
 use crate::explicit::lanes::Number;
 use crate::explicit::mesh::Mesh;
@@ -21,23 +22,30 @@ pub struct Surface {
     pub elements: Vec<u32>,
     /// Beyond the edges from each corner to the next, or `NONE`.
     pub neighbours: Vec<[u32; 4]>,
-    /// Whether its element has been deleted.
-    pub gone: Vec<bool>,
     /// Whether it is a rigid wall's: nothing rubs on it, and the nodes of others press against it alone, not its own against others.
     pub wall: bool,
-    /// The nodes of the faces in their order.
-    pub nodes: Vec<u32>,
     /// Of all nodes of the body, inner ones included, which have no share: their share of the faces, as the size of a sum of
-    /// vectors, so that on an edge what faces another body counts once; where they are, and how they have moved in the last step.
+    /// vectors, so that on an edge what faces another body counts once.
     pub area: Vec<f64>,
-    pub positions: Vec<[f64; 3]>,
-    pub moved: Vec<[f64; 3]>,
+    pub state: SurfaceState,
     /// How many slabs the body is cut into whose motion is followed, in which of them nodes and faces are, and how
     /// the nodes of each have moved in the last step.
     pub slabs: usize,
     slab_of_node: Vec<u16>,
     slab_of_face: Vec<u16>,
     pub moved_by_slab: Vec<Bounds>,
+}
+
+/// What a surface remembers from step to step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct SurfaceState {
+    /// Whether the element of each face has been deleted.
+    pub gone: Vec<bool>,
+    /// The nodes of the faces in their order.
+    pub nodes: Vec<u32>,
+    /// Of all nodes of the body: where they are, and how they have moved in the last step.
+    pub positions: Vec<[f64; 3]>,
+    pub moved: Vec<[f64; 3]>,
 }
 
 /// A slab is as wide as this many of the longest faces; no body has more slabs than this.
@@ -69,10 +77,13 @@ impl Surface {
         nodes.dedup();
         let (slabs, slab_of_node) = cut(&mesh.nodes, &nodes, &faces);
         Surface {
-            gone: vec![false; faces.len()],
             wall: false,
-            positions: mesh.nodes.clone(),
-            moved: vec![[0.0; 3]; mesh.nodes.len()],
+            state: SurfaceState {
+                gone: vec![false; faces.len()],
+                nodes,
+                positions: mesh.nodes.clone(),
+                moved: vec![[0.0; 3]; mesh.nodes.len()],
+            },
             slabs,
             slab_of_face: faces.iter().map(|face| slab_of_node[face[0] as usize]).collect(),
             slab_of_node,
@@ -80,28 +91,18 @@ impl Surface {
             faces,
             elements,
             neighbours,
-            nodes,
             area: area.iter().map(nalgebra::Vector3::norm).collect(),
         }
-    }
-
-    /// # Errors
-    /// The archive's.
-    pub fn archive(&mut self, archive: &mut Archive<'_>) -> Result<(), postcard::Error> {
-        archive.keep_all(&mut self.gone)?;
-        archive.keep(&mut self.nodes)?;
-        archive.keep_all(&mut self.positions)?;
-        archive.keep_all(&mut self.moved)
     }
 
     /// Takes the nodes' places over.
     pub fn follow<T: Number>(&mut self, body: &Body<T>) {
         self.moved_by_slab.fill(Bounds::EMPTY);
-        for &node in &self.nodes {
+        for &node in &self.state.nodes {
             let node = node as usize;
             let now = body.position(node);
-            let moved = minus(now, self.positions[node]);
-            (self.positions[node], self.moved[node]) = (now, moved);
+            let moved = minus(now, self.state.positions[node]);
+            (self.state.positions[node], self.state.moved[node]) = (now, moved);
             self.moved_by_slab[self.slab_of_node[node] as usize].take(moved);
         }
     }
@@ -109,12 +110,12 @@ impl Surface {
     /// Where the nodes of each slab and the corners of its faces are.
     pub fn places_by_slab(&self) -> Vec<Bounds> {
         let mut places = vec![Bounds::EMPTY; self.slabs];
-        for &node in &self.nodes {
-            places[self.slab_of_node[node as usize] as usize].take(self.positions[node as usize]);
+        for &node in &self.state.nodes {
+            places[self.slab_of_node[node as usize] as usize].take(self.state.positions[node as usize]);
         }
-        for face in (0..self.faces.len()).filter(|&face| !self.gone[face]) {
+        for face in (0..self.faces.len()).filter(|&face| !self.state.gone[face]) {
             for corner in self.faces[face] {
-                places[self.slab_of_face[face] as usize].take(self.positions[corner as usize]);
+                places[self.slab_of_face[face] as usize].take(self.state.positions[corner as usize]);
             }
         }
         places
@@ -133,10 +134,10 @@ impl Surface {
 
     /// Takes out the faces of deleted elements and the nodes without any.
     pub fn remove<T: Number>(&mut self, body: &Body<T>) {
-        for (gone, &element) in self.gone.iter_mut().zip(&self.elements) {
+        for (gone, &element) in self.state.gone.iter_mut().zip(&self.elements) {
             *gone = !body.is_intact(element as usize);
         }
-        self.nodes.retain(|&node| !body.is_loose(node as usize));
+        self.state.nodes.retain(|&node| !body.is_loose(node as usize));
     }
 }
 

@@ -67,14 +67,14 @@ fn open(mesh: &Mesh) -> Surface {
 fn shift(body: usize, by: [f64; 3], bodies: &mut [Body<f64>], contact: &mut MutualContact) -> f64 {
     const STEPS: usize = 20;
     for _ in 0..STEPS {
-        for u in &mut bodies[body].displacement {
+        for u in &mut bodies[body].state.displacement {
             for i in 0..3 {
                 u[i] += by[i] / STEPS as f64;
             }
         }
         contact.apply(bodies);
     }
-    contact.stored
+    contact.state.stored
 }
 
 /// Two bars of which one lies across the other, this deep in it.
@@ -125,7 +125,7 @@ fn two_bars_press_each_other_by_their_overlap() {
         assert!((lower + upper).norm() < 1e-12 * lower.norm(), "{lower} {upper}");
         assert!(upper.x.abs() + upper.z.abs() < 1e-9 * upper.y);
         assert!(moment(&bodies).norm() < 1e-12 * upper.y * 1e-3, "{}", moment(&bodies));
-        assert!((contact.stored / (0.5 * upper.y * depth) - 1.0).abs() < 1e-9 && contact.dissipated == 0.0);
+        assert!((contact.state.stored / (0.5 * upper.y * depth) - 1.0).abs() < 1e-9 && contact.state.dissipated == 0.0);
         sum += upper.y;
     }
     // The common parallelogram is as wide as either and slanted. The outermost of five lines of nodes count √½ each, for ½.
@@ -146,7 +146,7 @@ fn sliding_bars_rub() {
         for body in &mut bodies {
             body.forces.fill([0.0; 3]);
         }
-        for u in &mut bodies[1].displacement {
+        for u in &mut bodies[1].state.displacement {
             u[0] += slip;
         }
         contact.apply(&mut bodies);
@@ -157,9 +157,9 @@ fn sliding_bars_rub() {
     // Nodes slip after half of the depth.
     let path = f64::from(steps) * slip - PARAMETERS.friction * 1e-6;
     assert!(
-        (contact.dissipated / (PARAMETERS.friction * pressing * path) - 1.0).abs() < 0.02,
+        (contact.state.dissipated / (PARAMETERS.friction * pressing * path) - 1.0).abs() < 0.02,
         "{}",
-        contact.dissipated
+        contact.state.dissipated
     );
 }
 
@@ -168,15 +168,15 @@ fn what_was_far_is_found_when_it_comes_near() {
     let media = media();
     let (mut bodies, mut contact) = crossed(-2e-4, &media);
     contact.apply(&mut bodies);
-    assert_eq!((contact.searches, contact.stored), (1, 0.0));
+    assert_eq!((contact.state.searches, contact.state.stored), (1, 0.0));
     for _ in 0..100 {
-        for u in &mut bodies[1].displacement {
+        for u in &mut bodies[1].state.displacement {
             u[1] -= 2.01e-6;
         }
         contact.apply(&mut bodies);
     }
-    assert!(contact.searches < 30, "{}", contact.searches);
-    assert!(contact.stored > 0.0);
+    assert!(contact.state.searches < 30, "{}", contact.state.searches);
+    assert!(contact.state.stored > 0.0);
 }
 
 /// A bar falls on another that is free, at 20 m/s, and both fly on; the momentum and the change of energy over the kinetic energy
@@ -186,27 +186,27 @@ fn collide(threads: usize) -> (Vector3<f64>, f64, Vec<[f64; 3]>, [f64; 2]) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let (mut bodies, contact) = crossed(-1e-7, &media);
-        for v in &mut bodies[1].velocity {
+        for v in &mut bodies[1].state.velocity {
             *v = [3.0, -20.0, 1.0];
         }
         let mut solver = Solver::new(bodies, media);
         solver.mutual = Some(contact);
         solver.accelerate(true, 1.0).expect("stable");
-        let start = solver.energies.total();
+        let start = solver.state.energies.total();
         solver.displace();
-        while solver.time < 3e-6 {
+        while solver.state.time < 3e-6 {
             solver.accelerate(true, 1.0).expect("stable");
             solver.displace();
         }
         let momentum = |body: &Body<f64>| -> Vector3<f64> {
-            body.mass.iter().zip(&body.velocity).map(|(&mass, &v)| mass * Vector3::from(v)).sum()
+            body.mass.iter().zip(&body.state.velocity).map(|(&mass, &v)| mass * Vector3::from(v)).sum()
         };
         let total: Vector3<f64> = solver.bodies.iter().map(momentum).sum();
         let mass: f64 = solver.bodies[1].mass.iter().sum();
         let expected = mass * Vector3::new(3.0, -20.0, 1.0);
         let positions =
             solver.bodies.iter().flat_map(|body| (0..body.mesh.nodes.len()).map(|node| body.position(node)));
-        let energies = solver.energies;
+        let energies = solver.state.energies;
         assert!(momentum(&solver.bodies[0]).y < 0.3 * expected.y, "it was hit: {}", momentum(&solver.bodies[0]));
         let friction = energies.friction / start;
         (
@@ -232,7 +232,7 @@ fn what_is_deleted_leaves_the_contact() {
     let media = media();
     let (mut bodies, mut contact) = crossed(1e-6, &media);
     contact.apply(&mut bodies);
-    let stored = contact.stored;
+    let stored = contact.state.stored;
     let all: Vec<usize> = (0..bodies[1].mesh.elements.len()).collect();
     bodies[1].delete(&all);
     contact.remove(1, &bodies[1]);
@@ -241,7 +241,7 @@ fn what_is_deleted_leaves_the_contact() {
     }
     contact.apply(&mut bodies);
     assert_eq!([force(&bodies[0]), force(&bodies[1])], [Vector3::zeros(); 2]);
-    assert!((contact.stored / stored - 1.0).abs() < 1e-12, "the balance keeps what was stored");
+    assert!((contact.state.stored / stored - 1.0).abs() < 1e-12, "the balance keeps what was stored");
 }
 
 /// A yarn across the open end of another one, above it and beyond it, comes back over the end and down.
@@ -257,10 +257,10 @@ fn what_was_beyond_an_open_end_may_come_back() {
     assert_eq!(shift(1, [-1e-4, 0.0, 0.0], &mut bodies, &mut contact), 0.0);
     let mut other = fresh();
     other.apply(&mut bodies);
-    let before = bodies[1].displacement.clone();
+    let before = bodies[1].state.displacement.clone();
     let stored = shift(1, [0.0, -2.1e-5, 0.0], &mut bodies, &mut contact);
-    assert_eq!((contact.searches, other.searches), (1, 1));
-    bodies[1].displacement = before;
+    assert_eq!((contact.state.searches, other.state.searches), (1, 1));
+    bodies[1].state.displacement = before;
     let expected = shift(1, [0.0, -2.1e-5, 0.0], &mut bodies, &mut other);
     assert!(stored > 0.0 && (stored / expected - 1.0).abs() < 1e-9, "{stored} {expected}");
 }
@@ -345,12 +345,11 @@ fn ratio_of_forces(k_ld: f64) -> (f64, f64) {
     }
     let mut solver = Solver::new(bodies, media);
     solver.mutual = Some(contact);
-    solver.ramp = Some(Ramp { start: 0.0, duration: 2e-5 });
-    solver.brake = 1e6;
+    solver.ramp = Some(Ramp { start: 0.0, duration: 2e-5, brake: [1e6; 2] });
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-    while solver.time < 1.5e-5 {
+    while solver.state.time < 1.5e-5 {
         solver.accelerate(false, 1.0).expect("stable");
-        if solver.time > 1e-5 {
+        if solver.state.time > 1e-5 {
             let end = |first: usize| -> f64 {
                 let forces = &solver.bodies[0].forces[first..first + 4];
                 forces.iter().map(|&force| Vector3::from(force)).sum::<Vector3<f64>>().norm()
@@ -396,7 +395,7 @@ fn slabs_have_moved_no_less_than_their_nodes() {
             // At first all nodes move alike; from step 15 on each body has a motion of its own, and each node some more.
             for body in &mut bodies {
                 let common: [f64; 3] = std::array::from_fn(|_| 1e-6 * (random.f64() - 0.5));
-                for u in &mut body.displacement {
+                for u in &mut body.state.displacement {
                     for i in 0..3 {
                         u[i] += shared + if step < 15 { 0.0 } else { common[i] + 1e-6 * (random.f64() - 0.5) };
                     }
@@ -405,11 +404,12 @@ fn slabs_have_moved_no_less_than_their_nodes() {
             surfaces.iter_mut().zip(&bodies).for_each(|(surface, body)| surface.follow(body));
             far |= motion.advance(&surfaces.iter().collect::<Vec<_>>(), margin);
             let (mut followed, mut largest) = (0, 0.0_f64);
-            for &a in &surfaces[0].nodes {
-                for &b in &surfaces[1].nodes {
+            for &a in &surfaces[0].state.nodes {
+                for &b in &surfaces[1].state.nodes {
                     let slabs = [surfaces[0].slab_of_node(a), surfaces[1].slab_of_node(b)];
                     let Some(between) = motion.between([0, 1], slabs) else { continue };
-                    let [own, other] = [bodies[0].displacement[a as usize], bodies[1].displacement[b as usize]];
+                    let [own, other] =
+                        [bodies[0].state.displacement[a as usize], bodies[1].state.displacement[b as usize]];
                     let moved = (Vector3::from(own) - Vector3::from(other)).norm();
                     assert!(moved <= motion.moved(between) * (1.0 + 1e-12) + 1e-18, "{step} {moved}");
                     largest = largest.max(motion.moved(between));
@@ -432,18 +432,18 @@ fn what_is_clear_is_not_in_contact() {
         let mut stored = Vec::new();
         for i in 0..400 {
             let phase = 0.05 * f64::from(i);
-            for (node, u) in bodies[1].displacement.iter_mut().enumerate() {
+            for (node, u) in bodies[1].state.displacement.iter_mut().enumerate() {
                 let wave = (phase + 0.4 * node as f64).sin();
                 *u = [1e-6 * phase, -5e-6 * (1.0 - phase.cos()) + 2e-7 * wave, 3e-6 * phase.sin()];
             }
             if every_step {
-                contact.sides.iter_mut().flat_map(|side| &mut side.pairs).for_each(|pair| pair.free_until = 0.0);
+                contact.sides.iter_mut().flat_map(|side| &mut side.state.pairs).for_each(|pair| pair.free_until = 0.0);
             }
             contact.apply(&mut bodies);
-            stored.push(contact.stored);
+            stored.push(contact.state.stored);
         }
-        let left = contact.sides.iter().flat_map(|side| &side.pairs).filter(|pair| pair.free_until > 0.0).count();
-        (stored, contact.dissipated, left)
+        let left = contact.sides.iter().flat_map(|side| &side.state.pairs).filter(|pair| pair.free_until > 0.0).count();
+        (stored, contact.state.dissipated, left)
     };
     let (stored, dissipated, left) = course(false);
     let (stored_always, dissipated_always, _) = course(true);

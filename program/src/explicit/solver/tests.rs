@@ -44,7 +44,7 @@ fn step(solver: &mut Solver<f64>) -> Energies {
 /// A step no longer than this.
 fn short_step(solver: &mut Solver<f64>, longest: f64) -> Energies {
     solver.accelerate(true, longest).expect("the step is stable");
-    let energies = solver.energies;
+    let energies = solver.state.energies;
     solver.displace();
     energies
 }
@@ -58,19 +58,19 @@ fn collapse([_, y, _]: [f64; 3]) -> Support {
 fn an_element_that_may_fail_goes_when_it_has_collapsed() {
     let mut solver = cube(collapse);
     let (mut first, mut worst) = (None, 0.0);
-    while solver.bodies[0].deleted.is_empty() {
+    while solver.bodies[0].state.deleted.is_empty() {
         step(&mut solver);
-        let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
+        let change = solver.state.energies.total() - *first.get_or_insert(solver.state.energies.total());
         worst = largest(worst, change.abs());
-        assert!(solver.time < 1e-5, "the top is through the bottom after 10 µs");
+        assert!(solver.state.time < 1e-5, "the top is through the bottom after 10 µs");
     }
-    let first_step = solver.first_step.expect("a step was made");
-    assert!(solver.step < 1.1 * COLLAPSED * first_step && solver.step > 0.5 * COLLAPSED * first_step);
-    assert!(worst < 0.01 * solver.energies.external, "{worst} of {}", solver.energies.external);
-    assert_eq!((solver.bodies[0].deleted.len(), solver.bodies[0].collapsed), (1, 1));
+    let first_step = solver.state.first_step.expect("a step was made");
+    assert!(solver.state.step < 1.1 * COLLAPSED * first_step && solver.state.step > 0.5 * COLLAPSED * first_step);
+    assert!(worst < 0.01 * solver.state.energies.external, "{worst} of {}", solver.state.energies.external);
+    assert_eq!((solver.bodies[0].state.deleted.len(), solver.bodies[0].state.collapsed), (1, 1));
     // Without it nothing limits the step.
     solver.accelerate(true, 1e-5).expect("nothing is left to collapse");
-    assert!(solver.step > first_step && !solver.bodies[0].is_intact(0));
+    assert!(solver.state.step > first_step && !solver.bodies[0].is_intact(0));
 }
 
 #[test]
@@ -83,14 +83,14 @@ fn a_collapsing_element_that_does_not_fail_shortens_the_step_until_there_is_none
         if let Err(error) = solver.accelerate(true, 1.0) {
             break error.to_string();
         }
-        let change = solver.energies.total() - *first.get_or_insert(solver.energies.total());
+        let change = solver.state.energies.total() - *first.get_or_insert(solver.state.energies.total());
         worst = largest(worst, change.abs());
         solver.displace();
         steps += 1;
-        assert!(steps < 100_000 && solver.time < 1e-5, "the top is through the bottom after 10 µs");
+        assert!(steps < 100_000 && solver.state.time < 1e-5, "the top is through the bottom after 10 µs");
     };
-    assert!(error.contains("elements have collapsed") && solver.bodies[0].deleted.is_empty(), "{error}");
-    let external = solver.energies.external;
+    assert!(error.contains("elements have collapsed") && solver.bodies[0].state.deleted.is_empty(), "{error}");
+    let external = solver.state.energies.external;
     assert!(worst < 0.01 * external, "{worst} of {external}");
 }
 
@@ -104,7 +104,7 @@ fn press(longest: f64) -> f64 {
     solver.projectile = Some(Projectile::new(1e-5, 0.5e-3 + cylinder.radius, -10.0, true, vec![contact]));
     let start = short_step(&mut solver, longest).total();
     let (mut force, mut work, mut now) = (0.0, 0.0, Energies::default());
-    while solver.time < 1e-5 {
+    while solver.state.time < 1e-5 {
         let moved = solver.projectile.as_ref().expect("it is there").moved;
         now = short_step(&mut solver, longest);
         let after = solver.projectile.as_ref().expect("it is there").force;
@@ -134,9 +134,9 @@ fn a_deleted_element_keeps_its_energy() {
     });
     let start = step(&mut solver).total();
     let mut before = Energies::default();
-    while solver.bodies[0].deleted.is_empty() {
+    while solver.bodies[0].state.deleted.is_empty() {
         before = step(&mut solver);
-        assert!(solver.time < 1e-5, "it is a tenth longer by now");
+        assert!(solver.state.time < 1e-5, "it is a tenth longer by now");
     }
     assert!(before.hourglass > 1e-6 * before.internal && before.hourglass > 0.0, "{before:?}");
     assert!((before.total() - start).abs() < 0.01 * before.external, "{before:?}");
@@ -154,15 +154,15 @@ fn an_element_that_could_not_be_evaluated_stays_deleted() {
     let pull = |solver: &mut Solver<f64>, factor: [f64; 3]| {
         let body = &mut solver.bodies[0];
         for (node, place) in body.mesh.nodes.iter().enumerate() {
-            body.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
+            body.state.displacement[node] = std::array::from_fn(|i| (factor[i] - 1.0) * place[i]);
         }
     };
     pull(&mut solver, [1.01, 1.0, 1.0]);
     let stretched = step(&mut solver);
-    assert!(stretched.internal > 0.0 && solver.bodies[0].deleted.is_empty());
+    assert!(stretched.internal > 0.0 && solver.bodies[0].state.deleted.is_empty());
     pull(&mut solver, [1.01, -1.0, 1.0]);
     step(&mut solver);
-    assert_eq!(solver.bodies[0].deleted, [0]);
+    assert_eq!(solver.bodies[0].state.deleted, [0]);
     pull(&mut solver, [1.02, 1.0, 1.0]);
     let restored = step(&mut solver);
     assert_eq!(restored.internal, stretched.internal, "it keeps the energy it had");
@@ -174,16 +174,16 @@ fn an_element_that_could_not_be_evaluated_stays_deleted() {
 fn the_stress_of_an_element_is_the_law_s() {
     let stretch = |[x, _, _]: [f64; 3]| driven([if x > 0.0 { 100.0 } else { 0.0 }, 0.0, 0.0]);
     let mut solver = cube(stretch);
-    while solver.time < 1e-7 {
+    while solver.state.time < 1e-7 {
         step(&mut solver);
     }
     solver.accelerate(true, 1.0).expect("the step is stable");
     let (body, media) = (&solver.bodies[0], &solver.media);
-    let state = body.blocks[0].state.clone();
+    let state = body.blocks[0].history.clone();
     let stress = body.stress(media).expect("the law takes it");
-    assert!(state == body.blocks[0].state && stress.len() == 1);
+    assert!(state == body.blocks[0].history && stress.len() == 1);
     // All but the fibre's length stays: P = k_el ln λ/λ, and the section's area is that at rest.
-    let stretch = 1.0 + 100.0 * solver.time / 1e-3;
+    let stretch = 1.0 + 100.0 * solver.state.time / 1e-3;
     let k_el = parameters::preset("kevlar-km2-600").expect("it exists").values[0];
     let expected = k_el * stretch.ln() / stretch;
     assert!((stress[0][0] / expected - 1.0).abs() < 1e-9, "{stress:?} {expected}");

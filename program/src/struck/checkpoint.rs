@@ -1,0 +1,144 @@
+//! What it takes to go on with a case: of which case it is, where it stands, its state or its outcome, and a checksum.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
+
+use super::plan::Plan;
+use super::run::{End, OutcomeOf, ROUNDING, Struck};
+use crate::common::error::Error;
+use crate::common::units::number;
+use crate::explicit::archive::Archive;
+
+/// The checksum of the program's file, since another build may have other bits; nothing where the file cannot be read.
+static BUILD: LazyLock<Option<u32>> = LazyLock::new(|| {
+    // The link leads to the file that runs, even when another one has taken its place.
+    let link = Path::new("/proc/self/exe");
+    let file = std::fs::read(link).or_else(|_| std::env::current_exe().and_then(std::fs::read));
+    file.ok().map(|bytes| crc32fast::hash(&bytes))
+});
+
+/// Tells the program's build from others, as early as it can.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn build() -> Result<u32, Error> {
+    let message = "the program's own file cannot be read, by which checkpoints tell its build from others; allowed: runs without them";
+    BUILD.ok_or_else(|| Error::Input(message.to_string()))
+}
+
+/// What a checkpoint begins with: one of another build is not to be taken, nor one of another scene, but for what only the
+/// future depends on.
+fn identity(struck: &impl Struck) -> Result<String, Error> {
+    let (version, build) = (env!("CARGO_PKG_VERSION"), build()?);
+    Ok(format!("toron {version} build {build:08x} {}", struck.identity()))
+}
+
+/// Where a checkpoint stands in time, and the plan of the run that wrote it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Head {
+    time: f64,
+    pub plan: Plan,
+    /// How the case has ended, where its outcome follows and nothing from which it could go on.
+    pub ended: Option<End>,
+}
+
+impl Head {
+    /// Whether a case that has ended would go on now.
+    fn is_too_early(&self, plan: &Plan) -> bool {
+        match self.ended {
+            None | Some(End::Left | End::Failed | End::Interrupted) => false,
+            Some(End::Stopped) => plan.rebounds,
+            Some(End::Time | End::Rebounded) => plan.end > self.plan.end * (1.0 + ROUNDING),
+        }
+    }
+}
+
+fn refused(struck: &impl Struck, reason: &str) -> Error {
+    let allowed = "allowed: one of the same build and scene, but for end, until, pictures, frames and checkpoints";
+    Error::Input(format!("the checkpoint of case {} is {reason}; {allowed}", struck.name()))
+}
+
+pub fn damaged(struck: &impl Struck) -> Error {
+    refused(struck, "damaged")
+}
+
+/// Checks a checkpoint; returns its head and what follows.
+///
+/// # Errors
+/// It is not this case's, later than its end, or damaged.
+pub fn check<'a>(struck: &impl Struck, checkpoint: &'a [u8]) -> Result<(Head, &'a [u8]), Error> {
+    let damaged = || damaged(struck);
+    let (contents, sum) = checkpoint.split_last_chunk::<4>().ok_or_else(damaged)?;
+    if crc32fast::hash(contents) != u32::from_le_bytes(*sum) {
+        return Err(damaged());
+    }
+    let (found, rest) = postcard::take_from_bytes::<String>(contents).map_err(|_| damaged())?;
+    if found != identity(struck)? {
+        return Err(refused(struck, "of another scene or another build of the program"));
+    }
+    let (head, rest) = postcard::take_from_bytes::<Head>(rest).map_err(|_| damaged())?;
+    let (name, plan) = (struck.name(), struck.plan());
+    if head.is_too_early(plan) {
+        let allowed = "allowed: end and until as they were, or another directory";
+        let reason = format!("of its end at {}, from which it cannot go on", number(head.time));
+        return Err(Error::Input(format!("the checkpoint of case {name} is {reason}; {allowed}")));
+    }
+    if head.time > plan.end * (1.0 + ROUNDING) {
+        let [end, time] = [plan.end, head.time].map(number);
+        let message = format!("end is {end} in case {name}, whose checkpoint is of {time}; allowed: {time} or later");
+        return Err(Error::Input(message));
+    }
+    Ok((head, rest))
+}
+
+/// The outcome of a case that has ended, if its checkpoint is one of its end.
+///
+/// # Errors
+/// As for [`check`].
+pub fn outcome<S: Struck>(struck: &S, checkpoint: &[u8]) -> Result<Option<OutcomeOf<S>>, Error> {
+    let (head, rest) = check(struck, checkpoint)?;
+    head.ended.map(|_| postcard::from_bytes(rest).map_err(|_| damaged(struck))).transpose()
+}
+
+/// The checkpoint of a case that has ended: small, since it has the outcome and no state.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn of_outcome<S: Struck>(struck: &S, outcome: &mut OutcomeOf<S>) -> Result<Vec<u8>, Error> {
+    let head = Head { time: outcome.last().time, plan: struck.plan().clone(), ended: Some(outcome.end) };
+    write(struck, head, |archive| archive.keep(outcome))
+}
+
+/// The checkpoint of a case that can go on from the state that `contents` writes.
+///
+/// # Errors
+/// The program's own file cannot be read.
+pub fn of_state(
+    struck: &impl Struck,
+    plan: Plan,
+    time: f64,
+    contents: impl FnOnce(&mut Archive<'_>) -> Result<(), postcard::Error>,
+) -> Result<Vec<u8>, Error> {
+    write(struck, Head { time, plan, ended: None }, contents)
+}
+
+fn write(
+    struck: &impl Struck,
+    mut head: Head,
+    contents: impl FnOnce(&mut Archive<'_>) -> Result<(), postcard::Error>,
+) -> Result<Vec<u8>, Error> {
+    let mut archive = Archive::Writes(Vec::new());
+    let mut identity = identity(struck)?;
+    let written =
+        archive.keep(&mut identity).and_then(|()| archive.keep(&mut head)).and_then(|()| contents(&mut archive));
+    written.map_err(|error| Error::Evaluation(format!("case {}: {error}", struck.name())))?;
+    match archive {
+        Archive::Writes(mut bytes) => {
+            bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+            Ok(bytes)
+        }
+        Archive::Reads(_) => Ok(Vec::new()), // not reached
+    }
+}

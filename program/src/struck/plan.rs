@@ -1,0 +1,30 @@
+//! What a case is going to do and to write.
+
+use serde::{Deserialize, Serialize};
+
+/// A restart may change all of it but for the time between samples.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    pub end: f64,
+    /// Whether the run goes on when what strikes turns back.
+    pub rebounds: bool,
+    /// Time between two samples of the history.
+    pub sample: f64,
+    /// When what is struck is drawn.
+    pub pictures: Vec<f64>,
+    /// How many files ParaView gets after the first.
+    pub frames: usize,
+    /// How many times the run writes what it takes to go on from there.
+    pub checkpoints: usize,
+}
+
+impl Plan {
+    /// The time between two files for ParaView.
+    pub fn between_frames(&self) -> f64 {
+        self.end / self.frames.max(1) as f64
+    }
+
+    pub fn between_checkpoints(&self) -> f64 {
+        self.end / self.checkpoints.max(1) as f64
+    }
+}
