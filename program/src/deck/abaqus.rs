@@ -64,7 +64,7 @@ pub fn comments(material: &Material) -> String {
 }
 
 /// The material's name, behind that of its law where Abaqus finds the law by it.
-fn name(material: &Material) -> String {
+pub fn name(material: &Material) -> String {
     let name = material.name.to_uppercase();
     match material.interface().abaqus {
         Some(law) if !name.starts_with(law) => format!("{law}-{name}").chars().take(LONGEST_NAME).collect(),

@@ -13,11 +13,12 @@ pub const NUMBERS: [u32; 8] = [41, 43, 44, 45, 47, 48, 49, 50];
 const FIELDS: usize = 8;
 const COLUMNS: usize = 10;
 
-/// The fibre direction: one for the material, in global axes, or that of the material axes, element by element.
+/// The fibre direction: one for the material, in global axes, or that of the material axes, by AOPT = 2 or as the elements have them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fibre {
     Global,
     Axes,
+    Elements,
 }
 
 /// # Errors
@@ -25,14 +26,14 @@ pub enum Fibre {
 pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> Result<String, Error> {
     let (interface, table, density) = (material.interface(), material.table(), material.density()?);
     let mut values = material.values.clone();
-    if fibre == Fibre::Axes {
+    if fibre != Fibre::Global {
         along_the_axes(material, &mut values);
     }
     let count = values.len();
     let constants: Vec<f64> = values.into_iter().chain(material.bulk_and_shear()).collect();
     let names: Vec<&str> = table.iter().map(|property| property.name).chain(["bulk", "shear"]).collect();
     let history = material.law.description().history();
-    let [ortho, hyper] = if fibre == Fibre::Axes { ["1", "-1"] } else { ["0", "1"] };
+    let [ortho, hyper] = if fibre == Fibre::Global { ["0", "1"] } else { ["1", "-1"] };
 
     let mut card = format!("*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE\n{}\n", material.name);
     for comment in material.comments() {
@@ -53,8 +54,10 @@ pub fn card(material: &Material, id: u32, number: Option<u32>, fibre: Fibre) -> 
     let numbers = [&id, &number_of(density), &mt, &lmc, &nhv, ortho, &bulk, &shear].map(str::to_string);
     card += &lines("mid ro mt lmc nhv iortho ibulk ig", &numbers);
     card += &lines("ivect ifail itherm ihyper ieos lmca", &["0", "1", "0", hyper, "0", "0"].map(String::from));
-    if fibre == Fibre::Axes {
-        card += &axes(material);
+    match fibre {
+        Fibre::Global => {}
+        Fibre::Axes => card += &axes(material),
+        Fibre::Elements => card += &axes_of_elements(),
     }
     for (names, constants) in names.chunks(FIELDS).zip(constants.chunks(FIELDS)) {
         let numbers: Vec<String> = constants.iter().map(|&value| number_of(value)).collect();
@@ -81,17 +84,28 @@ fn axes(material: &Material) -> String {
     let zero = || vec!["0.0".to_string(); 3];
     let first = [vec!["2.0".to_string(), "1".to_string()], zero(), vector(a)].concat();
     let second = [zero(), vector(d), vec!["0.0".to_string(), "0".to_string()]].concat();
-    lines("aopt macf xp yp zp a1 a2 a3", &first) + &lines("v1 v2 v3 d1 d2 d3 beta ievts", &second)
+    lines(AXES[0], &first) + &lines(AXES[1], &second)
 }
 
+/// AOPT = 0: the axes of *ELEMENT_SOLID_ORTHO.
+fn axes_of_elements() -> String {
+    let zeros = |count| vec!["0.0".to_string(); count];
+    let first = [vec!["0.0".to_string(), "1".to_string()], zeros(6)].concat();
+    let second = [zeros(7), vec!["0".to_string()]].concat();
+    lines(AXES[0], &first) + &lines(AXES[1], &second)
+}
+
+/// The names of the fields of the axes.
+const AXES: [&str; 2] = ["aopt macf xp yp zp a1 a2 a3", "v1 v2 v3 d1 d2 d3 beta ievts"];
+
 /// A comment with the names of the fields, and their line.
-fn lines(names: &str, fields: &[String]) -> String {
+pub fn lines(names: &str, fields: &[String]) -> String {
     let names: String = names.split(' ').map(|name| format!("{name:>COLUMNS$}")).collect();
     let fields: String = fields.iter().map(|field| format!("{field:>COLUMNS$}")).collect();
     format!("$#{}\n{fields}\n", &names[2..])
 }
 
 /// A number with a blank before it.
-fn number_of(value: f64) -> String {
+pub fn number_of(value: f64) -> String {
     short(value, COLUMNS - 1)
 }

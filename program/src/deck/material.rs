@@ -112,6 +112,11 @@ impl Material {
         self.density
     }
 
+    /// Whether frame and criterion are those of hosts whose cards have no options for them.
+    pub fn has_default_options(&self) -> bool {
+        self.frame == Rotation::Fibre && self.criterion == Criterion::LargestPrincipal
+    }
+
     /// Bulk and shear modulus whose wave, K + 4G/3, is that along the fibre or a faster one.
     pub fn bulk_and_shear(&self) -> [f64; 2] {
         self.bulk_and_shear

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use toron::host::units::UnitSystem;
 
 use super::model::{Conversion, Model};
-use super::{of_fabric, of_impact, openradioss};
+use super::{abaqus, ls_dyna, of_fabric, of_impact, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::folder;
@@ -19,6 +19,8 @@ use crate::{fabric, impact, weave};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Host {
     Openradioss,
+    LsDyna,
+    AbaqusExplicit,
 }
 
 #[derive(Args, Clone, Debug)]
@@ -119,6 +121,8 @@ impl Arguments {
             };
             let files = match host {
                 Host::Openradioss => openradioss::write(&model, &naming, output)?,
+                Host::LsDyna => ls_dyna::write(&model, &naming, output)?,
+                Host::AbaqusExplicit => abaqus::write(&model, &naming, output)?,
             };
             print(&report(&model, &files));
             for warning in model.materials.iter().filter_map(|material| material.unit_warning()) {
