@@ -401,7 +401,8 @@ fn write_striker(
     let [bulk, shear] = model.materials[0].bulk_and_shear();
     let modulus = bulk + 4.0 / 3.0 * shear;
     let (what, held) = match striker.shape {
-        Shape::Sphere => ("sphere", 4),
+        // No other one comes from a scene.
+        Shape::Sphere | Shape::Flat | Shape::Hemisphere => ("sphere", 4),
         Shape::Cylinder => ("cylinder across the yarn", 6),
     };
     let thickness = THICKNESS * striker.radius;

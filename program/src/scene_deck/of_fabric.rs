@@ -5,6 +5,7 @@ use super::striker::Striker;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
+use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
 use crate::weave::model as woven;
@@ -18,8 +19,19 @@ pub const WATCHED: usize = 100;
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    check(case)?;
+    if !matches!(case.sphere.shape, Shape::Sphere) {
+        let shape = case.sphere.shape.name();
+        return Err(Error::Input(format!("shape is {shape} in case {}; allowed in a deck: sphere", case.name)));
+    }
+    if case.threads.iter().any(Option::is_some) {
+        let allowed = "allowed in a deck: one law and its properties for both";
+        return Err(Error::Input(format!(
+            "warp and weft have materials of their own in case {}; {allowed}",
+            case.name
+        )));
+    }
     let panel = case.woven.model();
+    check(case, &panel)?;
     let Conversion { from, to } = conversion;
     let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
     let materials = materials.collect::<Result<Vec<_>, _>>()?;
@@ -33,7 +45,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     }
     let length = |value| conversion.of(value, LENGTH);
     let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(f64::INFINITY, f64::min);
-    let end = conversion.of(case.end, TIME);
+    let end = conversion.of(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
             shape: case.sphere.shape,
@@ -51,8 +63,8 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         }),
         control: case.control,
         end,
-        sample: conversion.of(case.sample, TIME),
-        frame: frame(end, case.frames),
+        sample: conversion.of(case.plan.sample, TIME),
+        frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, 2),
         watched: nearest(&mesh, 2, WATCHED),
         fails: case.zones.materials().iter().any(|material| material.can_fail()),

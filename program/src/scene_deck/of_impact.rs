@@ -43,7 +43,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     ];
     let radius = length(cylinder.radius);
     let top = mesh.nodes.iter().map(|node| node[DOWN]).fold(0.0, f64::max);
-    let end = conversion.of(case.end, TIME);
+    let end = conversion.of(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
             shape: cylinder.shape,
@@ -58,8 +58,8 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         contact: None,
         control: case.control,
         end,
-        sample: conversion.of(case.sample, TIME),
-        frame: frame(end, case.frames),
+        sample: conversion.of(case.plan.sample, TIME),
+        frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, DOWN),
         watched: nearest(&mesh, DOWN, WATCHED),
         fails: case.zones.materials().iter().any(|material| material.can_fail()),

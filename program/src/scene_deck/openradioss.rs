@@ -316,7 +316,8 @@ fn write_striker(
     let striker = &strike.striker;
     let (Striker { shape, radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
     let (what, fixed) = match shape {
-        Shape::Sphere => ("sphere", "110 111"),
+        // No other one comes from a scene.
+        Shape::Sphere | Shape::Flat | Shape::Hemisphere => ("sphere", "110 111"),
         Shape::Cylinder => ("cylinder across the yarn", "101 111"),
     };
     let prefix = &naming.prefix;

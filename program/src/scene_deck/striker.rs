@@ -40,7 +40,7 @@ impl Striker {
     pub fn surface(&self, inside: f64) -> Surface {
         let radius = self.radius - inside;
         match self.shape {
-            Shape::Sphere => hemisphere(self.centre, radius),
+            Shape::Sphere | Shape::Flat | Shape::Hemisphere => hemisphere(self.centre, radius),
             Shape::Cylinder => half_cylinder(self.centre, radius, self.side),
         }
     }
