@@ -1,4 +1,4 @@
-# The histories of an output database as a table for toron compare. Not run: Abaqus was not at hand.
+# The histories of an output database as a table. Not run: Abaqus was not at hand.
 #
 #   abaqus python abaqus_history.py JOB.odb JOB-history.csv
 #

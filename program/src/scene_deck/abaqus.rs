@@ -79,7 +79,7 @@ fn header(model: &Model) -> String {
 ** Run it in double precision with the VUMAT and the library (docs/guides/hosts/abaqus.md), on N cores, 1 or many:
 **   abaqus job={name} user=abaqus_vumat_dp.f double=both cpus=N
 ** Later, on from the last restart file:  abaqus job={name} recover
-** Histories for toron compare:           abaqus python {HISTORY} {name}.odb {name}-history.csv
+** Histories as a table:                  abaqus python {HISTORY} {name}.odb {name}-history.csv
 "
     );
     let panel_alone = "** A panel alone, for a model of your own: contact, striker and step are not in it.\n";
@@ -311,7 +311,7 @@ fn step(strike: &Strike, names: &Names<'_>, out: &mut impl Write) -> io::Result<
     )?;
     writeln!(
         out,
-        "** sample: what {HISTORY} writes for toron compare\n*OUTPUT, HISTORY, TIME INTERVAL={}\n\
+        "** sample: what {HISTORY} writes\n*OUTPUT, HISTORY, TIME INTERVAL={}\n\
          *NODE OUTPUT, NSET={reference}\nU, V, A\n*NODE OUTPUT, NSET={deflection}\nU\n\
          *ENERGY OUTPUT\nALLKE, ALLIE, ALLSE, ALLVD, ALLAE, ALLFD, ALLPW, ALLWK, ETOTAL",
         wide(strike.sample)

@@ -6,7 +6,8 @@ pub fn number(value: f64, width: usize) -> String {
     // Sign, one digit, point, and an exponent of up to four characters.
     let scientific = format!("{value:.*e}", room.saturating_sub(7));
     let whole = if value.abs() < 10.0 { 1 } else { value.abs().log10().floor() as usize + 1 };
-    let fixed = format!("{value:.*}", room.saturating_sub(whole + 2).max(1));
+    let sign = usize::from(value.is_sign_negative());
+    let fixed = format!("{value:.*}", room.saturating_sub(sign + whole + 1).max(1));
     let error = |text: &str| text.parse::<f64>().map_or(f64::INFINITY, |read| (read - value).abs());
     let shorter = fixed.len() <= room && error(&fixed) <= error(&scientific);
     format!("{:>width$}", if shorter { without_zeros(&fixed) } else { &scientific })

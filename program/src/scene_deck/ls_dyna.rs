@@ -119,7 +119,7 @@ $ Run it in double precision, with an executable that has the shim and the libra
 $ On one core, or on N threads:  ls-dyna i={name}.k ncpu=N memory=200m
 $ On P domains (MPP):            mpirun -np P mppdyna i={name}.k memory=200m
 $ On from a restart file:        ls-dyna i={name}.k r=d3dump01
-$ Histories for toron compare: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*.
+$ Histories: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*.
 "
     );
     let panel_alone = "$ A panel alone, for a model of your own: contact, striker, time and output are not in it.\n";
@@ -199,7 +199,7 @@ fn control(strike: &Strike, out: &mut impl Write) -> io::Result<()> {
     )
 }
 
-/// What `toron compare` reads, the animations with the state variables of the law, and restart files.
+/// Histories, the animations with the state variables of the law, and restart files.
 fn output_of(strike: &Strike, ids: &Ids<'_>, out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "$ sample: energies (glstat, by part matsum), forces of contact, deflection, the striker's motion")?;
     for name in ["GLSTAT", "MATSUM", "RCFORC", "NODOUT", "RBDOUT"] {

@@ -159,7 +159,7 @@ fn header(model: &Model, strike: &Strike) -> String {
 #   starter_linux64_gf -i {name}_0000.rad -np P -dylib .../libtoron_openradioss.so
 #   mpirun -np P engine_linux64_gf_ompi -i {name}_0001.rad -dylib .../libtoron_openradioss.so
 # On from the last restart file, {name}_0001_....rst: {name}_0002.rad, a copy of {name}_0001.rad with /RUN/{name}/2.
-# Histories: th_to_csv {name}T01, then toron compare.
+# Histories: th_to_csv {name}T01.
 #
 # What differs from toron's own solver:
 # - bulk viscosity resists a change of volume with the fastest wave's speed, there along and across the fibre each with its own;
@@ -438,7 +438,7 @@ fn type7(id: u32, name: &str, [nodes, surface]: [u32; 2], friction: f64, gap: f6
     )
 }
 
-/// What `toron compare` reads; the global energies are in every history.
+/// Histories; the global energies are in every history.
 fn histories(strike: &Strike, centre: u32, naming: &Naming, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
     let prefix = &naming.prefix;
     writeln!(

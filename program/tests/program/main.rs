@@ -31,5 +31,6 @@ mod newton;
 mod one_element;
 mod parallel;
 mod presets;
+mod scene_decks;
 mod weave;
 mod yarn_between_plates;

@@ -1,0 +1,188 @@
+//! The decks of a struck panel for three solvers, read back: nodes, volumes, masses and the fibre's direction in every element by each
+//! solver's own rule. None of the solvers is run here.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::Command;
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::library::{ROOT, folder, run};
+
+const SCENE: &str = "title = \"A small panel\"\nunits = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+    [weave.panel]\nshape = \"circle\"\nradius = 4.0\npart = \"quarter\"\n[scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\n\
+    contact-stiffness = 1e5\nend = 0.02\n";
+const FIRST: usize = 1001;
+/// Kevlar, in g/mm³.
+const DENSITY: f64 = 1.3514e-3;
+
+/// What a deck says of the mesh.
+#[derive(Debug, Default)]
+struct Mesh {
+    nodes: BTreeMap<usize, Vector3<f64>>,
+    elements: BTreeMap<usize, [usize; 8]>,
+    fibre: BTreeMap<usize, Vector3<f64>>,
+}
+
+impl Mesh {
+    fn corners(&self, element: usize) -> [Vector3<f64>; 8] {
+        self.elements[&element].map(|node| self.nodes[&node])
+    }
+
+    /// The volume of an element by eight points.
+    fn volume(&self, element: usize) -> f64 {
+        let corners = self.corners(element);
+        let at = 1.0 / 3.0_f64.sqrt();
+        let signs = |i: usize| {
+            // Corners go round the section, then round the next one.
+            let [a, b] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][i % 4];
+            [a, b, if i < 4 { -1.0 } else { 1.0 }]
+        };
+        let determinant = |point: [f64; 3]| {
+            let mut jacobian = Matrix3::zeros();
+            for (i, corner) in corners.iter().enumerate() {
+                let s = signs(i);
+                let f = [0, 1, 2].map(|k| 1.0 + s[k] * point[k]);
+                for k in 0..3 {
+                    let slope = 0.125 * s[k] * f[(k + 1) % 3] * f[(k + 2) % 3];
+                    jacobian.set_column(k, &(jacobian.column(k) + corner * slope));
+                }
+            }
+            jacobian.determinant()
+        };
+        (0..8).map(|i| determinant(signs(i).map(|s| s * at))).sum()
+    }
+}
+
+fn fields(line: &str, width: usize) -> Vec<&str> {
+    line.as_bytes().chunks(width).map(|field| std::str::from_utf8(field).expect("ASCII").trim()).collect()
+}
+
+fn numbers(fields: &[&str]) -> Vec<f64> {
+    fields.iter().map(|field| field.parse().expect("a number")).collect()
+}
+
+/// The lines of a file by the keyword that they stand behind, without comments.
+fn blocks(path: &Path, comment: &str, keyword: char) -> Vec<(String, Vec<String>)> {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut blocks: Vec<(String, Vec<String>)> = Vec::new();
+    for line in text.lines().filter(|line| !line.starts_with(comment)) {
+        match (line.starts_with(keyword), blocks.last_mut()) {
+            (true, _) => blocks.push((line.to_string(), Vec::new())),
+            (false, Some((_, lines))) => lines.push(line.to_string()),
+            (false, None) => {}
+        }
+    }
+    blocks
+}
+
+fn element(values: &[usize]) -> [usize; 8] {
+    values.try_into().expect("eight nodes")
+}
+
+fn openradioss(folder: &Path) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (keyword, lines) in blocks(&folder.join("scene_mesh.inc"), "#", '/') {
+        for line in &lines {
+            if keyword == "/NODE" {
+                let (number, place) = line.split_at(10);
+                let place = numbers(&fields(place, 20));
+                mesh.nodes.insert(number.trim().parse().expect("a number"), Vector3::from_column_slice(&place));
+            } else if keyword.starts_with("/BRICK/") {
+                let values: Vec<usize> = fields(line, 10).iter().map(|x| x.parse().expect("a number")).collect();
+                mesh.elements.insert(values[0], element(&values[1..]));
+            }
+        }
+    }
+    // fibre_from = 1: from the middle of nodes 1 to 4 to that of 5 to 8.
+    let elements: Vec<usize> = mesh.elements.keys().copied().collect();
+    for number in elements {
+        let c = mesh.corners(number);
+        let way = (c[4] + c[5] + c[6] + c[7]) - (c[0] + c[1] + c[2] + c[3]);
+        mesh.fibre.insert(number, way.normalize());
+    }
+    mesh
+}
+
+fn ls_dyna(folder: &Path) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (keyword, lines) in blocks(&folder.join("scene-mesh.k"), "$", '*') {
+        if keyword == "*NODE" {
+            for line in &lines {
+                let place = numbers(&fields(&line[8..56], 16));
+                mesh.nodes.insert(line[..8].trim().parse().expect("a number"), Vector3::from_column_slice(&place));
+            }
+        } else if keyword == "*ELEMENT_SOLID_ORTHO" {
+            for lines in lines.chunks(3) {
+                let values: Vec<usize> = fields(&lines[0], 8).iter().map(|x| x.parse().expect("a number")).collect();
+                mesh.elements.insert(values[0], element(&values[2..]));
+                mesh.fibre.insert(values[0], Vector3::from_column_slice(&numbers(&fields(&lines[1], 16))));
+            }
+        }
+    }
+    mesh
+}
+
+fn abaqus(folder: &Path) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (keyword, lines) in blocks(&folder.join("scene-mesh.inp"), "**", '*') {
+        for line in &lines {
+            let values: Vec<&str> = line.split(',').map(str::trim).filter(|value| !value.is_empty()).collect();
+            let whole = || -> Vec<usize> { values.iter().map(|x| x.parse().expect("a number")).collect() };
+            if keyword.starts_with("*NODE,") {
+                let place = numbers(&values[1..]);
+                mesh.nodes.insert(values[0].parse().expect("a number"), Vector3::from_column_slice(&place));
+            } else if keyword.starts_with("*ELEMENT, TYPE=C3D8R") {
+                mesh.elements.insert(whole()[0], element(&whole()[1..]));
+            } else if keyword.starts_with("*ELEMENT, TYPE=C3D6") {
+                // A triangle and the next one, as a hexahedron whose last edge is a point.
+                let [i, a, b, c, d, e, f] = whole().try_into().expect("six nodes");
+                mesh.elements.insert(i, [a, b, c, c, d, e, f, f]);
+            } else if keyword.starts_with("*DISTRIBUTION,") && values.len() == 7 {
+                let number = values[0].parse().expect("a number");
+                mesh.fibre.insert(number, Vector3::from_column_slice(&numbers(&values[1..4])));
+            }
+        }
+    }
+    mesh
+}
+
+#[test]
+fn three_solvers_get_the_same_panel() {
+    let output = folder("scene-decks");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene can be written");
+    let read: [(&str, fn(&Path) -> Mesh); 3] =
+        [("openradioss", openradioss), ("ls-dyna", ls_dyna), ("abaqus-explicit", abaqus)];
+    let meshes = read.map(|(host, read)| {
+        let to = output.join(host);
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.arg("fabric").arg(&scene).args(["--deck", host, "--first-id", &FIRST.to_string(), "-o"]);
+        let said = String::from_utf8(run(toron.arg(&to).current_dir(ROOT), "").stdout).expect("a text");
+        let mesh = read(&to);
+        let mass: f64 = mesh.elements.keys().map(|&element| DENSITY * mesh.volume(element)).sum();
+        let (before, _) = said.split_once(" g:").expect("the mass");
+        let printed: f64 = before.rsplit(' ').next().and_then(|mass| mass.parse().ok()).expect("a number");
+        assert!((mass / printed - 1.0).abs() < 1e-3, "{host}: {mass} g, {printed} printed");
+        let least = mesh.elements.keys().map(|&element| mesh.volume(element)).fold(f64::INFINITY, f64::min);
+        assert!(least > 0.0, "{host}: an element is inverted");
+        assert_eq!(mesh.elements.len(), mesh.fibre.len(), "{host}: a direction for every element");
+        assert_eq!(mesh.elements.keys().next(), Some(&FIRST), "{host}: --first-id");
+        mesh
+    });
+    let [openradioss, others @ ..] = &meshes;
+    for (mesh, host) in others.iter().zip(["ls-dyna", "abaqus-explicit"]) {
+        assert_eq!(mesh.elements.len(), openradioss.elements.len());
+        for (number, fibre) in &mesh.fibre {
+            assert!((fibre.norm() - 1.0).abs() < 1e-9, "{host}: {fibre}");
+            let [ours, theirs] =
+                [openradioss, mesh].map(|mesh| mesh.corners(*number).iter().sum::<Vector3<f64>>() / 8.0);
+            let volumes = [openradioss, mesh].map(|mesh| mesh.volume(*number));
+            assert!((ours - theirs).norm() < 1e-9, "{host}: element {number} is elsewhere");
+            assert!((volumes[0] / volumes[1] - 1.0).abs() < 1e-6, "{host}: element {number} has another volume");
+            // The direction by the nodes is that of the element's middle line.
+            let angle = fibre.angle(&openradioss.fibre[number]).to_degrees();
+            assert!(angle < 1.0, "{host}: the fibre of element {number} is {angle}° off");
+        }
+    }
+}
