@@ -152,14 +152,16 @@ fn three_solvers_get_the_same_panel() {
     let output = folder("scene-decks");
     let scene = output.join("scene.toml");
     std::fs::write(&scene, SCENE).expect("the scene can be written");
-    let read: [(&str, fn(&Path) -> Mesh); 3] =
-        [("openradioss", openradioss), ("ls-dyna", ls_dyna), ("abaqus-explicit", abaqus)];
-    let meshes = read.map(|(host, read)| {
+    let meshes = ["openradioss", "ls-dyna", "abaqus-explicit"].map(|host| {
         let to = output.join(host);
         let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
         toron.arg("fabric").arg(&scene).args(["--deck", host, "--first-id", &FIRST.to_string(), "-o"]);
         let said = String::from_utf8(run(toron.arg(&to).current_dir(ROOT), "").stdout).expect("a text");
-        let mesh = read(&to);
+        let mesh = match host {
+            "openradioss" => openradioss(&to),
+            "ls-dyna" => ls_dyna(&to),
+            _ => abaqus(&to),
+        };
         let mass: f64 = mesh.elements.keys().map(|&element| DENSITY * mesh.volume(element)).sum();
         let (before, _) = said.split_once(" g:").expect("the mass");
         let printed: f64 = before.rsplit(' ').next().and_then(|mass| mass.parse().ok()).expect("a number");
