@@ -181,8 +181,7 @@ macro_rules! entries {
                 viscosity: viscmax,
                 uvar,
                 off,
-                // Shims set it in the first cycle alone. Bits: a comparison of a subnormal number would raise the caller's flag.
-                nodes: if time.to_bits() << 1 == 0 { nodes } else { core::ptr::null() },
+                nodes, // shims set it in the first cycle alone; without what moves it is not read in others
                 motion: Motion::unknown(),
             };
             // SAFETY: the caller's promise.
