@@ -197,7 +197,7 @@ static void lsdyna_utan_vector(void)
 
 /* ---- OpenRadioss */
 
-enum { RADIOSS_PARAMETERS = 14, RADIOSS_VARIABLES = 23 };
+enum { RADIOSS_PARAMETERS = 15, RADIOSS_VARIABLES = 23 };
 
 /* UPARAM of the hyperelastic law (1) or the linear elastic one (2), with one of its yarns. */
 static real *radioss_parameters(int law, size_t yarn, double fibre_from)
@@ -235,9 +235,9 @@ static void openradioss_listing(void)
     for (int law = 1; law < 3; law++) {
         real *uparam = radioss_parameters(law, 0, 0), *wrong = radioss_parameters(law, 0, 0.25);
         for (int32_t line = -1; line < 45; line++)
-            CALL(LISTING(uparam, law + 12, line, MESSAGE));
+            CALL(LISTING(uparam, law + 13, line, MESSAGE));
         CALL(LISTING(uparam, 3, 0, MESSAGE));
-        CALL(LISTING(wrong, law + 12, 0, MESSAGE));
+        CALL(LISTING(wrong, law + 13, 0, MESSAGE));
         CALL(LISTING(NULL, 13, 0, MESSAGE));
         release();
     }
@@ -247,7 +247,7 @@ static void openradioss_luser(void)
 {
 #define LUSER ENTRY(toron_openradioss_luser)
 #define LUSER_WITH(nuvar, time, density, f0, stress, nodes)                                                                          \
-    CALL(LUSER(n, law + 12, nuvar, times[time], uparam, ngl, density, f0, f[4], f[8], f[3], f[7], f[2], f[1], f[5], f[6], s, s + n,   \
+    CALL(LUSER(n, law + 13, nuvar, times[time], uparam, ngl, density, f0, f[4], f[8], f[3], f[7], f[2], f[1], f[5], f[6], s, s + n,   \
                s + 2 * n, s + 3 * n, s + 4 * n, stress, v, v + n, v + 2 * n, v + 3 * n, v + 4 * n, v + 5 * n, sound, v + 6 * n, uvar, \
                off, nodes, MESSAGE))
     static const real times[] = {0, 1, (real)SUBNORMAL, NAN};
