@@ -13,7 +13,7 @@ use toron_program::{
     bench, cell, command_line, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck, weave,
 };
 
-/// A user-material library for yarns and dry fabrics: load paths on one element, property tables, decks.
+/// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
 #[derive(Parser)]
 #[command(name = "toron", version = params::version())]
 struct Arguments {
@@ -52,7 +52,7 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
-    /// Strike a woven panel by a sphere.
+    /// Strike a woven panel by a sphere or a cylinder.
     Fabric {
         /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
         scene: PathBuf,
@@ -88,7 +88,7 @@ enum Command {
         #[command(flatten)]
         deck: scene_deck::command::Arguments,
         /// Go on from the checkpoints in that directory.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "host")]
         restart: bool,
     },
     /// Press a yarn's section, fibre by fibre, in CalculiX; write energies, pictures and the file that the fit reads.

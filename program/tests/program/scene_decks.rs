@@ -188,3 +188,13 @@ fn three_solvers_get_the_same_panel() {
         }
     }
 }
+
+#[test]
+fn a_deck_and_a_restart_exclude_each_other() {
+    for command in ["fabric", "impact"] {
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        let output = toron.args([command, "scene.toml", "--deck", "ls-dyna", "--restart"]).output().expect("it runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && said.contains("cannot be used with"), "{said}");
+    }
+}
