@@ -397,8 +397,10 @@ fn the_preset_that_comes_out_is_used_by_a_load_path() {
     run(&["run", "path.toml"]);
 }
 
+/// An empty folder of this test's own: another one that runs beside it may use the same name.
 fn new_folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("identify-{name}"));
+    let test = std::thread::current().name().expect("a test's thread").replace("::", "-");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{test}-{name}"));
     if folder.exists() {
         std::fs::remove_dir_all(&folder).expect("an old folder can be removed");
     }
