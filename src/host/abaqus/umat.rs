@@ -111,50 +111,69 @@ impl StandardLaw for LinearElastic<f64> {
 }
 
 impl StandardLaw for Hyperelastic<f64> {
+    /// Inlined, so that what is usual is seen in registers; the kernels are called.
     #[inline(always)]
     unsafe fn umat(call: &Umat, message: *mut c_char, capacity: size_t) -> i32 {
         let message = Message { text: message, capacity };
-        // SAFETY: as in the trait; DDSDDE is there where it is written.
-        unsafe { if call.ddsdde.is_null() { without_tangent(call, message) } else { with_tangent(call, message) } }
+        // SAFETY: as above.
+        unsafe {
+            if !call.is_usual() {
+                let code = check(call, message);
+                if code != status::OK {
+                    return code;
+                }
+            }
+            if call.ddsdde.is_null() { without_tangent(call, message) } else { with_tangent(call, message) }
+        }
+    }
+}
+
+impl Umat {
+    /// Whether nothing is missing or wrong in a call for a point in three dimensions with the hyperelastic law: every argument is looked
+    /// at only if something is, or if the element is two-dimensional.
+    #[inline(always)]
+    fn is_usual(&self) -> bool {
+        let usual = (self.ndi ^ 3) | (self.nshr ^ 3) | (self.nprops ^ parameters::HYPERELASTIC_PROPERTIES as i32) == 0;
+        let usual = usual && self.nstatv >= HYPERELASTIC_STATE as i32 && self.nlgeom != 0;
+        let missing = self.stress.is_null() || self.statev.is_null() || self.sse.is_null() || self.pnewdt.is_null();
+        usual && !(missing || self.dfgrd1.is_null() || self.props.is_null())
     }
 }
 
 /// # Safety
 /// As for [`StandardLaw::umat`].
+#[cold]
+#[inline(never)]
+unsafe fn check(call: &Umat, message: Message) -> i32 {
+    // SAFETY: the message is the caller's.
+    unsafe { entry(message, || call.law::<Hyperelastic>().map(|_| status::OK)) }
+}
+
+/// # Safety
+/// As for [`StandardLaw::umat`]; the arguments have been checked.
 #[inline(never)]
 unsafe fn without_tangent(call: &Umat, message: Message) -> i32 {
-    // SAFETY: as in the trait.
+    // SAFETY: the caller's arrays and message.
     unsafe { hyperelastic(call, message, Stress::<true>) }
 }
 
 /// # Safety
-/// As for [`StandardLaw::umat`]; DDSDDE is not null.
+/// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is not null.
 #[inline(never)]
 unsafe fn with_tangent(call: &Umat, message: Message) -> i32 {
-    // SAFETY: as in the trait.
+    // SAFETY: as above.
     unsafe { hyperelastic(call, message, JaumannModulus) }
 }
 
 /// The UMAT of the hyperelastic law, by its kernel of one point.
 ///
 /// # Safety
-/// As for [`StandardLaw::umat`]; DDSDDE is there if `tangent` is that.
+/// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is there if `tangent` is that.
 #[inline(always)]
 unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, message: Message, tangent: D) -> i32
 where
     for<'a> &'a Results<'a>: Sink<f64, N>,
 {
-    let usual = (call.ndi ^ 3) | (call.nshr ^ 3) | (call.nprops ^ parameters::HYPERELASTIC_PROPERTIES as i32) == 0;
-    let usual = usual && call.nstatv >= HYPERELASTIC_STATE as i32 && call.nlgeom != 0;
-    let missing = call.stress.is_null() || call.statev.is_null() || call.sse.is_null() || call.pnewdt.is_null();
-    if !usual || missing || call.dfgrd1.is_null() || call.props.is_null() {
-        // Every argument is looked at only if one of them is wrong, or if the element is two-dimensional.
-        // SAFETY: the message is the caller's, and `law` refuses an array that is null.
-        let code = unsafe { entry(message, || call.law::<Hyperelastic>().map(|_| status::OK)) };
-        if code != status::OK {
-            return code;
-        }
-    }
     let status = Cell::new(status::OK);
     let results = Results { call, status: &status };
     let sink = &results;
