@@ -1,6 +1,8 @@
 //! OpenRadioss: user materials of solids, for the solver's SDK.
 
 use libc::{c_char, size_t};
+use toron::host::openradioss::{Group, ListingLine, MaterialCard, Motion, group_f32, group_f64};
+use toron::host::openradioss::{read_card_f32, read_card_f64, write_line_f32, write_line_f64};
 
 /// The starter's routine of a user material of OpenRadioss, `LECMUSERnn`, in double precision.
 ///
@@ -24,12 +26,9 @@ pub unsafe extern "C" fn toron_openradioss_lecm_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let card = MaterialCard { number, values, count, uparam, maxuparam, nuparam, nuvar, parmat };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        toron::host::openradioss::lecm_f64(
-            number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
-        )
-    }
+    unsafe { read_card_f64(&card, message, capacity) }
 }
 
 /// A line of what the starter's listing says of a material of OpenRadioss: what its elements need, the values of the card, and
@@ -46,8 +45,9 @@ pub unsafe extern "C" fn toron_openradioss_listing_f64(
     text: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let wanted = ListingLine { uparam, nuparam, line, text, capacity };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::openradioss::listing_f64(uparam, nuparam, line, text, capacity) }
+    unsafe { write_line_f64(&wanted) }
 }
 
 /// The engine's routine of a user material of OpenRadioss, `LUSERnn`, for solids, in double precision.
@@ -102,14 +102,26 @@ pub unsafe extern "C" fn toron_openradioss_luser_f64(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let group = Group {
+        elements: nel,
+        parameters: nuparam,
+        variables: nuvar,
+        time,
+        uparam,
+        numbers: ngl,
+        density: rho0,
+        deformation_gradient: [fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz],
+        stress: [signxx, signyy, signzz, signxy, signyz, signzx],
+        viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
+        sound_speed: soundsp,
+        viscosity: viscmax,
+        uvar,
+        off,
+        nodes, // shims set it in the first cycle alone; without what moves it is not read in others
+        motion: Motion::unknown(),
+    };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        toron::host::openradioss::luser_f64(
-            nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,
-            fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx,
-            soundsp, viscmax, uvar, off, nodes, message, capacity,
-        )
-    }
+    unsafe { group_f64(&group, message, capacity) }
 }
 
 /// As `toron_openradioss_lecm_f64`, in single precision.
@@ -127,12 +139,9 @@ pub unsafe extern "C" fn toron_openradioss_lecm_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let card = MaterialCard { number, values, count, uparam, maxuparam, nuparam, nuvar, parmat };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        toron::host::openradioss::lecm_f32(
-            number, values, count, uparam, maxuparam, nuparam, nuvar, parmat, message, capacity,
-        )
-    }
+    unsafe { read_card_f32(&card, message, capacity) }
 }
 
 /// As `toron_openradioss_listing_f64`, in single precision.
@@ -144,8 +153,9 @@ pub unsafe extern "C" fn toron_openradioss_listing_f32(
     text: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let wanted = ListingLine { uparam, nuparam, line, text, capacity };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe { toron::host::openradioss::listing_f32(uparam, nuparam, line, text, capacity) }
+    unsafe { write_line_f32(&wanted) }
 }
 
 /// As `toron_openradioss_luser_f64`, in single precision.
@@ -188,12 +198,24 @@ pub unsafe extern "C" fn toron_openradioss_luser_f32(
     message: *mut c_char,
     capacity: size_t,
 ) -> i32 {
+    let group = Group {
+        elements: nel,
+        parameters: nuparam,
+        variables: nuvar,
+        time,
+        uparam,
+        numbers: ngl,
+        density: rho0,
+        deformation_gradient: [fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy, fpsxz],
+        stress: [signxx, signyy, signzz, signxy, signyz, signzx],
+        viscous: [sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx],
+        sound_speed: soundsp,
+        viscosity: viscmax,
+        uvar,
+        off,
+        nodes, // shims set it in the first cycle alone; without what moves it is not read in others
+        motion: Motion::unknown(),
+    };
     // SAFETY: the caller's arguments, as lib.rs says.
-    unsafe {
-        toron::host::openradioss::luser_f32(
-            nel, nuparam, nuvar, time, uparam, ngl, rho0, fpsxx, fpsyy, fpszz, fpsxy, fpsyz, fpszx, fpsyx, fpszy,
-            fpsxz, signxx, signyy, signzz, signxy, signyz, signzx, sigvxx, sigvyy, sigvzz, sigvxy, sigvyz, sigvzx,
-            soundsp, viscmax, uvar, off, nodes, message, capacity,
-        )
-    }
+    unsafe { group_f32(&group, message, capacity) }
 }

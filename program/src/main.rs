@@ -24,22 +24,9 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Take one element along a load path; write a table and a plot of it.
-    Run {
-        /// The load path (see docs/guides/load-paths.md); without it, a demonstration: compaction, then tension to failure.
-        path: Option<PathBuf>,
-        /// Where the table and the plot go.
-        #[arg(short, long, default_value = "toron-out")]
-        output: PathBuf,
-    },
+    Run(load_path::command::Arguments),
     /// Print the tables of properties and state variables, the presets, or one preset's values.
-    Params {
-        /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
-        #[arg(long)]
-        units: Option<String>,
-        /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/guides/load-paths.md).
-        #[arg(long)]
-        preset: Option<String>,
-    },
+    Params(params::Arguments),
     /// Print a material's card, ready to be pasted into a solver's deck.
     Deck(deck::command::Arguments),
     /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [3], "params": {kel, ktc, p, ktd, kld,
@@ -141,8 +128,8 @@ fn main() -> ExitCode {
 
 fn run(command: Command) -> Result<(), Error> {
     match command {
-        Command::Run { path, output } => load_path::command::run(Laws::Toron, path.as_deref(), &output),
-        Command::Params { units, preset } => params::print_tables(Laws::Toron, units.as_deref(), preset.as_deref()),
+        Command::Run(arguments) => load_path::command::run(Laws::Toron, &arguments),
+        Command::Params(arguments) => params::print_tables(Laws::Toron, &arguments),
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),

@@ -1,6 +1,5 @@
 //! A program for a law of one's own, which reads and writes what `toron` does.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
@@ -9,7 +8,7 @@ use crate::common::console::{print, print_error};
 use crate::eval::own_law::{self, Entry};
 use crate::material::laws::Laws;
 use crate::material::own_law::OwnLaw;
-use crate::{command_line, deck, load_path, params};
+use crate::{bench, command_line, deck, load_path, params};
 use toron::host::Material;
 use toron::host::c::AsNumbers;
 
@@ -22,24 +21,13 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Take one element along a load path; write a table and a plot of it.
-    Run {
-        /// The load path, a file as toron's guide to load paths describes it.
-        path: PathBuf,
-        /// Where the table and the plot go.
-        #[arg(short, long, default_value = "toron-out")]
-        output: PathBuf,
-    },
+    Run(load_path::command::Arguments),
     /// Print the tables of properties and state variables, or one preset's values.
-    Params {
-        /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
-        #[arg(long)]
-        units: Option<String>,
-        /// Print the values of this preset alone: a file NAME.toml.
-        #[arg(long)]
-        preset: Option<String>,
-    },
+    Params(params::Arguments),
     /// Print a material's card, ready to be pasted into a solver's deck.
     Deck(deck::command::Arguments),
+    /// Measure what a point of a block costs on this machine, and warn if the law is not inlined into the kernels.
+    Bench(bench::own_law::Arguments),
     /// Print the header of the law's functions in C.
     Header,
     /// Evaluate one JSON object a line of the standard input: {"F": rows, "m": [1, 0, 0], "params": {NAME: value}}; "m", the fibre
@@ -54,7 +42,7 @@ enum Command {
     },
 }
 
-/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do, and `header`. `name` is the law's
+/// The `main` of a program for the law `M`: `run`, `params`, `deck` and `eval`, which read and write what `toron`'s do, `header` and `bench`. `name` is the law's
 /// name in the solvers' libraries, in capitals, and `number` its nn of OpenRadioss's `/MAT/USERnn`; files, and the program itself, call
 /// it by the name in small letters.
 ///
@@ -85,12 +73,23 @@ fn program(law: &'static OwnLaw) -> ExitCode {
         .name(laws.program())
         .version(params::version())
         .about(format!("The {}: load paths on one element, property tables, decks", law.description.title))
-        // There is one law.
-        .mut_subcommand("deck", |deck| deck.mut_arg("law", |argument| argument.hide(true)));
+        // There is one law, which has no demonstration and no built-in presets.
+        .mut_subcommand("run", |run| {
+            let help = "The load path, a file as toron's guide to load paths describes it";
+            run.mut_arg("path", |path| path.required(true).help(help))
+        })
+        .mut_subcommand("params", |params| {
+            params.mut_arg("preset", |preset| preset.help("Print the values of this preset alone: a file NAME.toml"))
+        })
+        .mut_subcommand("deck", |deck| {
+            let preset = "The material: a file NAME.toml";
+            deck.mut_arg("law", |law| law.hide(true)).mut_arg("preset", |argument| argument.help(preset))
+        });
     command_line::run(command, |arguments: Arguments| match arguments.command {
-        Command::Run { path, output } => load_path::command::run(laws, Some(&path), &output),
-        Command::Params { units, preset } => params::print_tables(laws, units.as_deref(), preset.as_deref()),
+        Command::Run(arguments) => load_path::command::run(laws, &arguments),
+        Command::Params(arguments) => params::print_tables(laws, &arguments),
         Command::Deck(arguments) => deck::command::run(laws, &arguments),
+        Command::Bench(arguments) => bench::own_law::run(law, &arguments),
         Command::Header => {
             print(&(law.header)(law.symbol));
             Ok(())

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use clap::Args;
+
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
@@ -20,12 +22,22 @@ pub fn version() -> String {
     format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
 }
 
+#[derive(Args)]
+pub struct Arguments {
+    /// Unit system, for instance mm-tonne-s; without it, si, or the units of the preset's file.
+    #[arg(long)]
+    units: Option<String>,
+    /// Print the values of this preset alone: a name, or a file of your own, as my-yarn.toml (see docs/guides/load-paths.md).
+    #[arg(long)]
+    preset: Option<String>,
+}
+
 /// Prints the tables of these laws; or, given a preset by name or file, its values.
 ///
 /// # Errors
 /// An unknown preset or unit system; a file of a preset that is wrong, or lacks a property.
-pub fn print_tables(laws: Laws, units: Option<&str>, preset: Option<&str>) -> Result<(), Error> {
-    let units = units.map(unit_system).transpose()?;
+pub fn print_tables(laws: Laws, Arguments { units, preset }: &Arguments) -> Result<(), Error> {
+    let units = units.as_deref().map(unit_system).transpose()?;
     let text = match preset {
         None => tables(laws, &units.unwrap_or(UnitSystem::SI))?,
         Some(name) => {

@@ -9,6 +9,7 @@ use toron::host::c::*;
 use toron::host::calculix::{Behaviour, CalculixLaw};
 use toron::host::lsdyna::{Umat, UmatVector, UserRoutines, Utan, UtanVector};
 use toron::host::mgis::{BehaviourDataView, MgisLaw, StateView};
+use toron::host::openradioss::{Group, ListingLine, MaterialCard, Motion};
 use toron::host::{abaqus, c, calculix, mgis, openradioss};
 use toron::{Hyperelastic, LinearElastic};
 
@@ -699,7 +700,7 @@ linear_elastic!(
 /// The starter and cycles of both laws, with fibre directions from the card, the nodes and initial values; points that fail and that
 /// cannot be evaluated; no deformation gradient.
 macro_rules! openradioss {
-    ($test:ident, $t:ty, $lecm:path, $listing:path, $luser:path) => {
+    ($test:ident, $t:ty, $read_card:path, $write_line:path, $group:path) => {
         #[test]
         fn $test() {
             const ROOM_OF_PARAMETERS: i32 = 14;
@@ -719,69 +720,54 @@ macro_rules! openradioss {
                 let (values, count) = (card.as_ptr(), card.len());
                 let (mut parameters, mut modulus) = ([0.0 as $t; ROOM_OF_PARAMETERS as usize], 0.0 as $t);
                 let (u, mut nuparam, mut nuvar) = (parameters.as_mut_ptr(), 0, 0);
-                let m = &mut modulus;
-                let (i, v) = (&mut nuparam, &mut nuvar);
-                quiet!($lecm, 3, values, count, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
-                quiet!($lecm, law, values, 4, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
-                quiet!($lecm, law, null(), count, u, ROOM_OF_PARAMETERS, i, v, null_mut(), null_mut(), 0);
-                let read = quiet!($lecm, law, values, count, u, ROOM_OF_PARAMETERS, i, v, m, t, ROOM);
+                let starter = MaterialCard {
+                    number: law,
+                    values,
+                    count,
+                    uparam: u,
+                    maxuparam: ROOM_OF_PARAMETERS,
+                    nuparam: &raw mut nuparam,
+                    nuvar: &raw mut nuvar,
+                    parmat: &raw mut modulus,
+                };
+                quiet!($read_card, &MaterialCard { number: 3, ..starter }, t, ROOM);
+                quiet!($read_card, &MaterialCard { count: 4, ..starter }, t, ROOM);
+                quiet!($read_card, &MaterialCard { parmat: null_mut(), ..starter }, null_mut(), 0);
+                let read = quiet!($read_card, &starter, t, ROOM);
                 for line in -1..45 {
-                    quiet!($listing, u, nuparam, line, t, ROOM);
+                    quiet!($write_line, &ListingLine { uparam: u, nuparam, line, text: t, capacity: ROOM });
                 }
                 if read != 0 {
                     continue;
                 }
                 for f in deformations().into_iter().chain([[0.0; 9]]) {
                     let f = f.map(|x| x as $t);
-                    let [xx, yx, zx, xy, yy, zy, xz, yz, zz] = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(|c| &raw const f[c]);
                     let (mut s, mut v, mut uvar) = ([0.0 as $t; 6], [0.0 as $t; 8], [0.0 as $t; 23]);
-                    let [s1, s2, s3, s4, s5, s6] = [0, 1, 2, 3, 4, 5].map(|c| &raw mut s[c]);
-                    let [v1, v2, v3, v4, v5, v6, viscosity, speed] = [0, 1, 2, 3, 4, 5, 6, 7].map(|c| &raw mut v[c]);
-                    let (h, mut off, number, density) = (uvar.as_mut_ptr(), 1.0 as $t, 7, 1.0 as $t);
-                    for (time, x) in [(0.0, nodes.as_ptr()), (1e-6, null()), (2e-6, null()), (0.0, null())] {
-                        quiet!(
-                            $luser, 1, nuparam, nuvar, time, u, &number, &density, xx, yy, zz, xy, yz, zx, yx, zy, xz,
-                            s1, s2, s3, s4, s5, s6, v1, v2, v3, v4, v5, v6, speed, viscosity, h, &mut off, x, t, ROOM,
-                        );
+                    let (mut off, number, density) = (1.0 as $t, 7, 1.0 as $t);
+                    let group = Group {
+                        elements: 1,
+                        parameters: nuparam,
+                        variables: nuvar,
+                        time: 0.0,
+                        uparam: u,
+                        numbers: &raw const number,
+                        density: &raw const density,
+                        deformation_gradient: [0, 4, 8, 3, 7, 2, 1, 5, 6].map(|c| &raw const f[c]),
+                        stress: [0, 1, 2, 3, 4, 5].map(|c| &raw mut s[c]),
+                        viscous: [0, 1, 2, 3, 4, 5].map(|c| &raw mut v[c]),
+                        sound_speed: &raw mut v[7],
+                        viscosity: &raw mut v[6],
+                        uvar: uvar.as_mut_ptr(),
+                        off: &raw mut off,
+                        nodes: null(),
+                        motion: Motion::unknown(),
+                    };
+                    for (time, nodes) in [(0.0, nodes.as_ptr()), (1e-6, null()), (2e-6, null()), (0.0, null())] {
+                        quiet!($group, &Group { time, nodes, ..group }, t, ROOM);
                     }
-                    quiet!(
-                        $luser,
-                        1,
-                        nuparam,
-                        3,
-                        0.0,
-                        u,
-                        null(),
-                        null(),
-                        xx,
-                        yy,
-                        zz,
-                        xy,
-                        yz,
-                        zx,
-                        yx,
-                        zy,
-                        xz,
-                        s1,
-                        s2,
-                        s3,
-                        s4,
-                        s5,
-                        s6,
-                        v1,
-                        v2,
-                        v3,
-                        v4,
-                        v5,
-                        v6,
-                        speed,
-                        null_mut(),
-                        h,
-                        &mut off,
-                        null(),
-                        null_mut(),
-                        0,
-                    );
+                    let wrong =
+                        Group { variables: 3, numbers: null(), density: null(), viscosity: null_mut(), ..group };
+                    quiet!($group, &wrong, null_mut(), 0);
                 }
             }
         }
@@ -791,14 +777,14 @@ macro_rules! openradioss {
 openradioss!(
     openradioss_in_double_precision,
     f64,
-    openradioss::lecm_f64,
-    openradioss::listing_f64,
-    openradioss::luser_f64
+    openradioss::read_card_f64,
+    openradioss::write_line_f64,
+    openradioss::group_f64
 );
 openradioss!(
     openradioss_in_single_precision,
     f32,
-    openradioss::lecm_f32,
-    openradioss::listing_f32,
-    openradioss::luser_f32
+    openradioss::read_card_f32,
+    openradioss::write_line_f32,
+    openradioss::group_f32
 );

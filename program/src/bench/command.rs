@@ -140,7 +140,7 @@ pub struct Best {
 
 impl Best {
     /// One more timing, after a call that is not timed, so that the caches hold this call's data and not another's.
-    fn time(&mut self, mut run: impl FnMut() -> Result<(), toron::Error>) -> Result<(), toron::Error> {
+    pub fn time(&mut self, mut run: impl FnMut() -> Result<(), toron::Error>) -> Result<(), toron::Error> {
         run()?;
         if self.calls == 0 {
             self.calls = calls_that_last(BATCH, &mut run)?;

@@ -4,5 +4,6 @@ pub mod choices;
 pub mod command;
 pub mod entries;
 pub mod hosts;
+pub mod own_law;
 pub mod parallel;
 pub mod scene;

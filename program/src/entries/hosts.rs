@@ -77,7 +77,7 @@ impl<T: BlockPrecision> OnePoint<T> {
 /// The arrays of the point have the sizes that the entry asks for.
 #[inline]
 pub unsafe fn call_point<T: BlockPrecision>(law: Given<'_, T>, point: &Point<T>) -> i32 {
-    // SAFETY: the caller's promise.
+    // SAFETY: the point's arrays are as just said.
     unsafe {
         match law {
             Given::Properties(values) => T::POINT_WITH_PROPERTIES(values.as_ptr(), values.len(), point, null_mut(), 0),

@@ -62,7 +62,7 @@ impl BlockPrecision for f64 {
     const VUMAT: VumatEntry<f64> = <Hyperelastic<f64>>::vumat;
     const LSDYNA: Routine<lsdyna::Umat<f64>> = <Hyperelastic<f64>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f64>> = <Hyperelastic<f64>>::umat_vector;
-    const OPENRADIOSS: OpenradiossEntry<f64> = openradioss::entries::group_f64;
+    const OPENRADIOSS: OpenradiossEntry<f64> = openradioss::group_f64;
 }
 
 impl BlockPrecision for f32 {
@@ -76,5 +76,5 @@ impl BlockPrecision for f32 {
     const VUMAT: VumatEntry<f32> = <Hyperelastic<f32>>::vumat;
     const LSDYNA: Routine<lsdyna::Umat<f32>> = <Hyperelastic<f32>>::umat;
     const LSDYNA_VECTOR: Routine<lsdyna::UmatVector<f32>> = <Hyperelastic<f32>>::umat_vector;
-    const OPENRADIOSS: OpenradiossEntry<f32> = openradioss::entries::group_f32;
+    const OPENRADIOSS: OpenradiossEntry<f32> = openradioss::group_f32;
 }

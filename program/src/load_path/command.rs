@@ -1,9 +1,10 @@
 //! `toron run`: from the file of a load path to its table, plot and summary.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Once;
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use indicatif::ProgressDrawTarget;
 
 use super::path::LoadPath;
@@ -19,12 +20,21 @@ const DEMONSTRATION: &str = include_str!("../../assets/compaction-then-tension.t
 /// A run that is over before this needs no progress bar.
 const PROGRESS_DELAY: Duration = Duration::from_secs(1);
 
-/// Runs the load path of a file with materials of these laws, or the demonstration of the library's, and writes what came of it to the directory `output`.
+#[derive(Args)]
+pub struct Arguments {
+    /// The load path (see docs/guides/load-paths.md); without it, a demonstration: compaction, then tension to failure.
+    pub path: Option<PathBuf>,
+    /// Where the table and the plot go.
+    #[arg(short, long, default_value = "toron-out")]
+    pub output: PathBuf,
+}
+
+/// Runs the load path of a file with materials of these laws, or the demonstration of the library's, and writes what came of it to a directory.
 ///
 /// # Errors
 /// The input, a file that cannot be written, or the evaluation of a point; what was computed before is written all the
 /// same.
-pub fn run(laws: Laws, path: Option<&Path>, output: &Path) -> Result<(), Error> {
+pub fn run(laws: Laws, Arguments { path, output }: &Arguments) -> Result<(), Error> {
     let path = match path {
         Some(path) => LoadPath::read(laws, path)?,
         None => LoadPath::parse(Laws::Toron, "demonstration", DEMONSTRATION)?,

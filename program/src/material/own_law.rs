@@ -1,9 +1,11 @@
 //! A law of one's own, as a program of its own has it: its names in files and solvers, and its evaluation behind one interface.
 
 use std::fmt;
+use std::ptr::null_mut;
 use std::sync::Arc;
 
 use nalgebra::Matrix3;
+use toron::Level;
 use toron::host::c::AsNumbers;
 use toron::host::{Material, is_name, is_number};
 use toron::law::description::Description;
@@ -103,12 +105,14 @@ pub struct PointArrays {
     pub state: Vec<f64>,
     /// Cauchy stress 11 22 33 12 23 31.
     pub stress: Vec<f64>,
-    /// ρ0 c² for a bound c of the wave speed.
+    /// ρ0 c² for a bound c of the wave speed; empty where none is wanted.
     pub wave_modulus: Vec<f64>,
     /// The tangent of this measure by rows, where one is wanted.
     pub measure: Option<Measure>,
     pub tangent: Vec<f64>,
     pub status: Vec<i32>,
+    /// The instructions to use; none for the best.
+    pub level: Option<Level>,
 }
 
 impl Own {
@@ -143,14 +147,23 @@ impl Own {
             measure,
             tangent: vec![0.0; size * size * stride],
             status: vec![0; n],
+            level: None,
         }
     }
 
     /// Evaluates the points. A call that is refused as a whole gives each its code.
     pub fn step(&self, points: &mut PointArrays) {
-        if let Err(error) = self.prepared.step(points) {
+        if let Err(error) = self.try_step(points) {
             points.status.fill(error.code());
         }
+    }
+
+    /// Evaluates the points.
+    ///
+    /// # Errors
+    /// The call is refused as a whole.
+    pub fn try_step(&self, points: &mut PointArrays) -> Result<(), Error> {
+        self.prepared.step(points).map(|_| ())
     }
 
     /// One point: a step from one deformation gradient to another.
@@ -186,7 +199,8 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
     }
 
     fn step(&self, points: &mut PointArrays) -> Result<i32, Error> {
-        let PointArrays { n, stride, f_old, f, fibre, state, stress, wave_modulus, measure, tangent, status } = points;
+        let PointArrays { n, stride, f_old, f, fibre, state, stress, wave_modulus, measure, tangent, status, level } =
+            points;
         let components = |array: &[f64]| std::array::from_fn(|c| array[c * *stride..].as_ptr());
         let own = Points {
             f_old: components(f_old),
@@ -196,8 +210,9 @@ impl<L: Law<f64> + Send + Sync> Prepared for L {
             // With the density 1 the square of the speed is the modulus.
             density: 1.0,
             stress: std::array::from_fn(|c| stress[c * *stride..].as_mut_ptr()),
-            wave_speed: wave_modulus.as_mut_ptr(),
+            wave_speed: if wave_modulus.is_empty() { null_mut() } else { wave_modulus.as_mut_ptr() },
             status: status.as_mut_ptr(),
+            level: *level,
             ..Points::without_arrays(*n, *stride)
         };
         let fibred = match fibre.is_empty() {

@@ -12,6 +12,7 @@ use serde_json::Value;
 use toron::host::units::UnitSystem;
 use toron_program::eval::own_law::{Entry, evaluate};
 use toron_program::load_path::columns::columns;
+use toron_program::load_path::command::Arguments;
 use toron_program::load_path::path::LoadPath;
 use toron_program::load_path::run::{End, run};
 use toron_program::load_path::table;
@@ -103,7 +104,8 @@ fn the_files_are_those_of_every_load_path() {
     let folder = folder("files");
     std::fs::write(folder.join("tension.toml"), TENSION).expect("a file can be written");
     let output = folder.join("out");
-    toron_program::load_path::command::run(laws(), Some(&folder.join("tension.toml")), &output).expect("it runs");
+    let arguments = Arguments { path: Some(folder.join("tension.toml")), output: output.clone() };
+    toron_program::load_path::command::run(laws(), &arguments).expect("it runs");
     let table = std::fs::read_to_string(output.join("increments.csv")).expect("the table");
     let head = "step,cycle,increment,time,F11,F12,F13,F21,F22,F23,F31,F32,F33,cauchy_11,cauchy_22,cauchy_33,cauchy_12,\
                 cauchy_23,cauchy_31,P11,P12,P13,P21,P22,P23,P31,P32,P33,energy,stretch,failed,alive,fibre_stress,";

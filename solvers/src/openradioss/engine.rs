@@ -6,8 +6,7 @@ use std::ptr::{null, null_mut};
 use std::thread::LocalKey;
 
 use toron::host::c::TORON_MESSAGE_CAPACITY;
-use toron::host::openradioss::entries::{group_of_f32, group_of_f64};
-use toron::host::openradioss::{Group, Laws, Motion, MyReal, compares_axes, needs_nodes};
+use toron::host::openradioss::{Group, Laws, Motion, MyReal, compares_axes, group_of_f32, group_of_f64, needs_nodes};
 
 use super::solver::{COORDINATES, VELOCITIES, of_nodes, stop};
 
@@ -104,21 +103,21 @@ pub fn group<T: Engine>(number: i32, fill: impl FnOnce(&mut Group<T>)) {
 /// The fourth call.
 ///
 /// # Safety
-/// The solver's promise: the arrays have the solver's vector length, and those of the calls before are still valid.
+/// The arrays have the solver's vector length, and those of the calls before are still valid.
 pub unsafe fn evaluate<T: Engine>(laws: &Laws<T>, stress: [*mut T; 6]) {
     let Remembered { group, material, number, cycle } = T::remembered().take().unwrap_or_else(Remembered::nothing);
     let group = Group { stress, ..group };
     let elements = usize::try_from(group.elements).unwrap_or(0);
     let compares = compares_axes(cycle);
     let ask = |name, needed: bool| if needed { of_nodes(name, elements) } else { Vec::new() };
-    // SAFETY: the solver's promise.
+    // SAFETY: the group is made of the solver's arrays, as said above.
     let coordinates = ask(COORDINATES, compares || unsafe { needs_nodes(laws, &group) });
     let velocities = ask(VELOCITIES, compares);
     let array = |values: &Vec<T>| if values.is_empty() { null() } else { values.as_ptr() };
     let motion = Motion { velocities: array(&velocities), ..group.motion };
     let group = Group { nodes: array(&coordinates), motion, ..group };
     let mut text = [0_u8; TORON_MESSAGE_CAPACITY];
-    // SAFETY: the solver's promise; the text has the size passed.
+    // SAFETY: the same; the text has the size passed.
     let status = unsafe { T::EVALUATE(laws, &group, text.as_mut_ptr().cast::<c_char>(), text.len()) };
     if status < 0 {
         let text = text.split(|&byte| byte == 0).next().unwrap_or_default();

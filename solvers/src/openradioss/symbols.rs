@@ -3,6 +3,8 @@
 //! The routines of the engine declare the leading arguments, up to the last one that they use: on the solver's platforms the caller
 //! removes the arguments of a C routine, so that it may take fewer than it is given. The refused ones declare none, since they use
 //! none: the solver takes no library that lacks one of them, and a model that calls one stops, with what it asks for.
+//!
+//! What the solver passes is said of each routine under "Safety"; the blocks refer to that.
 
 /// The symbols of a library with the laws of a list, a constant of type [`Laws`](toron::host::openradioss::Laws), for the solver's real
 /// numbers of this type.
@@ -14,10 +16,10 @@ macro_rules! openradioss_symbols {
             static LAWS: $crate::toron::host::openradioss::Laws<$t> = $laws;
 
             /// # Safety
-            /// The solver's promise: `version` is an integer.
+            /// `version` is an integer.
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn userlib_id(version: *mut i32) {
-                // SAFETY: the solver's promise.
+                // SAFETY: as just said.
                 unsafe { *version = $crate::openradioss::INTERFACE };
             }
 
@@ -25,7 +27,7 @@ macro_rules! openradioss_symbols {
             /// name, `number` is nn.
             ///
             /// # Safety
-            /// The solver's promise: `rootn` has `rootlen` characters, `uparam` `maxuparam` values, `parmat` at least three.
+            /// `rootn` has `rootlen` characters, `uparam` `maxuparam` values, `parmat` at least three.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn st_lecm99_(
@@ -42,7 +44,7 @@ macro_rules! openradioss_symbols {
                 nfunc: *mut i32,
                 parmat: *mut $t,
             ) {
-                // SAFETY: the solver's promise.
+                // SAFETY: as just said.
                 unsafe {
                     let root = std::slice::from_raw_parts(rootn.cast::<u8>(), usize::try_from(*rootlen).unwrap_or(0));
                     let Some(material) =
@@ -59,7 +61,7 @@ macro_rules! openradioss_symbols {
             /// The first call: the cycle, the material's number in the model, the strain rates and the density.
             ///
             /// # Safety
-            /// The solver's promise: `cycle` and `material` are integers, and the arrays are valid until the fourth call.
+            /// `cycle` and `material` are integers, and the arrays are valid until the fourth call.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn eng_get_law_user_var_(
@@ -105,7 +107,7 @@ macro_rules! openradioss_symbols {
             ) {
                 let strain_rate =
                     [strain_rate_xx, strain_rate_yy, strain_rate_zz, strain_rate_xy, strain_rate_yz, strain_rate_zx];
-                // SAFETY: the solver's promise.
+                // SAFETY: as just said.
                 let (cycle, material) = unsafe { (*cycle, *material) };
                 $crate::openradioss::engine::begin::<$t>(cycle, material, density, strain_rate);
             }
@@ -113,7 +115,7 @@ macro_rules! openradioss_symbols {
             /// The second call: the deformation gradient. Each array is followed by its length, which is the solver's vector length.
             ///
             /// # Safety
-            /// The solver's promise: the arrays are valid until the fourth call.
+            /// The arrays are valid until the fourth call.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn eng_get_law_user_var_2_(
@@ -145,7 +147,7 @@ macro_rules! openradioss_symbols {
             /// the fourth call.
             ///
             /// # Safety
-            /// The solver's promise: counts and time are numbers, and the arrays are valid until the fourth call.
+            /// Counts and time are numbers, and the arrays are valid until the fourth call.
             #[unsafe(no_mangle)]
             #[allow(clippy::too_many_arguments)]
             pub unsafe extern "C" fn eng_sigeps99_(
@@ -169,7 +171,7 @@ macro_rules! openradioss_symbols {
                 uvar: *mut $t,
                 off: *mut $t,
             ) {
-                // SAFETY: the solver's promise.
+                // SAFETY: as just said.
                 let (nel, nuparam, nuvar, number) = unsafe { (*nel, *nuparam, *nuvar, *number) };
                 // SAFETY: the same.
                 let (time, time_step) = unsafe { (*time, *time_step) };
@@ -185,7 +187,7 @@ macro_rules! openradioss_symbols {
             /// that and VISCMAX to 0, as they are to be.
             ///
             /// # Safety
-            /// The solver's promise: the arrays have the solver's vector length, and those of the calls before are still valid.
+            /// The arrays have the solver's vector length, and those of the calls before are still valid.
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn eng_set_law_user_var_(
                 signxx: *mut $t,
@@ -195,7 +197,7 @@ macro_rules! openradioss_symbols {
                 signyz: *mut $t,
                 signzx: *mut $t,
             ) {
-                // SAFETY: the solver's promise.
+                // SAFETY: as just said.
                 unsafe {
                     $crate::openradioss::engine::evaluate::<$t>(&LAWS, [signxx, signyy, signzz, signxy, signyz, signzx])
                 };

@@ -18,7 +18,8 @@ use crate::host::environment::in_default_environment;
 /// The solver's groups have no more elements; longer ones are evaluated in parts.
 const CHUNK: usize = 128;
 
-/// A group of elements as the engine passes it to a material, one integration point of each.
+/// A group of elements as the engine passes it to a material, one integration point of each. Who makes one promises that every pointer
+/// is null or has as many values as its field says, those without a number NEL, and that the outputs overlap nothing else.
 #[derive(Clone, Copy, Debug)]
 pub struct Group<T> {
     /// NEL, NUPARAM, NUVAR.
@@ -54,7 +55,8 @@ pub struct Group<T> {
     pub motion: Motion<T>,
 }
 
-/// What the engine knows of the motion of a group's elements besides F, each null if it is not passed.
+/// What the engine knows of the motion of a group's elements besides F, each null if it is not passed; as for [`Group`], NEL values
+/// without a number.
 #[derive(Clone, Copy, Debug)]
 pub struct Motion<T> {
     /// TIMESTEP.
@@ -85,10 +87,9 @@ pub fn compares_axes(cycle: i32) -> bool {
 /// direction that has no length. A point that fails or cannot be evaluated is no error: its element is taken out.
 ///
 /// # Safety
-/// Every pointer that is not null has as many values as its field says, those without a number NEL; the outputs overlap nothing
-/// else.
+/// The group is what [`Group`] says.
 pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result<(), Error> {
-    // SAFETY: the caller's promise, here and below.
+    // SAFETY: the group's arrays are as `Group` says, and `check` refuses null where it is not allowed.
     unsafe {
         group.check(laws)?;
         let parameters = slice::from_raw_parts(group.uparam, group.parameters as usize);
@@ -126,7 +127,7 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
 pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> bool {
     in_default_environment(|| {
         let at_start = group.time.into() == 0.0;
-        // SAFETY: the caller's promise. To a library of the other precision the solver would write too many numbers, or too few.
+        // SAFETY: UPARAM is not null, as checked: NUPARAM values. To a library of the other precision the solver would write too many numbers, or too few.
         let parameters = unsafe {
             if group.check(laws).is_err() || group.elements == 0 || (at_start && group.other_precision().is_some()) {
                 return false;
@@ -166,7 +167,7 @@ impl<T: Precision> Group<T> {
     /// single precision, 0 and 1.875, and two numbers 1 in single precision are 0.0078125 and a bit in double precision.
     unsafe fn other_precision(&self) -> Option<&'static str> {
         let mut diagonal = self.deformation_gradient.iter().take(3);
-        // SAFETY: the caller's promise.
+        // SAFETY: F has NEL values, and the second one is read only if there are two.
         unsafe {
             if size_of::<T>() == size_of::<f32>() {
                 let is_double = |&f: &*const T| (*f).into() == 0.0 && (*f.add(1)).into() == 1.875;
@@ -186,7 +187,7 @@ impl<T: Precision> Group<T> {
             return Ok(());
         }
         for i in 0..self.count() {
-            // SAFETY: the caller's promise, i below NEL.
+            // SAFETY: i is below NEL, and what may be null is not, as just checked.
             unsafe {
                 if !T::splat(1.0).le(*self.off.add(i)) {
                     continue; // of an element that is out, the solver scales them
@@ -205,7 +206,7 @@ impl<T: Precision> Group<T> {
     /// The vectors of the eight nodes of element `i` among those of the group, (NEL, 8, 3).
     unsafe fn of_nodes(&self, group: *const T, i: usize) -> [[f64; 3]; 8] {
         let n = self.count();
-        // SAFETY: the caller's promise.
+        // SAFETY: the group has (NEL, 8, 3) values, and i is below NEL.
         [0, 1, 2, 3, 4, 5, 6, 7].map(|node| [0, 1, 2].map(|c| unsafe { *group.add(i + n * (node + 8 * c)) }.into()))
     }
 
@@ -258,12 +259,12 @@ impl<T: Precision> Group<T> {
 
     /// The number of element `i` in the model, or its place in the group from 1 where that is not known.
     unsafe fn number(&self, i: usize) -> i64 {
-        // SAFETY: the caller's promise.
+        // SAFETY: NGL is not null here, and i is below NEL.
         if self.numbers.is_null() { i as i64 + 1 } else { i64::from(unsafe { *self.numbers.add(i) }) }
     }
 
     unsafe fn error_of(&self, i: usize, code: i32) -> Error {
-        // SAFETY: the caller's promise.
+        // SAFETY: i is below NEL.
         Error::Element { code, number: unsafe { self.number(i) } }
     }
 
@@ -282,7 +283,7 @@ impl<T: Precision> Group<T> {
         let rows = [0, 1, 2].map(|c| self.row(card.layout().fibre() + c));
         let mut extents = [0.0; 3];
         for i in 0..self.count() {
-            // SAFETY: the caller's promise, i below NEL.
+            // SAFETY: i is below NEL, the rows are of UVAR, and the nodes are not null where they are read.
             unsafe {
                 if from_nodes {
                     let jacobian = Brick(self.of_nodes(self.nodes, i)).jacobian([0.0; 3]);
@@ -312,7 +313,7 @@ impl<T: Precision> Group<T> {
     /// arrives from then on is no deformation, and the state must be kept.
     unsafe fn take_out_deleted(&self, layout: &Layout) {
         let one = T::splat(1.0);
-        // SAFETY: the caller's promise.
+        // SAFETY: OFF has NEL values.
         let off = unsafe { slice::from_raw_parts(self.off, self.count()) };
         if off.iter().filter(|&&off| one.le(off)).count() == off.len() {
             return;
@@ -330,7 +331,7 @@ impl<T: Precision> Group<T> {
 
     /// Marks point `i` as failed, with this reason.
     unsafe fn latch(&self, layout: &Layout, i: usize, deleted: f64) {
-        // SAFETY: the caller's promise.
+        // SAFETY: i is below NEL, and the rows are of UVAR.
         unsafe {
             *self.row(layout.law.failed).add(i) = T::splat(1.0);
             *self.row(layout.law.alive).add(i) = T::splat(0.0);
@@ -343,7 +344,7 @@ impl<T: Precision> Group<T> {
         let [xx, yy, zz, xy, yz, zx] = self.viscous;
         for array in &[xx, yy, zz, xy, yz, zx, self.viscosity] {
             if !array.is_null() {
-                // SAFETY: the caller's promise. A number whose bytes are all 0 is 0.
+                // SAFETY: the array has NEL values. A number whose bytes are all 0 is 0.
                 unsafe { array.write_bytes(0, self.count()) };
             }
         }
@@ -384,7 +385,7 @@ impl<T: Precision> Group<T> {
         // Of a law that does not depend on F at the start of a step, this is not there.
         let f_old = components_mut(self.row(card.layout().f_old()), n);
         if L::DESCRIPTION.reads_old_gradient {
-            // SAFETY: the caller's promise, here and below.
+            // SAFETY: these rows of UVAR have NEL values.
             unsafe { start_at_rest(f_old, n) };
         }
         let part = |first: usize, count: usize, codes: *mut i32| {
@@ -395,6 +396,7 @@ impl<T: Precision> Group<T> {
                 fibre: self.fibre(card, first),
                 state_old: row(0),
                 state_new: row(0),
+                // SAFETY: RHO0 has a value.
                 density: unsafe { *self.density },
                 stress: from_entry(self.stress, first),
                 wave_speed: self.sound_speed.wrapping_add(first),
@@ -405,14 +407,18 @@ impl<T: Precision> Group<T> {
                 criterion: card.criterion,
                 ..Points::without_arrays(count, n)
             };
+            // SAFETY: the arrays from element `first` on have `count` values, NUVAR rows of them in UVAR.
             unsafe { law.step(&points) }
         };
+        // SAFETY: the group is the caller's.
         unsafe { self.in_chunks(card.layout(), part)? };
         if card.by_direction {
+            // SAFETY: the same.
             unsafe { self.bound_by_direction(card, &L::wave_bounds(card)) };
         }
         if L::DESCRIPTION.reads_old_gradient {
             for (row, f) in f_old.into_iter().zip(self.columns(0)) {
+                // SAFETY: a row of UVAR and a component of F have NEL values each.
                 unsafe { row.copy_from_nonoverlapping(f, n) };
             }
         }
@@ -428,9 +434,10 @@ impl<T: Precision> Group<T> {
             return;
         }
         let of_card = card.layout().law.fibre.and_then(|first| card.properties.get(first..)?.first_chunk::<3>());
-        // SAFETY: the caller's promise, here and below.
+        // SAFETY: RHO0 has a value.
         let density: f64 = unsafe { *self.density }.into();
         for i in 0..self.count() {
+            // SAFETY: i is below NEL; nodes and volumes are not null, as checked above.
             unsafe {
                 let brick = Brick(self.of_nodes(self.nodes, i));
                 let intact = T::splat(1.0).le(*self.off.add(i));
@@ -471,11 +478,11 @@ impl<T: Precision> Group<T> {
             let n = CHUNK.min(self.count() - first);
             let mut codes = [status::OK; CHUNK];
             let worst = part(first, n, codes.as_mut_ptr())?;
-            // SAFETY: the caller's promise.
+            // SAFETY: OFF has NEL values, of which these are n.
             let off = unsafe { slice::from_raw_parts(self.off.add(first), n) };
             let active = off.iter().filter(|&&off| T::splat(1.0).le(off)).count();
             if worst != status::OK || active < n {
-                // SAFETY: as above.
+                // SAFETY: these elements are below NEL.
                 unsafe { self.mark(layout, first, codes.get(..n).unwrap_or_default())? };
             }
         }
@@ -489,7 +496,7 @@ impl<T: Precision> Group<T> {
     #[cold]
     unsafe fn mark(&self, layout: &Layout, first: usize, codes: &[i32]) -> Result<(), Error> {
         for (i, &code) in (first..).zip(codes) {
-            // SAFETY: the caller's promise; i is below NEL.
+            // SAFETY: i is below NEL, and the rows are of UVAR.
             unsafe {
                 let known = (*self.row(layout.deleted()).add(i)).into() != 0.0;
                 if known || T::splat(1.0).le(*self.off.add(i)) {

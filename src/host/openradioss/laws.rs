@@ -54,7 +54,7 @@ impl<M: UserMaterial, T: Precision> SolidLaw<T> for User<M, T> {
     }
 
     unsafe fn evaluate_group(group: &Group<T>, card: &Card<'_, T>) -> Result<(), Error> {
-        // SAFETY: the caller's promise.
+        // SAFETY: the group is the caller's, and has been checked.
         unsafe { group.step::<Self>(card) }
     }
 }
@@ -132,7 +132,7 @@ macro_rules! toron_laws {
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {
-                // SAFETY: the caller's promise.
+                // SAFETY: the group is the caller's, and has been checked.
                 unsafe { group.step::<Self>(card) }
             }
         }
@@ -152,7 +152,7 @@ macro_rules! toron_laws {
             }
 
             unsafe fn evaluate_group(group: &Group<$t>, card: &Card<'_, $t>) -> Result<(), Error> {
-                // SAFETY: the caller's promise.
+                // SAFETY: the group is the caller's, and has been checked.
                 unsafe { group.step::<Self>(card) }
             }
         }

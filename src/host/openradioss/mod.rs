@@ -18,11 +18,12 @@
 mod brick;
 pub mod card;
 pub mod engine;
-pub mod entries;
+mod entries;
 pub mod laws;
 pub mod starter;
 
 pub use engine::{Group, Motion, compares_axes, evaluate, needs_nodes};
-pub use entries::{lecm_f32, lecm_f64, listing_f32, listing_f64, luser_f32, luser_f64};
+pub use entries::{ListingLine, MaterialCard, read_card_f32, read_card_f64, write_line_f32, write_line_f64};
+pub use entries::{group_f32, group_f64, group_of_f32, group_of_f64};
 pub use laws::{Laws, Material, MyReal, SolidLaw};
 pub use starter::{Read, listing, read};
