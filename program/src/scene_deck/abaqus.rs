@@ -71,15 +71,17 @@ fn header(model: &Model) -> String {
     let Model { title, source, name, .. } = model;
     let [length, mass, time] = model.units.names();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("**");
     let mut text = format!(
         "** {title}
 ** Case {name} of `{source} --deck abaqus-explicit`: {elements} elements in {parts} yarns or parts of them;
 ** units {length}, {mass}, {time}. Not run: Abaqus was not at hand; options are as its keyword manual has them.
-**
+{origin}**
 ** Run it in double precision with the VUMAT and the library (docs/guides/hosts/abaqus.md), on N cores, 1 or many:
 **   abaqus job={name} user=abaqus_vumat_dp.f double=both cpus=N
 ** Later, on from the last restart file:  abaqus job={name} recover
 ** Histories as a table:                  abaqus python {HISTORY} {name}.odb {name}-history.csv
+** Then:                                  toron compare NAME.csv {name}-history.csv
 "
     );
     let panel_alone = "** A panel alone, for a model of your own: contact, striker and step are not in it.\n";

@@ -110,16 +110,17 @@ fn header(model: &Model) -> String {
     let Model { title, source, name, .. } = model;
     let [length, mass, time] = model.units.names();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("$");
     let mut text = format!(
         "$ {title}
 $ Case {name} of `{source} --deck ls-dyna`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
-$ Not run: LS-DYNA was not at hand; the cards are as its keyword manual has them.
+{origin}$ Not run: LS-DYNA was not at hand; the cards are as its keyword manual has them.
 $
 $ Run it in double precision, with an executable that has the shim and the library in it (docs/guides/hosts/ls-dyna.md).
 $ On one core, or on N threads:  ls-dyna i={name}.k ncpu=N memory=200m
 $ On P domains (MPP):            mpirun -np P mppdyna i={name}.k memory=200m
 $ On from a restart file:        ls-dyna i={name}.k r=d3dump01
-$ Histories: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*.
+$ Histories: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*. Then toron compare NAME.csv FOLDER.
 "
     );
     let panel_alone = "$ A panel alone, for a model of your own: contact, striker, time and output are not in it.\n";

@@ -3,6 +3,7 @@
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, STRESS};
 
+use super::origin::Origin;
 use super::striker::Striker;
 use crate::common::error::Error;
 use crate::deck::material::Material;
@@ -59,6 +60,8 @@ pub struct Support {
 /// What strikes, and how it is calculated.
 pub struct Strike {
     pub striker: Striker,
+    /// What part of the whole the model is: 0.25 is a quarter.
+    pub part: f64,
     /// Of a yarn.
     pub height: f64,
     /// Of yarns with one another, where there are several.
@@ -162,6 +165,12 @@ impl Mesh {
 }
 
 impl Model {
+    /// The line of the deck that tells who compares its histories what they are; nothing where there are none.
+    pub fn origin(&self, comment: &str) -> String {
+        let origin = |strike: &Strike| Origin { units: self.units, part: strike.part }.comment();
+        self.strike.as_ref().map_or_else(String::new, |strike| format!("{comment} {}\n", origin(strike)))
+    }
+
     /// The mass of the elements.
     pub fn mass(&self) -> f64 {
         let of_part = |part: &Part| {

@@ -56,6 +56,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
             centre: [0.0, 0.0, length(start(case, &panel)?)],
             side: 0.0,
         },
+        part: share(case),
         height: length(height),
         contact: Some(Contact {
             friction: case.mutual.friction,

@@ -10,6 +10,8 @@ use crate::impact::scene::{self, Case, Zones};
 
 /// The axis of the cylinder's motion.
 const DOWN: usize = 1;
+/// What part of the strike the model is: it ends at mid-span.
+const PART: f64 = 0.5;
 /// Length of the cylinder over the width of the yarn, which widens under it.
 const LENGTH_OVER_WIDTH: f64 = 4.0;
 
@@ -48,12 +50,13 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         striker: Striker {
             shape: cylinder.shape,
             radius,
-            mass: 0.5 * conversion.of(mass, MASS),
+            mass: PART * conversion.of(mass, MASS),
             velocity: -conversion.of(case.speed, SPEED),
             friction: cylinder.friction,
             centre: [0.0, top + radius, 0.0],
             side: 0.5 * LENGTH_OVER_WIDTH * length(case.yarn.width),
         },
+        part: PART,
         height: length(case.yarn.height),
         contact: None,
         control: case.control,

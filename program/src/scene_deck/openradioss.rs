@@ -145,12 +145,13 @@ fn header(model: &Model, strike: &Strike) -> String {
     let [length, mass, time] = model.units.names();
     let units = units(&model.units).map(|unit| format!("{unit:>20}")).concat();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("#");
     let yarn_contact = if strike.contact.is_some() { " and of the yarns" } else { "" };
     format!(
         "#RADIOSS STARTER
 # {title}
 # Case {name} of `{source} --deck openradioss`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
-#
+{origin}#
 # Run it with the library libtoron_openradioss.so (docs/guides/hosts/openradioss.md), in double precision.
 # On one core, or on N threads with -nt N behind both:
 #   starter_linux64_gf -i {name}_0000.rad -np 1 -dylib .../libtoron_openradioss.so
@@ -159,7 +160,7 @@ fn header(model: &Model, strike: &Strike) -> String {
 #   starter_linux64_gf -i {name}_0000.rad -np P -dylib .../libtoron_openradioss.so
 #   mpirun -np P engine_linux64_gf_ompi -i {name}_0001.rad -dylib .../libtoron_openradioss.so
 # On from the last restart file, {name}_0001_....rst: {name}_0002.rad, a copy of {name}_0001.rad with /RUN/{name}/2.
-# Histories: th_to_csv {name}T01.
+# Histories: th_to_csv {name}T01; then toron compare NAME.csv {name}T01.csv.
 #
 # What differs from toron's own solver:
 # - bulk viscosity resists a change of volume with the fastest wave's speed, there along and across the fibre each with its own;
