@@ -245,7 +245,8 @@ fn write_striker(
     let element = first as usize + mesh.elements.len() + shells.faces.len();
     writeln!(
         out,
-        "** the striker: half of a rigid body of radius {}; mass: the scene's, or the part that the model has",
+        "** the striker: {} of radius {}; mass: the scene's, or the part that the model has",
+        striker.described(),
         wide(striker.radius)
     )?;
     writeln!(out, "*RIGID BODY, REF NODE={reference}, ELSET={faces}")?;

@@ -114,8 +114,8 @@ impl Conversion {
 ///
 /// # Errors
 /// A material that the host cannot use.
-pub fn hourglass(
-    materials: &[crate::material::model::Material],
+pub fn hourglass<'a>(
+    materials: impl IntoIterator<Item = &'a crate::material::model::Material>,
     control: Control,
     conversion: Conversion,
 ) -> Result<Vec<f64>, Error> {
@@ -123,7 +123,7 @@ pub fn hourglass(
         let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
         Ok(conversion.of(medium.hourglass, STRESS))
     };
-    materials.iter().map(modulus).collect()
+    materials.into_iter().map(modulus).collect()
 }
 
 /// The time between two animations.

@@ -1,13 +1,15 @@
 //! A woven panel, and a case of `toron fabric`, as the model of a deck.
 
+use std::collections::BTreeMap;
+
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::Striker;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
-use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
+use crate::weave::geometry::Family;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 
@@ -19,25 +21,27 @@ pub const WATCHED: usize = 100;
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    if !matches!(case.sphere.shape, Shape::Sphere) {
-        let shape = case.sphere.shape.name();
-        return Err(Error::Input(format!("shape is {shape} in case {}; allowed in a deck: sphere", case.name)));
-    }
-    if case.threads.iter().any(Option::is_some) {
-        let allowed = "allowed in a deck: one law and its properties for both";
-        return Err(Error::Input(format!(
-            "warp and weft have materials of their own in case {}; {allowed}",
-            case.name
-        )));
-    }
     let panel = case.woven.model();
     check(case, &panel)?;
     let Conversion { from, to } = conversion;
-    let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
-    let materials = materials.collect::<Result<Vec<_>, _>>()?;
+    let used = used(case);
+    let of_case: Vec<_> = case.materials().collect();
+    let material = |&i: &usize| {
+        let mut material = Material::of_scene(of_case[i], &from, &to)?;
+        // Those of warp and weft may have one name.
+        if let Some(family) = Family::BOTH.into_iter().find(|&family| case.own_material(family) == Some(i)) {
+            material.name = format!("{}-{}", family.name(), material.name);
+        }
+        Ok(material)
+    };
+    let materials = used.iter().map(material).collect::<Result<Vec<_>, Error>>()?;
+    let of_zones = used.iter().take_while(|&&i| i < case.zones.materials().len());
+    let names: Vec<&str> = of_zones.zip(&materials).map(|(_, material)| material.name.as_str()).collect();
     let corners = |element: usize| panel.elements[element].map(|node| panel.nodes[node as usize]);
-    let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
-    let parts = parts(&panel, &names, |element| zone(&case.zones, corners(element)));
+    let place = |i: usize| used.iter().position(|&other| other == i).unwrap_or_default();
+    let of_element =
+        |family, element| place(case.own_material(family).unwrap_or_else(|| zone(&case.zones, corners(element))));
+    let parts = parts(&panel, &names, of_element);
     let mesh = mesh(&panel, conversion);
     let mut supports = symmetry(&panel);
     if case.held {
@@ -68,8 +72,8 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, 2),
         watched: nearest(&mesh, 2, WATCHED),
-        fails: case.zones.materials().iter().any(|material| material.can_fail()),
-        hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
+        fails: used.iter().any(|&i| of_case[i].can_fail()),
+        hourglass: hourglass(used.iter().map(|&i| of_case[i]), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),
     };
     Ok(Model {
@@ -104,7 +108,7 @@ pub fn of_panel(
         name: "weave".to_string(),
         units: to,
         mesh: mesh(panel, conversion),
-        parts: parts(panel, &[&material.name], |_| 0),
+        parts: parts(panel, &[&material.name], |_, _| 0),
         materials: vec![material],
         supports,
         strike: None,
@@ -121,18 +125,24 @@ fn mesh(panel: &woven::Model, conversion: Conversion) -> Mesh {
     }
 }
 
-/// A part for each yarn, or for each of its materials; named by both then.
-fn parts(panel: &woven::Model, materials: &[&str], zone: impl Fn(usize) -> usize) -> Vec<Part> {
+/// The places in the case's materials of those that some yarn is made of.
+fn used(case: &Case) -> Vec<usize> {
+    let own = Family::BOTH.map(|family| case.own_material(family));
+    let of_zones = if own.contains(&None) { case.zones.materials().len() } else { 0 };
+    (0..of_zones).chain(own.into_iter().flatten()).collect()
+}
+
+/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first materials.
+fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(Family, usize) -> usize) -> Vec<Part> {
     let mut parts = Vec::new();
     for yarn in &panel.yarns {
-        for (material, of_material) in materials.iter().enumerate() {
-            let elements = yarn.elements.clone().filter(|&element| zone(element) == material);
-            let elements: Vec<u32> = elements.map(|element| element as u32).collect();
-            if elements.is_empty() {
-                continue;
-            }
-            let name = name(yarn);
-            let name = if materials.len() > 1 { format!("{name}-{of_material}") } else { name };
+        let mut of_yarn: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+        for element in yarn.elements.clone() {
+            of_yarn.entry(material(yarn.family, element)).or_default().push(element as u32);
+        }
+        for (material, elements) in of_yarn {
+            let zone = zones.get(material).filter(|_| zones.len() > 1);
+            let name = zone.map_or_else(|| name(yarn), |zone| format!("{}-{zone}", name(yarn)));
             parts.push(Part { name, material, elements });
         }
     }

@@ -12,7 +12,6 @@ use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::common::short_number::short;
 use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
-use crate::explicit::contact::Shape;
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
 
@@ -315,12 +314,8 @@ fn write_striker(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let striker = &strike.striker;
-    let (Striker { shape, radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
-    let (what, fixed) = match shape {
-        // No other one comes from a scene.
-        Shape::Sphere | Shape::Flat | Shape::Hemisphere => ("sphere", "110 111"),
-        Shape::Cylinder => ("cylinder across the yarn", "101 111"),
-    };
+    let (Striker { radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
+    let fixed = [0, 1, 2].map(|axis| if axis == striker.axis() { "0" } else { "1" }).concat() + " 111";
     let prefix = &naming.prefix;
     let (material, part, centre) =
         (ids.striker_material(), ids.striker_part(), ids.striker_node(shells.nodes.len() as u32));
@@ -333,8 +328,9 @@ fn write_striker(
     let wide = |value: f64| short(value, 19);
     writeln!(
         out,
-        "# The striker: half of a rigid {what} of radius {}, {} inside which its shells lie: the contact begins there.\n\
+        "# The striker: {} of radius {}, {} inside which its shells lie: the contact begins there.\n\
          # Modulus ({}) and density of the shells serve the contact and the step alone.",
+        striker.described(),
         wide(*radius),
         wide(offset),
         yarn.unit(STRESS)
@@ -362,7 +358,7 @@ fn write_striker(
          #  Ioptoff\n{:>10}\n",
         0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0
     )?;
-    write!(out, "{}", bcs(ids.first + ids.supports, &format!("{prefix}striker"), fixed, centre_group))?;
+    write!(out, "{}", bcs(ids.first + ids.supports, &format!("{prefix}striker"), &fixed, centre_group))?;
     let velocities =
         [0, 1, 2].map(|axis| format!("{:>20}", if axis == striker.axis() { wide(*velocity) } else { "0".into() }));
     for (number, group) in [(ids.first, group), (ids.first + 1, centre_group)] {

@@ -189,6 +189,88 @@ fn three_solvers_get_the_same_panel() {
     }
 }
 
+/// Quadrangles of the striker, and the materials of the parts by their names.
+fn striker_and_parts(host: &str, folder: &Path, case: &str) -> (Vec<[Vector3<f64>; 4]>, BTreeMap<String, String>) {
+    let (mesh, main, comment, keyword) = match host {
+        "openradioss" => (format!("{case}_mesh.inc"), format!("{case}_0000.rad"), "#", '/'),
+        "ls-dyna" => (format!("{case}-mesh.k"), format!("{case}.k"), "$", '*'),
+        _ => (format!("{case}-mesh.inp"), format!("{case}.inp"), "**", '*'),
+    };
+    let split = |line: &str, width: usize| -> Vec<String> {
+        if host == "abaqus-explicit" {
+            return line.split(',').map(|x| x.trim().to_string()).filter(|x| !x.is_empty()).collect();
+        }
+        fields(line, width).into_iter().map(str::to_string).collect()
+    };
+    let (mut nodes, mut faces, mut parts) = (BTreeMap::new(), Vec::new(), BTreeMap::new());
+    for (keyword, lines) in blocks(&folder.join(mesh), comment, keyword) {
+        for line in &lines {
+            if keyword.starts_with("*NODE") || keyword == "/NODE" {
+                let (number, place) = match host {
+                    "openradioss" => (line[..10].to_string(), split(&line[10..], 20)),
+                    "ls-dyna" => (line[..8].to_string(), split(&line[8..56], 16)),
+                    _ => (split(line, 0)[0].clone(), split(line, 0)[1..].to_vec()),
+                };
+                let place: Vec<f64> = place.iter().map(|x| x.parse().expect("a number")).collect();
+                nodes.insert(number.trim().parse::<usize>().expect("a number"), Vector3::from_column_slice(&place));
+            } else if ["/SHELL", "*ELEMENT_SHELL", "*ELEMENT, TYPE=R3D4"].iter().any(|name| keyword.starts_with(name)) {
+                let values = split(line, if host == "ls-dyna" { 8 } else { 10 });
+                let corners: Vec<usize> =
+                    values[values.len() - 4..].iter().map(|x| x.parse().expect("a number")).collect();
+                faces.push(corners);
+            }
+        }
+    }
+    for (keyword, lines) in blocks(&folder.join(main), comment, keyword) {
+        if keyword.starts_with("/PART/") {
+            parts.insert(lines[0].clone(), split(&lines[1], 10)[1].clone());
+        } else if keyword == "*PART" {
+            parts.insert(lines[0].clone(), split(&lines[1], 10)[2].clone());
+        } else if let Some(section) = keyword.strip_prefix("*SOLID SECTION, ELSET=") {
+            let (part, material) = section.split_once(", MATERIAL=").expect("a material");
+            parts.insert(part.to_lowercase(), material.split(',').next().expect("a name").to_string());
+        }
+    }
+    let corners = |face: &Vec<usize>| [0, 1, 2, 3].map(|i| nodes[&face[i]]);
+    (faces.iter().map(corners).collect(), parts)
+}
+
+#[test]
+fn decks_have_cylinders_and_yarns_of_two_materials() {
+    let output = folder("scene-decks-cylinders");
+    let scene = output.join("scene.toml");
+    let cases = "[[case]]\nname = \"flat\"\nshape = \"flat\"\n[[case]]\nname = \"hemisphere\"\nshape = \"hemisphere\"\n\
+        [[case]]\nname = \"weft\"\nweave.weft.material = { properties = { k_el = 41170.5 } }\n";
+    std::fs::write(&scene, format!("{SCENE}{cases}")).expect("the scene can be written");
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let to = output.join(host);
+        run(
+            Command::new(env!("CARGO_BIN_EXE_toron")).arg("fabric").arg(&scene).args(["--deck", host, "-o"]).arg(&to),
+            "",
+        );
+        let [flat, hemisphere] = ["flat", "hemisphere"].map(|case| striker_and_parts(host, &to, case).0);
+        let area = |face: &[Vector3<f64>; 4]| 0.5 * (face[2] - face[0]).cross(&(face[3] - face[1]));
+        // Each end covers a disc, seen along its axis, and looks down.
+        for (faces, what) in [(&flat, "flat"), (&hemisphere, "hemisphere")] {
+            let low = faces.iter().flatten().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+            let end = faces.iter().flatten().map(|corner| corner.x.hypot(corner.y)).fold(0.0, f64::max);
+            let seen: f64 = -faces.iter().map(|face| area(face).z).sum::<f64>();
+            assert!((seen / (std::f64::consts::PI * end * end) - 1.0).abs() < 2e-3, "{host}: {what}: {seen}");
+            assert!((2.74..2.779).contains(&end), "{host}: {what}: {end}");
+            let at_end = faces.iter().filter(|face| face.iter().all(|corner| corner.z < low + 1e-9));
+            let share = at_end.map(|face| -area(face).z).sum::<f64>() / seen;
+            assert!((share > 0.999) == (what == "flat"), "{host}: {what}: {share} lies at the end");
+        }
+        let (_, parts) = striker_and_parts(host, &to, "weft");
+        let material = |family: &str| -> Vec<&String> {
+            parts.iter().filter(|(name, _)| name.starts_with(family)).map(|(_, material)| material).collect()
+        };
+        let (warp, weft) = (material("warp"), material("weft"));
+        assert!(warp.len() > 3 && weft.len() > 3 && warp[0] != weft[0], "{host}: {parts:?}");
+        assert!(warp.iter().all(|other| *other == warp[0]) && weft.iter().all(|other| *other == weft[0]), "{host}");
+    }
+}
+
 #[test]
 fn a_deck_and_a_restart_exclude_each_other() {
     for command in ["fabric", "impact"] {
