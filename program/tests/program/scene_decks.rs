@@ -189,6 +189,39 @@ fn three_solvers_get_the_same_panel() {
     }
 }
 
+#[test]
+fn openradioss_takes_the_fibre_as_initial_values() {
+    let output = folder("scene-decks-fibres");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene can be written");
+    for (host, more) in [("abaqus-explicit", &[][..]), ("openradioss", &["--fibre-from", "initial-values", "--step"])] {
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.arg("fabric").arg(&scene).args(["--deck", host]).args(more).arg("-o").arg(output.join(host));
+        run(&mut toron, "");
+    }
+    let main = std::fs::read_to_string(output.join("openradioss/scene_0000.rad")).expect("a deck");
+    let values = main.lines().skip_while(|line| !line.ends_with("fibre_from                step")).nth(1);
+    assert_eq!(values.map(|line| numbers(&fields(line, 20))), Some(vec![0.0, 2.0, 1.0]));
+    let fibre = abaqus(&output.join("abaqus-explicit")).fibre;
+    let blocks = blocks(&output.join("openradioss/scene_mesh.inc"), "#", '/');
+    let (_, lines) = blocks.iter().find(|(keyword, _)| keyword == "/INIBRI/AUX").expect("initial values");
+    // A line for the element, and 14 values in lines of three: the law's eleven, which are 0, and the fibre.
+    assert_eq!(lines.len(), 6 * fibre.len());
+    for lines in lines.chunks(6) {
+        let head: Vec<&str> = fields(&lines[0], 10);
+        assert_eq!((head[1], head[6]), ("1", "14"), "{}", lines[0]);
+        let values: Vec<f64> = lines[1..].iter().flat_map(|line| numbers(&fields(line, 20))).collect();
+        assert!(values.len() == 14 && values[..11].iter().all(|value| *value == 0.0), "{values:?}");
+        let wanted = fibre[&head[0].parse().expect("a number")];
+        assert!((Vector3::from_column_slice(&values[11..]) - wanted).norm() < 1e-9, "{}: {wanted}", head[0]);
+    }
+    let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+    toron.arg("fabric").arg(&scene).args(["--deck", "ls-dyna", "--step", "-o"]).arg(&output);
+    let refused = toron.output().expect("it runs");
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(said.contains("--fibre-from and --step are for --deck openradioss only"), "{said}");
+}
+
 /// Quadrangles of the striker, and the materials of the parts by their names.
 fn striker_and_parts(host: &str, folder: &Path, case: &str) -> (Vec<[Vector3<f64>; 4]>, BTreeMap<String, String>) {
     let (mesh, main, comment, keyword) = match host {
