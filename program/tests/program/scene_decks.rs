@@ -8,6 +8,7 @@ use std::process::Command;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::library::{ROOT, folder, run};
+use crate::python;
 
 const SCENE: &str = "title = \"A small panel\"\nunits = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
     [weave.panel]\nshape = \"circle\"\nradius = 4.0\npart = \"quarter\"\n[scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\n\
@@ -222,12 +223,42 @@ fn openradioss_takes_the_fibre_as_initial_values() {
     assert!(said.contains("--fibre-from and --step are for --deck openradioss only"), "{said}");
 }
 
+#[test]
+fn meshio_reads_the_meshes() {
+    let output = folder("scene-decks-meshio");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene can be written");
+    let (panel, _) = SCENE.split_once("[scene]").expect("a panel");
+    std::fs::write(output.join("weave.toml"), panel).expect("the weave can be written");
+    let toron = || Command::new(env!("CARGO_BIN_EXE_toron"));
+    run(toron().arg("fabric").arg(&scene).args(["--deck", "abaqus-explicit", "-o"]).arg(&output), "");
+    run(toron().arg("weave").arg(output.join("weave.toml")).arg("-o").arg(&output), "");
+    let folder = Path::new(ROOT).join("ffi-tests/meshio");
+    let mut script = Command::new(python::environment(&folder));
+    let files = ["scene-mesh.inp", "weave.vtu"].map(|name| output.join(name));
+    let said =
+        String::from_utf8(run(script.arg(folder.join("meshes.py")).args(files), "python3").stdout).expect("text");
+    let lines: Vec<Vec<&str>> = said.lines().map(|line| line.split(' ').collect()).collect();
+    let [deck, vtu] = &lines[..] else { panic!("two lines: {said}") };
+    // Points, hexahedra, volume and centre, against our own reader of the deck; then the sets.
+    let mesh = abaqus(&output);
+    let volume: f64 = mesh.elements.keys().map(|&element| mesh.volume(element)).sum();
+    assert_eq!((deck[0], deck[1]), (mesh.nodes.len().to_string().as_str(), mesh.elements.len().to_string().as_str()));
+    assert!((deck[2].parse::<f64>().expect("a volume") / volume - 1.0).abs() < 1e-3, "{said}");
+    for (i, value) in vtu[..6].iter().enumerate() {
+        let [value, other]: [f64; 2] = [value, deck[i]].map(|value| value.parse().expect("a number"));
+        assert!((value - other).abs() <= 1e-6 * other.abs().max(1e-3), "{i}: {said}");
+    }
+    let sets = deck[6..].join(" ");
+    assert!(["ON-X-0:", "ON-Y-0:", "RIM:", "DEFLECTION:1"].iter().all(|name| sets.contains(name)), "{said}");
+}
+
 /// Quadrangles of the striker, and the materials of the parts by their names.
 fn striker_and_parts(host: &str, folder: &Path, case: &str) -> (Vec<[Vector3<f64>; 4]>, BTreeMap<String, String>) {
     let (mesh, main, comment, keyword) = match host {
         "openradioss" => (format!("{case}_mesh.inc"), format!("{case}_0000.rad"), "#", '/'),
         "ls-dyna" => (format!("{case}-mesh.k"), format!("{case}.k"), "$", '*'),
-        _ => (format!("{case}-mesh.inp"), format!("{case}.inp"), "**", '*'),
+        _ => (format!("{case}-striker.inp"), format!("{case}.inp"), "**", '*'),
     };
     let split = |line: &str, width: usize| -> Vec<String> {
         if host == "abaqus-explicit" {
