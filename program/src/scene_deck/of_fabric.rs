@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
-use super::striker::Striker;
+use super::striker::{Striker, divisions};
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
+use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
 use crate::weave::geometry::Family;
@@ -15,7 +16,7 @@ use crate::weave::model::Yarn;
 
 /// Corners of a woven element in the order of a deck's: its section where it starts, then the one where it ends.
 pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];
-/// Elements nearest to the striker's axis that are watched for failure.
+/// Elements nearest to the striker's axis, or to its rim, that are watched for failure.
 pub const WATCHED: usize = 100;
 
 /// # Errors
@@ -59,6 +60,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
             friction: case.sphere.friction,
             centre: [0.0, 0.0, length(start(case, &panel)?)],
             side: 0.0,
+            divisions: divisions(case.sphere.radius, height),
         },
         part: share(case),
         height: length(height),
@@ -71,7 +73,13 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         sample: conversion.of(case.plan.sample, TIME),
         frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, 2),
-        watched: nearest(&mesh, 2, WATCHED),
+        // A flat end cuts at its rim.
+        watched: nearest(
+            &mesh,
+            2,
+            if case.sphere.shape == Shape::Flat { length(case.sphere.radius) } else { 0.0 },
+            WATCHED,
+        ),
         fails: used.iter().any(|&i| of_case[i].can_fail()),
         hourglass: hourglass(used.iter().map(|&i| of_case[i]), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),
@@ -176,11 +184,12 @@ pub fn lowest_on_axis(nodes: &[[f64; 3]], axis: usize) -> u32 {
     nodes.iter().enumerate().min_by(order).map_or(0, |(number, _)| number as u32)
 }
 
-/// The elements nearest to that axis.
-pub fn nearest(mesh: &Mesh, axis: usize, count: usize) -> Vec<u32> {
+/// The elements whose distance from that axis is nearest to this radius.
+pub fn nearest(mesh: &Mesh, axis: usize, radius: f64, count: usize) -> Vec<u32> {
     let distance = |element: usize| {
         let corners = mesh.corners(element);
-        distance(&[0, 1, 2].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>()), axis)
+        let centre = [0, 1, 2].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>());
+        (distance(&centre, axis) - radius).abs()
     };
     let mut found: Vec<(f64, u32)> = (0..mesh.elements.len()).map(|i| (distance(i), i as u32)).collect();
     let count = count.min(found.len());

@@ -5,9 +5,12 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::explicit::contact::Shape;
 
-/// Quadrangles along an edge of the cube that a hemisphere is made of, and along the arc of half a cylinder. Their middles lie
-/// 0.03 % of the radius inside the sphere, 0.05 % inside the cylinder.
-const DIVISIONS: usize = 48;
+/// Quadrangles along the arc of half a cylinder, and along an edge of the cube that a hemisphere is made of, at most. Their middles lie
+/// 0.05 % of the radius inside the cylinder, 0.03 % inside the sphere.
+const MOST_DIVISIONS: usize = 48;
+/// Of a striker that is small beside the yarns: so many for each height of a yarn that its radius has, for quadrangles are not to be
+/// smaller than the distance at which the contact begins.
+const DIVISIONS: f64 = 2.0;
 
 /// A rigid body that moves along one axis.
 pub struct Striker {
@@ -22,6 +25,14 @@ pub struct Striker {
     pub centre: [f64; 3],
     /// Half of a cylinder's length.
     pub side: f64,
+    /// Quadrangles along an edge of the cube, an even number; a cylinder across the yarn has none.
+    pub divisions: usize,
+}
+
+/// How finely a striker of this radius is drawn that strikes yarns of this height.
+pub fn divisions(radius: f64, height: f64) -> usize {
+    let half = (0.5 * DIVISIONS * radius / height).ceil() as usize;
+    2 * half.clamp(1, MOST_DIVISIONS / 2)
 }
 
 /// What is met of it.
@@ -50,13 +61,14 @@ impl Striker {
     /// Its surface, so far inside the radius: a host's contact may begin at a distance from it.
     pub fn surface(&self, inside: f64) -> Surface {
         let radius = self.radius - inside;
+        let whole = self.divisions;
         match self.shape {
-            Shape::Sphere => box_of(self.centre, DIVISIONS / 2, |point| on_sphere(point, radius)),
-            Shape::Hemisphere => box_of(self.centre, DIVISIONS, |point| {
+            Shape::Sphere => box_of(self.centre, whole, whole / 2, |point| on_sphere(point, radius)),
+            Shape::Hemisphere => box_of(self.centre, whole, whole, |point| {
                 let rim = on_sphere([point[0], point[1], point[2].min(0.0)], radius);
                 [rim[0], rim[1], rim[2] + radius * point[2].max(0.0)]
             }),
-            Shape::Flat => box_of(self.centre, DIVISIONS, |[x, y, z]| {
+            Shape::Flat => box_of(self.centre, whole, whole, |[x, y, z]| {
                 let [across, along] = on_disc(x, y).map(|x| radius * x);
                 // The end lies as far inside as the wall.
                 [across, along, radius * z]
@@ -89,8 +101,8 @@ fn on_disc(x: f64, y: f64) -> [f64; 2] {
 
 /// The lower side and, from below, so many rows of the four other sides of a cube about `centre`, whose points go from -1 to 1, drawn to
 /// where `place` has them from the centre.
-fn box_of(centre: [f64; 3], rows: usize, place: impl Fn([f64; 3]) -> [f64; 3]) -> Surface {
-    let (n, rows) = (DIVISIONS as i64, rows as i64);
+fn box_of(centre: [f64; 3], divisions: usize, rows: usize, place: impl Fn([f64; 3]) -> [f64; 3]) -> Surface {
+    let (n, rows) = (divisions as i64, rows as i64);
     let mut numbers = std::collections::HashMap::new();
     let (mut nodes, mut faces) = (Vec::new(), Vec::new());
     // Points of the cube by whole numbers from -n to n, two to a quadrangle.
@@ -121,7 +133,7 @@ fn box_of(centre: [f64; 3], rows: usize, place: impl Fn([f64; 3]) -> [f64; 3]) -
 
 /// The half of a cylinder along z about `centre` that has the lower y.
 fn half_cylinder(centre: [f64; 3], radius: f64, side: f64) -> Surface {
-    let around = DIVISIONS;
+    let around = MOST_DIVISIONS;
     let arc = std::f64::consts::PI / around as f64;
     let along = (2.0 * side / (arc * radius)).ceil().max(1.0) as usize;
     let mut nodes = Vec::new();
@@ -152,7 +164,16 @@ mod tests {
     }
 
     fn surface(shape: Shape, centre: [f64; 3], radius: f64) -> Surface {
-        let striker = Striker { shape, radius, mass: 1.0, velocity: -1.0, friction: 0.0, centre, side: 0.4 };
+        let striker = Striker {
+            shape,
+            radius,
+            mass: 1.0,
+            velocity: -1.0,
+            friction: 0.0,
+            centre,
+            side: 0.4,
+            divisions: MOST_DIVISIONS,
+        };
         striker.surface(0.0)
     }
 
@@ -161,13 +182,13 @@ mod tests {
         let centre = [0.0, 0.0, 3.0];
         let surface = surface(Shape::Sphere, centre, 2.0);
         check(&surface, |place| place - nalgebra::Vector3::from(centre));
-        assert_eq!(surface.faces.len(), 3 * DIVISIONS * DIVISIONS);
+        assert_eq!(surface.faces.len(), 3 * MOST_DIVISIONS * MOST_DIVISIONS);
         for node in &surface.nodes {
             let from = nalgebra::Vector3::from(*node) - nalgebra::Vector3::from(centre);
             assert!((from.norm() - 2.0).abs() < 1e-12 && from.z < 1e-12);
         }
         // Of a disc of quadrangles: one more node than faces, and half of those on the rim.
-        assert_eq!(surface.nodes.len(), surface.faces.len() + 1 + 2 * DIVISIONS);
+        assert_eq!(surface.nodes.len(), surface.faces.len() + 1 + 2 * MOST_DIVISIONS);
         assert!((surface.area() / (8.0 * std::f64::consts::PI) - 1.0).abs() < 1e-3, "{}", surface.area());
     }
 
@@ -180,7 +201,7 @@ mod tests {
         {
             let surface = surface(shape, centre, radius);
             check(&surface, |place| place - nalgebra::Vector3::from(centre));
-            assert_eq!(surface.nodes.len(), surface.faces.len() + 1 + 2 * DIVISIONS);
+            assert_eq!(surface.nodes.len(), surface.faces.len() + 1 + 2 * MOST_DIVISIONS);
             assert!((surface.area() / area - 1.0).abs() < 2e-3, "{shape:?}: {}", surface.area());
             for [x, y, z] in &surface.nodes {
                 let (across, up) = (x.hypot(*y), z - centre[2]);
@@ -191,6 +212,12 @@ mod tests {
                 assert!(inside.abs() < 1e-12 && up < radius + 1e-12, "{shape:?}: {x} {y} {z}");
             }
         }
+    }
+
+    #[test]
+    fn a_small_striker_is_drawn_as_finely_as_the_yarns_need() {
+        // The thesis's on its yarns, and one of 0.8 mm.
+        assert_eq!([2.778, 0.8, 1e-3].map(|radius| divisions(radius, 0.115)), [48, 14, 2]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The decks of a struck panel for three solvers, read back: nodes, volumes, masses and the fibre's direction in every element by each
 //! solver's own rule. None of the solvers is run here.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
@@ -221,6 +221,31 @@ fn openradioss_takes_the_fibre_as_initial_values() {
     let refused = toron.output().expect("it runs");
     let said = String::from_utf8_lossy(&refused.stderr);
     assert!(said.contains("--fibre-from and --step are for --deck openradioss only"), "{said}");
+}
+
+/// The committed decks of a patch are what the command in their headers writes.
+#[test]
+fn the_patch_s_decks_are_current() {
+    let scene = "examples/fabric_impact/patch.toml";
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let committed = Path::new(ROOT).join("examples/fabric_impact/patch").join(host);
+        let to = if std::env::var_os("TORON_WRITE_DECKS").is_some() {
+            committed.clone()
+        } else {
+            folder(&format!("scene-decks-patch-{host}"))
+        };
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.args(["fabric", scene, "--deck", host, "--units", "mm-tonne-s", "-o"]).arg(&to).current_dir(ROOT);
+        run(&mut toron, "");
+        let names = |folder: &Path| -> BTreeSet<_> {
+            std::fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").file_name()).collect()
+        };
+        assert_eq!(names(&committed), names(&to), "{host}");
+        for name in names(&to) {
+            let [old, new] = [&committed, &to].map(|folder| std::fs::read(folder.join(&name)).expect("a deck"));
+            assert!(old == new, "{host}: {name:?} is not current: run this test with TORON_WRITE_DECKS=1");
+        }
+    }
 }
 
 #[test]
