@@ -28,7 +28,12 @@ pub fn write(svg: &Path, png: &Path, histories: &[&History], units: &UnitSystem)
         });
         Panel { title: row.title, unit: unit(units, row.dimension), series: lines.collect(), limit: None }
     });
-    let hosts: Vec<String> = histories.iter().map(|history| format!("{}: {}", history.name, history.host)).collect();
+    // A name that says the host says it alone.
+    let of_host = |history: &History| match history.name.contains(history.host) {
+        true => history.name.clone(),
+        false => format!("{}: {}", history.name, history.host),
+    };
+    let hosts: Vec<String> = histories.iter().copied().map(of_host).collect();
     let label = format!("time ({})", unit(units, TIME));
     let abscissa = Abscissa { label, values: times.clone(), failure: None };
     history::write(svg, png, ["The same strike in several hosts", &hosts.join("; ")], panels, &abscissa)
