@@ -9,6 +9,7 @@
 //! - tables of properties and presets (`toron params`): [`params`];
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
+//! - histories of a scene from several hosts (`toron compare`): [`compare`];
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
@@ -25,6 +26,7 @@ pub mod bench;
 pub mod cell;
 pub mod command_line;
 pub mod common;
+pub mod compare;
 pub mod deck;
 pub mod entries;
 pub mod eval;

@@ -10,7 +10,8 @@ use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
-    bench, cell, command_line, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck, weave,
+    bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck,
+    weave,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
@@ -39,6 +40,8 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
+    /// Compare histories of a strike from several hosts; write a table and a figure of them.
+    Compare(compare::command::Arguments),
     /// Strike a woven panel by a sphere or a cylinder.
     Fabric {
         /// The scene (see docs/guides/fabric.md and examples/fabric_impact/).
@@ -133,6 +136,7 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
+        Command::Compare(arguments) => compare::command::run(&arguments),
         Command::Fabric { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),
             None => fabric::command::run(&scene, &output, restart),

@@ -16,7 +16,7 @@ pub struct Unit {
 }
 
 /// What may stand in the brackets of a header.
-pub const ALLOWED: &str = "- or % for a number; else products and quotients of m, in, ft, g, t (tonne), slug, slinch, s, N, \
+pub const ALLOWED: &str = "-, % or ° for a number; else products and quotients of m, in, ft, g, t (tonne), slug, slinch, s, N, \
                            lbf, gf, Pa, bar, psi, psf, ksi, J, W, tex, den with prefixes n µ (u) m c d k M G T P where they are metric, in \
                            capitals and small letters as here: N, kN, MPa, N/mm², mJ/mm^3, kg/(m s²), 1/s";
 
@@ -51,9 +51,10 @@ const POUND_FORCE: f64 = 44_482_216_152_605.0;
 const INCH: f64 = 254.0;
 const FOOT: f64 = 3048.0;
 
-const NAMED: [Named; 24] = [
+const NAMED: [Named; 25] = [
     plain("1", [0, 0, 0], 1.0, 0),
     plain("%", [0, 0, 0], 1.0, -2),
+    plain("°", [0, 0, 0], std::f64::consts::PI / 180.0, 0),
     metric("m", [0, 1, 0], 0),
     metric("g", [1, 0, 0], -3),
     metric("s", [0, 0, 1], 0),
@@ -212,6 +213,8 @@ impl Expression<'_> {
         let no_letter = |c: char| !c.is_alphabetic();
         let end = match self.rest.chars().next() {
             Some('%') => 1,
+            // Of an angle, not of a temperature.
+            Some('°') if !self.rest['°'.len_utf8()..].starts_with(char::is_alphabetic) => '°'.len_utf8(),
             // A whole number is no unit, but for 1.
             Some('1') => self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len()),
             _ => self.rest.find(no_letter).unwrap_or(self.rest.len()),
@@ -318,6 +321,7 @@ mod tests {
             assert_eq!(parse("%").convert(value, &mm), value / 100.0);
         }
         assert_eq!(parse("MPa").convert(1.0, &UnitSystem::SI), 1e6);
+        assert_eq!(parse("°").convert(180.0, &mm), std::f64::consts::PI);
         assert_eq!(parse("lbf").convert(1.0, &UnitSystem::SI), 4.4482216152605);
         assert_eq!(parse("in").convert(1.0, &mm), 25.4);
         let psi = parse("ksi").convert(1e-3, &UnitSystem::SI);

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use toron::host::units::UnitSystem;
+use toron::{Criterion, Rotation};
 
 use super::abaqus::{self, Solver};
 use super::ls_dyna::{self, Fibre, NUMBERS};
 use super::material::Material;
-use super::openradioss::FibreFrom;
+use super::openradioss::{Choice, FibreFrom};
 use super::{calculix, mtest, openradioss};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
@@ -45,6 +46,9 @@ pub struct Arguments {
     /// The deck's units, for instance mm-tonne-s; may be left out for a file, which has its own.
     #[arg(long)]
     units: Option<String>,
+    /// A property, or the density, other than the yarn has it, in the deck's units; for each one an option, as --set k_ld=126.
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    changes: Vec<String>,
     /// The fibre direction X,Y,Z instead of the yarn's own.
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     fibre: Option<String>,
@@ -58,6 +62,30 @@ pub struct Arguments {
     /// LS-DYNA: the number of the material, and of the routine umatMT.
     #[arg(long)]
     mt: Option<u32>,
+    /// OpenRadioss: where each element's fibre direction comes from; the card without it.
+    #[arg(long, value_enum)]
+    fibre_from: Option<FibreFrom>,
+    /// OpenRadioss, linear elastic law: what the material axes follow; the fibre without it.
+    #[arg(long, value_enum)]
+    frame: Option<Frame>,
+    /// OpenRadioss, linear elastic law: failure by the largest principal stress, as without it, or by that along the fibre.
+    #[arg(long, value_enum)]
+    criterion: Option<Limit>,
+    /// OpenRadioss: the time step follows from waves by their direction.
+    #[arg(long)]
+    step: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Frame {
+    Fibre,
+    Polar,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Limit {
+    LargestPrincipal,
+    FibreStress,
 }
 
 /// Prints the card of a material of one of these laws, and to the standard error a warning of units that do not fit.
@@ -79,16 +107,31 @@ pub fn run(laws: Laws, arguments: &Arguments) -> Result<(), Error> {
 /// The argument that is wrong, or what is wrong with the yarn.
 pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>), Error> {
     let law = arguments.law.as_deref().map(|name| law(laws, name)).transpose()?;
-    let preset = preset(laws, arguments, law)?;
+    let mut preset = preset(laws, arguments, law)?;
     let units = units(arguments, &preset)?;
+    for change in &arguments.changes {
+        set(&mut preset, change, &units)?;
+    }
     let fibre = arguments.fibre.as_deref().map(direction).transpose()?;
-    let material = Material::new(&preset, &units, fibre)?;
+    let mut material = Material::new(&preset, &units, fibre)?;
+    if arguments.frame == Some(Frame::Polar) {
+        material.frame = Rotation::Polar;
+    }
+    if arguments.criterion == Some(Limit::FibreStress) {
+        material.criterion = Criterion::FibreStress;
+    }
     if arguments.axes && material.fibre().is_empty() {
         return Err(Error::Input("--axes is for a law with a fibre direction".into()));
     }
     if arguments.host != Host::LsDyna {
-        only_for_ls_dyna("--axes", arguments.axes)?;
-        only_for_ls_dyna("--mt", arguments.mt.is_some())?;
+        only_for("ls-dyna", "--axes", arguments.axes)?;
+        only_for("ls-dyna", "--mt", arguments.mt.is_some())?;
+    }
+    if arguments.host != Host::Openradioss {
+        only_for("openradioss", "--fibre-from", arguments.fibre_from.is_some())?;
+        only_for("openradioss", "--frame", arguments.frame.is_some())?;
+        only_for("openradioss", "--criterion", arguments.criterion.is_some())?;
+        only_for("openradioss", "--step", arguments.step)?;
     }
     let id = id(arguments)?;
     let card = match arguments.host {
@@ -99,7 +142,10 @@ pub fn card(laws: Laws, arguments: &Arguments) -> Result<(String, Option<String>
         Host::Abaqus => abaqus::card(&material, Solver::Both),
         Host::AbaqusStandard => abaqus::card(&material, Solver::Standard),
         Host::AbaqusExplicit => abaqus::card(&material, Solver::Explicit),
-        Host::Openradioss => openradioss::card(&material, id, FibreFrom::Card),
+        Host::Openradioss => {
+            let fibre_from = arguments.fibre_from.unwrap_or(FibreFrom::Card);
+            openradioss::card(&material, id, Choice { fibre_from, step: arguments.step })
+        }
         Host::Calculix => Ok(calculix::card(&material)),
         Host::Mtest => Ok(mtest::card(&material)),
     };
@@ -180,6 +226,15 @@ fn id(arguments: &Arguments) -> Result<u32, Error> {
     }
 }
 
-fn only_for_ls_dyna(argument: &str, given: bool) -> Result<(), Error> {
-    if given { Err(Error::Input(format!("{argument} is for --host ls-dyna only"))) } else { Ok(()) }
+fn only_for(host: &str, argument: &str, given: bool) -> Result<(), Error> {
+    if given { Err(Error::Input(format!("{argument} is for --host {host} only"))) } else { Ok(()) }
+}
+
+/// Changes a property of the preset, as in k_ld=126.
+fn set(preset: &mut Preset, change: &str, units: &UnitSystem) -> Result<(), Error> {
+    let error = |message: &str| Error::Input(format!("--set {change}: {message}"));
+    let (name, value) = change.split_once('=').ok_or_else(|| error("allowed: NAME=VALUE, as k_ld=126"))?;
+    let number = value.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    let value = number.ok_or_else(|| error("allowed: a finite number behind the ="))?;
+    preset.set(name.trim(), value, units).map_err(|message| error(&message))
 }

@@ -17,9 +17,10 @@ pub struct Interface {
     /// MGIS's and MTest's library, and name of the behaviour.
     pub library: &'static str,
     pub behaviour: &'static str,
-    /// OpenRadioss: nn of `/MAT/USERnn`, and how many options stand behind the properties.
+    /// OpenRadioss: nn of `/MAT/USERnn`, how many options stand behind the properties, and whether that of the step follows them.
     pub openradioss: i32,
     pub options: usize,
+    pub has_step: bool,
 }
 
 impl Interface {
@@ -32,6 +33,7 @@ impl Interface {
             behaviour,
             openradioss: layout.number,
             options: layout.options,
+            has_step: layout.has_step,
         };
         match law {
             LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
@@ -45,6 +47,7 @@ impl Interface {
                 openradioss: law.number,
                 // Where the fibre direction comes from.
                 options: usize::from(law.description.fibre.is_some()),
+                has_step: false,
             },
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use toron::host::openradioss::card::OPTIONS;
+use toron::host::openradioss::card::{OPTIONS, STEP};
 use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
@@ -24,6 +24,14 @@ pub enum FibreFrom {
     InitialValues,
 }
 
+/// What a card of this solver chooses besides the material.
+#[derive(Clone, Copy, Debug)]
+pub struct Choice {
+    pub fibre_from: FibreFrom,
+    /// Whether the time step follows from waves by their direction.
+    pub step: bool,
+}
+
 /// Bulk viscosity, quadratic and linear, and the viscosity of hourglass control; 0 is the solver's own.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Control {
@@ -35,27 +43,39 @@ pub struct Control {
 /// Material and property of the same number.
 ///
 /// # Errors
-/// The material has no density.
-pub fn card(material: &Material, id: u32, fibre_from: FibreFrom) -> Result<String, Error> {
-    Ok(material_card(material, id, fibre_from)? + &property_card(&material.name, id, Control::default()))
+/// As for [`material_card`].
+pub fn card(material: &Material, id: u32, choice: Choice) -> Result<String, Error> {
+    Ok(material_card(material, id, choice)? + &property_card(&material.name, id, Control::default()))
 }
 
 /// # Errors
-/// The material has no density.
-pub fn material_card(material: &Material, id: u32, fibre_from: FibreFrom) -> Result<String, Error> {
-    let (Interface { openradioss: number, options, .. }, name) = (material.interface(), &material.name);
+/// The material has no density, or its law has no such option.
+pub fn material_card(material: &Material, id: u32, choice: Choice) -> Result<String, Error> {
+    let (Interface { openradioss: number, options, has_step, .. }, name) = (material.interface(), &material.name);
+    let lacks =
+        |option: &str| Error::Input(format!("{option} is for a law that has this option; {name} is of another"));
+    if choice.step && !has_step {
+        return Err(lacks("--step"));
+    }
+    if choice.fibre_from != FibreFrom::Card && options == 0 {
+        return Err(lacks("--fibre-from"));
+    }
+    if !material.has_default_options() && options < OPTIONS.len() {
+        return Err(lacks("--frame or --criterion"));
+    }
     let mut card = format!("/MAT/USER{number:02}/{id}\n{name}\n");
     for comment in material.comments() {
         let _ = writeln!(card, "# {comment}");
     }
     card += &lines(&["RHO_I"], &[short(material.density()?, WIDE)]);
-    let options = &OPTIONS[..options];
+    let options: Vec<_> = OPTIONS[..options].iter().chain(choice.step.then_some(&STEP)).collect();
     let names = material.table().iter().map(|property| property.name).chain(options.iter().map(|option| option.name));
     let chosen = options.iter().map(|option| match option.name {
-        "fibre_from" => (fibre_from as usize).to_string(),
+        "fibre_from" => (choice.fibre_from as usize).to_string(),
         "frame" => usize::from(material.frame == Rotation::Polar).to_string(),
         "criterion" => usize::from(material.criterion == Criterion::FibreStress).to_string(),
-        _ => "0".to_string(),
+        // What is left out is 0.
+        _ => "1".to_string(),
     });
     let values: Vec<String> = material.values.iter().map(|&value| short(value, WIDE)).chain(chosen).collect();
     let names: Vec<&str> = names.collect();

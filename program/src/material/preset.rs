@@ -9,6 +9,7 @@ use toml::Spanned;
 
 use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
+use crate::common::short_number::short;
 use crate::common::toml_error::shortened;
 use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
@@ -17,6 +18,9 @@ use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
 /// Decks name the material by the preset, and Abaqus takes names of up to 80 characters.
 pub const LONGEST_NAME: usize = 80;
+
+/// Columns of a changed value in a preset's source.
+const LONGEST_VALUE: usize = 12;
 
 /// A yarn's properties, with or without some of them, in units of their own.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +120,31 @@ impl Preset {
             density,
             file: Some(properties),
         })
+    }
+
+    /// Changes a property, or the density, to a value in these units, and says so where the values come from.
+    ///
+    /// # Errors
+    /// What is wrong with name or value.
+    pub fn set(&mut self, name: &str, value: f64, units: &UnitSystem) -> Result<(), String> {
+        let table = self.law.table();
+        let own = |dimension: Dimension| units.scale(dimension).convert(value, &self.units.scale(dimension));
+        if name == "density" {
+            if value <= 0.0 {
+                return Err(format!("density is {value}; allowed: a finite number > 0"));
+            }
+            self.density = Some(own(DENSITY));
+        } else {
+            let known = || {
+                let known: Vec<&str> = table.iter().map(|property| property.name).collect();
+                format!("no property {name}; allowed: {} density", known.join(" "))
+            };
+            let index = table.iter().position(|property| property.name == name).ok_or_else(known)?;
+            check(table, index, value).map_err(|error| error.to_string())?;
+            self.values[index] = Some(own(table[index].dimension));
+        }
+        self.source += &format!("; {name} = {}", short(value, LONGEST_VALUE));
+        Ok(())
     }
 
     /// The property's value in these units: the bits of the preset where they are its own. None if the preset has none.

@@ -130,7 +130,11 @@ impl Panel {
         for series in &self.series {
             let points = abscissa.values.iter().zip(&series.values).map(|(&x, &y)| (x * x_factor, y * factor));
             let last = points.clone().next_back();
-            chart.draw_series(LineSeries::new(points.step_by(stride).chain(last), stroke(series.colour, 3)))?;
+            let points: Vec<(f64, f64)> = points.step_by(stride).chain(last).collect();
+            // What is no number is a gap.
+            for part in points.split(|point| !point.1.is_finite()) {
+                chart.draw_series(LineSeries::new(part.iter().copied(), stroke(series.colour, 3)))?;
+            }
         }
         Ok(())
     }
@@ -225,6 +229,8 @@ pub fn tick(value: f64, range: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::page::draw;
+    use crate::picture::style::COLOURS;
 
     #[test]
     fn labels_are_short_whatever_the_unit() {
@@ -235,6 +241,18 @@ mod tests {
         assert_eq!(with_power("time (ms)", power_of_thousand(0.03)), "time (ms)");
         assert_eq!(["F11", "F11 (10³)"], [0, 3].map(|power| with_power("F11 (-)", power)));
         assert_eq!([0, 0, 6], [0.0, 99_999.0, 2e6].map(power_of_thousand));
+    }
+
+    #[test]
+    fn a_line_has_a_gap_where_it_has_no_number() {
+        let lines = |values: [f64; 5]| {
+            let series = Series { name: String::new(), colour: COLOURS[0], values: values.to_vec() };
+            let panel = Panel { title: "", unit: "-".to_string(), series: vec![series], limit: None };
+            let abscissa = Abscissa { label: "x".to_string(), values: vec![0.0, 1.0, 2.0, 3.0, 4.0], failure: None };
+            let sheet = draw([400, 300], |area| panel.draw(area, &abscissa)).expect("it can be drawn");
+            sheet.svg().matches("#0072b2").count()
+        };
+        assert_eq!(lines([1.0, 2.0, f64::NAN, 4.0, 5.0]), lines([1.0, 2.0, 3.0, 4.0, 5.0]) + 1);
     }
 
     #[test]

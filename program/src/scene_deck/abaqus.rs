@@ -36,8 +36,15 @@ impl Names<'_> {
 pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String>, Error> {
     let names = Names { prefix: naming.prefix.to_uppercase(), model };
     let shells = model.strike.as_ref().map(|strike| strike.striker.surface(0.0));
-    let mesh =
-        file(output, format!("{}-mesh.inp", model.name), |out| write_mesh(&names, shells.as_ref(), naming.first, out))?;
+    let mesh = file(output, format!("{}-mesh.inp", model.name), |out| write_mesh(&names, naming.first, out))?;
+    let mut files = vec![mesh.clone()];
+    // Apart from the yarns: readers of meshes do not know its rigid elements.
+    let striker = format!("{}-striker.inp", model.name);
+    if let (Some(strike), Some(shells)) = (&model.strike, &shells) {
+        files.push(file(output, striker.clone(), |out| {
+            write_striker_mesh(&strike.striker, shells, &names, naming.first, out)
+        })?);
+    }
     let cards = cards(&names)?;
     let main = file(output, format!("{}.inp", model.name), |out| {
         write!(out, "{}", header(model))?;
@@ -47,6 +54,7 @@ pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String
         }
         write!(out, "** nodes, elements and sets\n*INCLUDE, INPUT={mesh}\n{cards}")?;
         if let (Some(strike), Some(shells)) = (&model.strike, &shells) {
+            writeln!(out, "*INCLUDE, INPUT={striker}")?;
             write_striker(&strike.striker, shells, &names, naming.first, out)?;
             contacts(strike, &names, out)?;
         }
@@ -56,7 +64,7 @@ pub fn write(model: &Model, naming: &Naming, output: &Path) -> Result<Vec<String
         }
         Ok(())
     })?;
-    let mut files = vec![main, mesh];
+    files.insert(0, main);
     if model.strike.is_some() {
         files.push(file(output, HISTORY.to_string(), |out| out.write_all(HISTORY_SCRIPT.as_bytes()))?);
     }
@@ -71,15 +79,17 @@ fn header(model: &Model) -> String {
     let Model { title, source, name, .. } = model;
     let [length, mass, time] = model.units.names();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("**");
     let mut text = format!(
         "** {title}
 ** Case {name} of `{source} --deck abaqus-explicit`: {elements} elements in {parts} yarns or parts of them;
 ** units {length}, {mass}, {time}. Not run: Abaqus was not at hand; options are as its keyword manual has them.
-**
+{origin}**
 ** Run it in double precision with the VUMAT and the library (docs/guides/hosts/abaqus.md), on N cores, 1 or many:
 **   abaqus job={name} user=abaqus_vumat_dp.f double=both cpus=N
 ** Later, on from the last restart file:  abaqus job={name} recover
 ** Histories as a table:                  abaqus python {HISTORY} {name}.odb {name}-history.csv
+** Then:                                  toron compare NAME.csv {name}-history.csv
 "
     );
     let panel_alone = "** A panel alone, for a model of your own: contact, striker and step are not in it.\n";
@@ -134,7 +144,7 @@ fn cards(names: &Names<'_>) -> Result<String, Error> {
     Ok(text)
 }
 
-fn write_mesh(names: &Names<'_>, shells: Option<&Surface>, first: u32, out: &mut impl Write) -> io::Result<()> {
+fn write_mesh(names: &Names<'_>, first: u32, out: &mut impl Write) -> io::Result<()> {
     let model = names.model;
     let mesh = &model.mesh;
     writeln!(out, "** Included by {}.inp. Nodes of the yarns.\n*NODE, NSET={}", model.name, names.of("YARN-NODES"))?;
@@ -181,18 +191,35 @@ fn write_mesh(names: &Names<'_>, shells: Option<&Surface>, first: u32, out: &mut
     }
     writeln!(out, "** all faces, those inside too: they come into contact when a deletion bares them")?;
     writeln!(out, "*SURFACE, NAME={0}, TYPE=ELEMENT\n{1},\n{1}, INTERIOR", names.of("YARN-FACES"), names.of("YARNS"))?;
-    let (Some(shells), Some(strike)) = (shells, &model.strike) else { return Ok(()) };
+    let Some(strike) = &model.strike else { return Ok(()) };
     writeln!(out, "*NSET, NSET={}\n{},", names.of("DEFLECTION"), first + strike.deflection)?;
     if strike.fails {
         writeln!(out, "*ELSET, ELSET={}", names.of("WATCHED"))?;
         numbers(strike.watched.iter().map(|&element| first + element), out)?;
     }
+    Ok(())
+}
+
+/// Nodes and faces of the striker.
+fn write_striker_mesh(
+    striker: &Striker,
+    shells: &Surface,
+    names: &Names<'_>,
+    first: u32,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let mesh = &names.model.mesh;
     let node = |index: usize| first as usize + mesh.nodes.len() + index;
-    writeln!(out, "** The striker, its centre last.\n*NODE, NSET={}", names.of("STRIKER-NODES"))?;
+    writeln!(
+        out,
+        "** Included by {}.inp. The striker, its centre last.\n*NODE, NSET={}",
+        names.model.name,
+        names.of("STRIKER-NODES")
+    )?;
     for (i, [x, y, z]) in shells.nodes.iter().enumerate() {
         writeln!(out, "{}, {x:?}, {y:?}, {z:?}", node(i))?;
     }
-    let [x, y, z] = strike.striker.centre;
+    let [x, y, z] = striker.centre;
     writeln!(out, "*NODE, NSET={}\n{}, {x:?}, {y:?}, {z:?}", names.of("STRIKER"), node(shells.nodes.len()))?;
     writeln!(out, "*ELEMENT, TYPE=R3D4, ELSET={}", names.of("STRIKER-FACES"))?;
     for (element, face) in (first as usize + mesh.elements.len()..).zip(&shells.faces) {
@@ -243,7 +270,8 @@ fn write_striker(
     let element = first as usize + mesh.elements.len() + shells.faces.len();
     writeln!(
         out,
-        "** the striker: half of a rigid body of radius {}; mass: the scene's, or the part that the model has",
+        "** the striker: {} of radius {}; mass: the scene's, or the part that the model has",
+        striker.described(),
         wide(striker.radius)
     )?;
     writeln!(out, "*RIGID BODY, REF NODE={reference}, ELSET={faces}")?;

@@ -14,6 +14,7 @@ use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::run_directory::file_error;
 use crate::common::units::number;
+use crate::deck::openradioss::FibreFrom;
 use crate::{fabric, impact, weave};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -37,6 +38,12 @@ pub struct Arguments {
     /// What names of files, parts and sets begin with.
     #[arg(long, requires = "host", default_value = "")]
     prefix: String,
+    /// OpenRadioss: where each element's fibre direction comes from; without it, from its nodes, or of a straight yarn from the card.
+    #[arg(long, requires = "host", value_enum)]
+    fibre_from: Option<FibreFrom>,
+    /// OpenRadioss: the time step follows from waves by their direction.
+    #[arg(long, requires = "host")]
+    step: bool,
 }
 
 /// What the writers take besides the model.
@@ -45,6 +52,9 @@ pub struct Naming {
     /// The least number of every kind.
     pub first: u32,
     pub prefix: String,
+    /// Of OpenRadioss.
+    pub fibre_from: Option<FibreFrom>,
+    pub step: bool,
 }
 
 /// The decks of a scene of `toron fabric`.
@@ -109,8 +119,12 @@ impl Arguments {
         if !self.prefix.chars().all(plain) {
             return Err(Error::Input(format!("--prefix {}; allowed: letters, digits and - _", self.prefix)));
         }
+        if host != Host::Openradioss && (self.fibre_from.is_some() || self.step) {
+            return Err(Error::Input("--fibre-from and --step are for --deck openradioss only".to_string()));
+        }
         folder::create(output)?;
-        let naming = Naming { first: self.first_id, prefix: self.prefix.clone() };
+        let Arguments { first_id, fibre_from, step, .. } = *self;
+        let naming = Naming { first: first_id, prefix: self.prefix.clone(), fibre_from, step };
         for model in models {
             let model = model?;
             let model = Model {

@@ -11,7 +11,6 @@ use super::model::{COLLAPSED, Contact, Mesh, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::deck::ls_dyna::{Fibre, card, lines, number_of};
-use crate::explicit::contact::Shape;
 
 /// Node and element numbers have eight columns.
 const LARGEST: u64 = 99_999_999;
@@ -110,16 +109,17 @@ fn header(model: &Model) -> String {
     let Model { title, source, name, .. } = model;
     let [length, mass, time] = model.units.names();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("$");
     let mut text = format!(
         "$ {title}
 $ Case {name} of `{source} --deck ls-dyna`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
-$ Not run: LS-DYNA was not at hand; the cards are as its keyword manual has them.
+{origin}$ Not run: LS-DYNA was not at hand; the cards are as its keyword manual has them.
 $
 $ Run it in double precision, with an executable that has the shim and the library in it (docs/guides/hosts/ls-dyna.md).
 $ On one core, or on N threads:  ls-dyna i={name}.k ncpu=N memory=200m
 $ On P domains (MPP):            mpirun -np P mppdyna i={name}.k memory=200m
 $ On from a restart file:        ls-dyna i={name}.k r=d3dump01
-$ Histories: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*.
+$ Histories: glstat, matsum, rcforc, nodout, rbdout; of MPP by l2a binout*. Then toron compare NAME.csv FOLDER.
 "
     );
     let panel_alone = "$ A panel alone, for a model of your own: contact, striker, time and output are not in it.\n";
@@ -400,19 +400,17 @@ fn write_striker(
 ) -> io::Result<()> {
     let [bulk, shear] = model.materials[0].bulk_and_shear();
     let modulus = bulk + 4.0 / 3.0 * shear;
-    let (what, held) = match striker.shape {
-        // No other one comes from a scene.
-        Shape::Sphere | Shape::Flat | Shape::Hemisphere => ("sphere", 4),
-        Shape::Cylinder => ("cylinder across the yarn", 6),
-    };
+    // Translations held, by the numbers of the keyword: y and z, z and x, x and y.
+    let held = [5, 6, 4][striker.axis()];
     let thickness = THICKNESS * striker.radius;
     let density = striker.mass / (shells.area() * thickness);
     let (part, material) = (ids.striker_part(), ids.striker_material());
     let prefix = &naming.prefix;
     writeln!(
         out,
-        "$ the striker: half of a rigid {what} of radius {}; density x thickness x surface is the scene's mass, or the model's\n\
+        "$ the striker: {} of radius {}; density x thickness x surface is the scene's mass, or the model's\n\
          $ part of it, {}; modulus for the contact alone; it moves along {} and does not turn",
+        striker.described(),
         number_of(striker.radius),
         number_of(striker.mass),
         ["x", "y", "z"][striker.axis()]

@@ -11,4 +11,5 @@ pub mod model;
 mod of_fabric;
 mod of_impact;
 mod openradioss;
+pub mod origin;
 mod striker;

@@ -3,6 +3,7 @@
 use toron::host::units::UnitSystem;
 use toron::law::parameters::{Dimension, STRESS};
 
+use super::origin::Origin;
 use super::striker::Striker;
 use crate::common::error::Error;
 use crate::deck::material::Material;
@@ -59,6 +60,8 @@ pub struct Support {
 /// What strikes, and how it is calculated.
 pub struct Strike {
     pub striker: Striker,
+    /// What part of the whole the model is: 0.25 is a quarter.
+    pub part: f64,
     /// Of a yarn.
     pub height: f64,
     /// Of yarns with one another, where there are several.
@@ -111,8 +114,8 @@ impl Conversion {
 ///
 /// # Errors
 /// A material that the host cannot use.
-pub fn hourglass(
-    materials: &[crate::material::model::Material],
+pub fn hourglass<'a>(
+    materials: impl IntoIterator<Item = &'a crate::material::model::Material>,
     control: Control,
     conversion: Conversion,
 ) -> Result<Vec<f64>, Error> {
@@ -120,7 +123,7 @@ pub fn hourglass(
         let medium = Medium::<f64>::new(material, material.density.unwrap_or_default(), control)?;
         Ok(conversion.of(medium.hourglass, STRESS))
     };
-    materials.iter().map(modulus).collect()
+    materials.into_iter().map(modulus).collect()
 }
 
 /// The time between two animations.
@@ -162,6 +165,12 @@ impl Mesh {
 }
 
 impl Model {
+    /// The line of the deck that tells who compares its histories what they are; nothing where there are none.
+    pub fn origin(&self, comment: &str) -> String {
+        let origin = |strike: &Strike| Origin { units: self.units, part: strike.part }.comment();
+        self.strike.as_ref().map_or_else(String::new, |strike| format!("{comment} {}\n", origin(strike)))
+    }
+
     /// The mass of the elements.
     pub fn mass(&self) -> f64 {
         let of_part = |part: &Part| {

@@ -1,43 +1,48 @@
 //! A woven panel, and a case of `toron fabric`, as the model of a deck.
 
+use std::collections::BTreeMap;
+
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
-use super::striker::Striker;
+use super::striker::{Striker, divisions};
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
 use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
+use crate::weave::geometry::Family;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 
 /// Corners of a woven element in the order of a deck's: its section where it starts, then the one where it ends.
 pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];
-/// Elements nearest to the striker's axis that are watched for failure.
+/// Elements nearest to the striker's axis, or to its rim, that are watched for failure.
 pub const WATCHED: usize = 100;
 
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    if !matches!(case.sphere.shape, Shape::Sphere) {
-        let shape = case.sphere.shape.name();
-        return Err(Error::Input(format!("shape is {shape} in case {}; allowed in a deck: sphere", case.name)));
-    }
-    if case.threads.iter().any(Option::is_some) {
-        let allowed = "allowed in a deck: one law and its properties for both";
-        return Err(Error::Input(format!(
-            "warp and weft have materials of their own in case {}; {allowed}",
-            case.name
-        )));
-    }
     let panel = case.woven.model();
     check(case, &panel)?;
     let Conversion { from, to } = conversion;
-    let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
-    let materials = materials.collect::<Result<Vec<_>, _>>()?;
+    let used = used(case);
+    let of_case: Vec<_> = case.materials().collect();
+    let material = |&i: &usize| {
+        let mut material = Material::of_scene(of_case[i], &from, &to)?;
+        // Those of warp and weft may have one name.
+        if let Some(family) = Family::BOTH.into_iter().find(|&family| case.own_material(family) == Some(i)) {
+            material.name = format!("{}-{}", family.name(), material.name);
+        }
+        Ok(material)
+    };
+    let materials = used.iter().map(material).collect::<Result<Vec<_>, Error>>()?;
+    let of_zones = used.iter().take_while(|&&i| i < case.zones.materials().len());
+    let names: Vec<&str> = of_zones.zip(&materials).map(|(_, material)| material.name.as_str()).collect();
     let corners = |element: usize| panel.elements[element].map(|node| panel.nodes[node as usize]);
-    let names: Vec<&str> = materials.iter().map(|material| material.name.as_str()).collect();
-    let parts = parts(&panel, &names, |element| zone(&case.zones, corners(element)));
+    let place = |i: usize| used.iter().position(|&other| other == i).unwrap_or_default();
+    let of_element =
+        |family, element| place(case.own_material(family).unwrap_or_else(|| zone(&case.zones, corners(element))));
+    let parts = parts(&panel, &names, of_element);
     let mesh = mesh(&panel, conversion);
     let mut supports = symmetry(&panel);
     if case.held {
@@ -55,7 +60,9 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
             friction: case.sphere.friction,
             centre: [0.0, 0.0, length(start(case, &panel)?)],
             side: 0.0,
+            divisions: divisions(case.sphere.radius, height),
         },
+        part: share(case),
         height: length(height),
         contact: Some(Contact {
             friction: case.mutual.friction,
@@ -66,9 +73,15 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         sample: conversion.of(case.plan.sample, TIME),
         frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, 2),
-        watched: nearest(&mesh, 2, WATCHED),
-        fails: case.zones.materials().iter().any(|material| material.can_fail()),
-        hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
+        // A flat end cuts at its rim.
+        watched: nearest(
+            &mesh,
+            2,
+            if case.sphere.shape == Shape::Flat { length(case.sphere.radius) } else { 0.0 },
+            WATCHED,
+        ),
+        fails: used.iter().any(|&i| of_case[i].can_fail()),
+        hourglass: hourglass(used.iter().map(|&i| of_case[i]), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),
     };
     Ok(Model {
@@ -103,7 +116,7 @@ pub fn of_panel(
         name: "weave".to_string(),
         units: to,
         mesh: mesh(panel, conversion),
-        parts: parts(panel, &[&material.name], |_| 0),
+        parts: parts(panel, &[&material.name], |_, _| 0),
         materials: vec![material],
         supports,
         strike: None,
@@ -120,18 +133,24 @@ fn mesh(panel: &woven::Model, conversion: Conversion) -> Mesh {
     }
 }
 
-/// A part for each yarn, or for each of its materials; named by both then.
-fn parts(panel: &woven::Model, materials: &[&str], zone: impl Fn(usize) -> usize) -> Vec<Part> {
+/// The places in the case's materials of those that some yarn is made of.
+fn used(case: &Case) -> Vec<usize> {
+    let own = Family::BOTH.map(|family| case.own_material(family));
+    let of_zones = if own.contains(&None) { case.zones.materials().len() } else { 0 };
+    (0..of_zones).chain(own.into_iter().flatten()).collect()
+}
+
+/// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first materials.
+fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(Family, usize) -> usize) -> Vec<Part> {
     let mut parts = Vec::new();
     for yarn in &panel.yarns {
-        for (material, of_material) in materials.iter().enumerate() {
-            let elements = yarn.elements.clone().filter(|&element| zone(element) == material);
-            let elements: Vec<u32> = elements.map(|element| element as u32).collect();
-            if elements.is_empty() {
-                continue;
-            }
-            let name = name(yarn);
-            let name = if materials.len() > 1 { format!("{name}-{of_material}") } else { name };
+        let mut of_yarn: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+        for element in yarn.elements.clone() {
+            of_yarn.entry(material(yarn.family, element)).or_default().push(element as u32);
+        }
+        for (material, elements) in of_yarn {
+            let zone = zones.get(material).filter(|_| zones.len() > 1);
+            let name = zone.map_or_else(|| name(yarn), |zone| format!("{}-{zone}", name(yarn)));
             parts.push(Part { name, material, elements });
         }
     }
@@ -165,11 +184,12 @@ pub fn lowest_on_axis(nodes: &[[f64; 3]], axis: usize) -> u32 {
     nodes.iter().enumerate().min_by(order).map_or(0, |(number, _)| number as u32)
 }
 
-/// The elements nearest to that axis.
-pub fn nearest(mesh: &Mesh, axis: usize, count: usize) -> Vec<u32> {
+/// The elements whose distance from that axis is nearest to this radius.
+pub fn nearest(mesh: &Mesh, axis: usize, radius: f64, count: usize) -> Vec<u32> {
     let distance = |element: usize| {
         let corners = mesh.corners(element);
-        distance(&[0, 1, 2].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>()), axis)
+        let centre = [0, 1, 2].map(|i| 0.125 * corners.iter().map(|corner| corner[i]).sum::<f64>());
+        (distance(&centre, axis) - radius).abs()
     };
     let mut found: Vec<(f64, u32)> = (0..mesh.elements.len()).map(|i| (distance(i), i as u32)).collect();
     let count = count.min(found.len());

@@ -10,6 +10,8 @@ use crate::impact::scene::{self, Case, Zones};
 
 /// The axis of the cylinder's motion.
 const DOWN: usize = 1;
+/// What part of the strike the model is: it ends at mid-span.
+const PART: f64 = 0.5;
 /// Length of the cylinder over the width of the yarn, which widens under it.
 const LENGTH_OVER_WIDTH: f64 = 4.0;
 
@@ -48,12 +50,14 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         striker: Striker {
             shape: cylinder.shape,
             radius,
-            mass: 0.5 * conversion.of(mass, MASS),
+            mass: PART * conversion.of(mass, MASS),
             velocity: -conversion.of(case.speed, SPEED),
             friction: cylinder.friction,
             centre: [0.0, top + radius, 0.0],
             side: 0.5 * LENGTH_OVER_WIDTH * length(case.yarn.width),
+            divisions: 0,
         },
+        part: PART,
         height: length(case.yarn.height),
         contact: None,
         control: case.control,
@@ -61,7 +65,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         sample: conversion.of(case.plan.sample, TIME),
         frame: frame(end, case.plan.frames),
         deflection: lowest_on_axis(&mesh.nodes, DOWN),
-        watched: nearest(&mesh, DOWN, WATCHED),
+        watched: nearest(&mesh, DOWN, 0.0, WATCHED),
         fails: case.zones.materials().iter().any(|material| material.can_fail()),
         hourglass: hourglass(case.zones.materials(), case.control, conversion)?,
         step: step(&mesh, &parts, &materials),

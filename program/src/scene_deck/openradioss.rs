@@ -11,8 +11,7 @@ use super::model::{COLLAPSED, Contact, Model, Part, STEP_FACTOR, Strike};
 use super::striker::{Striker, Surface};
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::deck::openradioss::{Control, FibreFrom, lines, material_card, property_card};
-use crate::explicit::contact::Shape;
+use crate::deck::openradioss::{Choice, Control, FibreFrom, lines, material_card, property_card};
 use toron::host::units::UnitSystem;
 use toron::law::parameters::STRESS;
 
@@ -145,12 +144,13 @@ fn header(model: &Model, strike: &Strike) -> String {
     let [length, mass, time] = model.units.names();
     let units = units(&model.units).map(|unit| format!("{unit:>20}")).concat();
     let (elements, parts) = (model.mesh.elements.len(), model.parts.len());
+    let origin = model.origin("#");
     let yarn_contact = if strike.contact.is_some() { " and of the yarns" } else { "" };
     format!(
         "#RADIOSS STARTER
 # {title}
 # Case {name} of `{source} --deck openradioss`: {elements} elements in {parts} parts; units {length}, {mass}, {time}.
-#
+{origin}#
 # Run it with the library libtoron_openradioss.so (docs/guides/hosts/openradioss.md), in double precision.
 # On one core, or on N threads with -nt N behind both:
 #   starter_linux64_gf -i {name}_0000.rad -np 1 -dylib .../libtoron_openradioss.so
@@ -159,7 +159,7 @@ fn header(model: &Model, strike: &Strike) -> String {
 #   starter_linux64_gf -i {name}_0000.rad -np P -dylib .../libtoron_openradioss.so
 #   mpirun -np P engine_linux64_gf_ompi -i {name}_0001.rad -dylib .../libtoron_openradioss.so
 # On from the last restart file, {name}_0001_....rst: {name}_0002.rad, a copy of {name}_0001.rad with /RUN/{name}/2.
-# Histories: th_to_csv {name}T01.
+# Histories: th_to_csv {name}T01; then toron compare NAME.csv {name}T01.csv.
 #
 # What differs from toron's own solver:
 # - bulk viscosity resists a change of volume with the fastest wave's speed, there along and across the fibre each with its own;
@@ -193,14 +193,19 @@ fn units(units: &UnitSystem) -> [String; 3] {
 
 /// Materials, the property of all elements, and the parts.
 fn cards(model: &Model, naming: &Naming, ids: &Ids) -> Result<String, Error> {
-    let fibre_from = if model.mesh.straight { FibreFrom::Card } else { FibreFrom::Nodes };
-    let mut text = match fibre_from {
-        FibreFrom::Card => "# Materials: the fibre is along x in all elements (fibre_from = 0).\n".to_string(),
-        _ => "# Materials: the fibre goes from nodes 1 to 4 of each element to nodes 5 to 8 (fibre_from = 1).\n"
-            .to_string(),
-    };
+    let choice = choice(model, naming);
+    let mut text = match choice.fibre_from {
+        FibreFrom::Card => "# Materials: the fibre is along x in all elements (fibre_from = 0).\n",
+        FibreFrom::Nodes => {
+            "# Materials: the fibre goes from nodes 1 to 4 of each element to nodes 5 to 8 (fibre_from = 1).\n"
+        }
+        FibreFrom::InitialValues => {
+            "# Materials: the fibre of each element is an initial value, /INIBRI/AUX (fibre_from = 2).\n"
+        }
+    }
+    .to_string();
     for (i, material) in model.materials.iter().enumerate() {
-        text += &material_card(material, ids.first + i as u32, fibre_from)?;
+        text += &material_card(material, ids.first + i as u32, choice)?;
     }
     let control = model.strike.as_ref().map_or(Control::default(), |strike| Control {
         // The solver squares it.
@@ -220,6 +225,12 @@ fn cards(model: &Model, naming: &Naming, ids: &Ids) -> Result<String, Error> {
 
 fn part_card(id: u32, name: &str, property: u32, material: u32) -> String {
     format!("/PART/{id}\n{name}\n#  prop_ID    mat_ID subset_ID\n{property:>10}{material:>10}{:>10}\n", 0)
+}
+
+/// What the model or the user says of the cards.
+fn choice(model: &Model, naming: &Naming) -> Choice {
+    let of_mesh = if model.mesh.straight { FibreFrom::Card } else { FibreFrom::Nodes };
+    Choice { fibre_from: naming.fibre_from.unwrap_or(of_mesh), step: naming.step }
 }
 
 /// Nodes and elements of yarns and striker, groups and surfaces: all that is long.
@@ -253,6 +264,9 @@ fn write_mesh(
             writeln!(out)?;
         }
     }
+    if choice(model, naming).fibre_from == FibreFrom::InitialValues {
+        write_fibres(model, ids, out)?;
+    }
     for (i, support) in model.supports.iter().enumerate() {
         writeln!(out, "/GRNOD/NODE/{}\n{}{}", ids.first + i as u32, naming.prefix, support.name)?;
         numbers(support.nodes.iter().map(|&node| ids.node(node)), out)?;
@@ -273,6 +287,24 @@ fn write_mesh(
     for (element, face) in (ids.element(ids.elements)..).zip(&shells.faces) {
         let [a, b, c, d] = face.map(|node| ids.striker_node(node));
         writeln!(out, "{element:>10}{a:>10}{b:>10}{c:>10}{d:>10}")?;
+    }
+    Ok(())
+}
+
+/// The fibre of each element as initial user variables, behind the law's state, which is 0.
+fn write_fibres(model: &Model, ids: &Ids, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "# The fibre of each element: its last three user variables here.\n/INIBRI/AUX")?;
+    for part in &model.parts {
+        let state = model.materials[part.material].state_table().len();
+        for &element in &part.elements {
+            let (id, count) = (ids.element(element), state + 3);
+            writeln!(out, "{id:>10}{:>10}{:>10}{:>10}{:>20}{count:>10}", 1, 8, 1, "")?;
+            let values = std::iter::repeat_n(0.0, state).chain(model.mesh.fibre[element as usize]);
+            for (i, value) in values.enumerate() {
+                let end = if i + 1 == count || i % 3 == 2 { "\n" } else { "" };
+                write!(out, "{}{end}", number(value, 20))?;
+            }
+        }
     }
     Ok(())
 }
@@ -314,12 +346,8 @@ fn write_striker(
     out: &mut impl Write,
 ) -> io::Result<()> {
     let striker = &strike.striker;
-    let (Striker { shape, radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
-    let (what, fixed) = match shape {
-        // No other one comes from a scene.
-        Shape::Sphere | Shape::Flat | Shape::Hemisphere => ("sphere", "110 111"),
-        Shape::Cylinder => ("cylinder across the yarn", "101 111"),
-    };
+    let (Striker { radius, mass, velocity, .. }, offset) = (striker, GAP * strike.height);
+    let fixed = [0, 1, 2].map(|axis| if axis == striker.axis() { "0" } else { "1" }).concat() + " 111";
     let prefix = &naming.prefix;
     let (material, part, centre) =
         (ids.striker_material(), ids.striker_part(), ids.striker_node(shells.nodes.len() as u32));
@@ -332,8 +360,9 @@ fn write_striker(
     let wide = |value: f64| short(value, 19);
     writeln!(
         out,
-        "# The striker: half of a rigid {what} of radius {}, {} inside which its shells lie: the contact begins there.\n\
+        "# The striker: {} of radius {}, {} inside which its shells lie: the contact begins there.\n\
          # Modulus ({}) and density of the shells serve the contact and the step alone.",
+        striker.described(),
         wide(*radius),
         wide(offset),
         yarn.unit(STRESS)
@@ -361,7 +390,7 @@ fn write_striker(
          #  Ioptoff\n{:>10}\n",
         0, 0, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0
     )?;
-    write!(out, "{}", bcs(ids.first + ids.supports, &format!("{prefix}striker"), fixed, centre_group))?;
+    write!(out, "{}", bcs(ids.first + ids.supports, &format!("{prefix}striker"), &fixed, centre_group))?;
     let velocities =
         [0, 1, 2].map(|axis| format!("{:>20}", if axis == striker.axis() { wide(*velocity) } else { "0".into() }));
     for (number, group) in [(ids.first, group), (ids.first + 1, centre_group)] {

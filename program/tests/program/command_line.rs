@@ -351,6 +351,32 @@ fn a_preset_prints_as_a_card() {
 
 /// Every field of ten columns has a blank before it, in any units, and says its number to five digits or names itself rounded.
 #[test]
+fn a_card_takes_changes_and_options() {
+    let mm = |arguments: &[&str]| card(&[&["--units", "mm-tonne-s", "--host"], arguments].concat());
+    // A property as it is on the card, behind the comment that names it.
+    let value = |card: &str, name: &str| -> String {
+        let mut lines = card.lines();
+        let names = lines.find(|line| line.starts_with("#  ") && line.split_whitespace().any(|word| word == name));
+        let names = names.unwrap_or_else(|| panic!("no {name}: {card}"));
+        let end = names.find(name).expect("it is there") + name.len();
+        lines.next().expect("a line of values")[end - 20..end].trim().to_string()
+    };
+    let plain = mm(&["openradioss"]);
+    let changed =
+        mm(&["openradioss", "--set", "k_ld=126", "--set", "density=1.4e-9", "--fibre-from", "nodes", "--step"]);
+    let numbers = |card: &str, names: &[&str]| names.iter().map(|name| value(card, name)).collect::<Vec<_>>();
+    assert_eq!(numbers(&plain, &["k_ld", "RHO_I", "fibre_from"]), ["0.0", "1.3514e-9", "0"]);
+    assert_eq!(numbers(&changed, &["k_ld", "RHO_I", "fibre_from", "step"]), ["126.0", "1.4e-9", "1", "1"]);
+    assert!(!plain.contains("step") && changed.contains("; k_ld = 126.0; density = 1.4e-9\n"), "{changed}");
+    // In the deck's units, whatever the preset's are; for every host.
+    assert!(card(&["--units", "si", "--host", "openradioss", "--set", "k_ld=126e6"]).contains("     1.26e8\n"));
+    assert!(mm(&["ls-dyna", "--set", "k_ld=126"]).contains("     126.0"));
+    let linear = ["openradioss", "--law", "linear-elastic", "--frame", "polar", "--criterion", "fibre-stress"];
+    assert_eq!(numbers(&mm(&linear), &["fibre_from", "frame", "criterion"]), ["0", "1", "1"]);
+    assert_eq!(numbers(&mm(&linear[..3]), &["fibre_from", "frame", "criterion"]), ["0", "0", "0"]);
+}
+
+#[test]
 fn fields_of_ls_dyna_never_touch() {
     for units in ["si", "mm-tonne-s", "mm-kg-ms", "cm-g-us", "um-kg-s", "in-slinch-s", "ft-slug-s"] {
         for law in ["hyperelastic", "linear-elastic"] {
@@ -404,6 +430,19 @@ fn wrong_arguments_of_a_card_are_named() {
         (&["--id", "0"], "--id 0; allowed: 1 to 999999999"),
     ] {
         refused(&[&dyna[..], arguments].concat(), message);
+    }
+    let units = ["--units", "mm-tonne-s", "--host"];
+    for (arguments, message) in [
+        (&["abaqus", "--step"][..], "--step is for --host openradioss only"),
+        (&["ls-dyna", "--fibre-from", "nodes"], "--fibre-from is for --host openradioss only"),
+        (&["openradioss", "--frame", "polar"], "--frame or --criterion is for a law that has this option"),
+        (&["openradioss", "--set", "k_x=1"], "--set k_x=1: no property k_x; allowed: k_el"),
+        (&["openradioss", "--set", "k_ld=-1"], "--set k_ld=-1: property 5 (k_ld"),
+        (&["openradioss", "--set", "k_ld"], "--set k_ld: allowed: NAME=VALUE"),
+        (&["openradioss", "--set", "k_ld=nan"], "--set k_ld=nan: allowed: a finite number"),
+        (&["openradioss", "--set", "density=0"], "--set density=0: density is 0; allowed: "),
+    ] {
+        refused(&[&units[..], arguments].concat(), message);
     }
     let ccx = ["--host", "calculix", "--units", "si"];
     refused(&[&ccx[..], &["--axes"]].concat(), "--axes is for --host ls-dyna only");

@@ -14,6 +14,7 @@ mod calculix;
 mod calculix_decks;
 mod cell;
 mod command_line;
+mod compare;
 mod documents;
 mod eval;
 mod examples;

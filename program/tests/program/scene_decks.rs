@@ -1,13 +1,14 @@
 //! The decks of a struck panel for three solvers, read back: nodes, volumes, masses and the fibre's direction in every element by each
 //! solver's own rule. None of the solvers is run here.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::library::{ROOT, folder, run};
+use crate::python;
 
 const SCENE: &str = "title = \"A small panel\"\nunits = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
     [weave.panel]\nshape = \"circle\"\nradius = 4.0\npart = \"quarter\"\n[scene]\nspeed = 142.0\nmass = 0.692\nradius = 2.778\n\
@@ -186,6 +187,176 @@ fn three_solvers_get_the_same_panel() {
             let angle = fibre.angle(&openradioss.fibre[number]).to_degrees();
             assert!(angle < 1.0, "{host}: the fibre of element {number} is {angle}° off");
         }
+    }
+}
+
+#[test]
+fn openradioss_takes_the_fibre_as_initial_values() {
+    let output = folder("scene-decks-fibres");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene can be written");
+    for (host, more) in [("abaqus-explicit", &[][..]), ("openradioss", &["--fibre-from", "initial-values", "--step"])] {
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.arg("fabric").arg(&scene).args(["--deck", host]).args(more).arg("-o").arg(output.join(host));
+        run(&mut toron, "");
+    }
+    let main = std::fs::read_to_string(output.join("openradioss/scene_0000.rad")).expect("a deck");
+    let values = main.lines().skip_while(|line| !line.ends_with("fibre_from                step")).nth(1);
+    assert_eq!(values.map(|line| numbers(&fields(line, 20))), Some(vec![0.0, 2.0, 1.0]));
+    let fibre = abaqus(&output.join("abaqus-explicit")).fibre;
+    let blocks = blocks(&output.join("openradioss/scene_mesh.inc"), "#", '/');
+    let (_, lines) = blocks.iter().find(|(keyword, _)| keyword == "/INIBRI/AUX").expect("initial values");
+    // A line for the element, and 14 values in lines of three: the law's eleven, which are 0, and the fibre.
+    assert_eq!(lines.len(), 6 * fibre.len());
+    for lines in lines.chunks(6) {
+        let head: Vec<&str> = fields(&lines[0], 10);
+        assert_eq!((head[1], head[6]), ("1", "14"), "{}", lines[0]);
+        let values: Vec<f64> = lines[1..].iter().flat_map(|line| numbers(&fields(line, 20))).collect();
+        assert!(values.len() == 14 && values[..11].iter().all(|value| *value == 0.0), "{values:?}");
+        let wanted = fibre[&head[0].parse().expect("a number")];
+        assert!((Vector3::from_column_slice(&values[11..]) - wanted).norm() < 1e-9, "{}: {wanted}", head[0]);
+    }
+    let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+    toron.arg("fabric").arg(&scene).args(["--deck", "ls-dyna", "--step", "-o"]).arg(&output);
+    let refused = toron.output().expect("it runs");
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(said.contains("--fibre-from and --step are for --deck openradioss only"), "{said}");
+}
+
+/// The committed decks of a patch are what the command in their headers writes.
+#[test]
+fn the_patch_s_decks_are_current() {
+    let scene = "examples/fabric_impact/patch.toml";
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let committed = Path::new(ROOT).join("examples/fabric_impact/patch").join(host);
+        let to = if std::env::var_os("TORON_WRITE_DECKS").is_some() {
+            committed.clone()
+        } else {
+            folder(&format!("scene-decks-patch-{host}"))
+        };
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        toron.args(["fabric", scene, "--deck", host, "--units", "mm-tonne-s", "-o"]).arg(&to).current_dir(ROOT);
+        run(&mut toron, "");
+        let names = |folder: &Path| -> BTreeSet<_> {
+            std::fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").file_name()).collect()
+        };
+        assert_eq!(names(&committed), names(&to), "{host}");
+        for name in names(&to) {
+            let [old, new] = [&committed, &to].map(|folder| std::fs::read(folder.join(&name)).expect("a deck"));
+            assert!(old == new, "{host}: {name:?} is not current: run this test with TORON_WRITE_DECKS=1");
+        }
+    }
+}
+
+#[test]
+fn meshio_reads_the_meshes() {
+    let output = folder("scene-decks-meshio");
+    let scene = output.join("scene.toml");
+    std::fs::write(&scene, SCENE).expect("the scene can be written");
+    let (panel, _) = SCENE.split_once("[scene]").expect("a panel");
+    std::fs::write(output.join("weave.toml"), panel).expect("the weave can be written");
+    let toron = || Command::new(env!("CARGO_BIN_EXE_toron"));
+    run(toron().arg("fabric").arg(&scene).args(["--deck", "abaqus-explicit", "-o"]).arg(&output), "");
+    run(toron().arg("weave").arg(output.join("weave.toml")).arg("-o").arg(&output), "");
+    let folder = Path::new(ROOT).join("ffi-tests/meshio");
+    let mut script = Command::new(python::environment(&folder));
+    let files = ["scene-mesh.inp", "weave.vtu"].map(|name| output.join(name));
+    let said =
+        String::from_utf8(run(script.arg(folder.join("meshes.py")).args(files), "python3").stdout).expect("text");
+    let lines: Vec<Vec<&str>> = said.lines().map(|line| line.split(' ').collect()).collect();
+    let [deck, vtu] = &lines[..] else { panic!("two lines: {said}") };
+    // Points, hexahedra, volume and centre, against our own reader of the deck; then the sets.
+    let mesh = abaqus(&output);
+    let volume: f64 = mesh.elements.keys().map(|&element| mesh.volume(element)).sum();
+    assert_eq!((deck[0], deck[1]), (mesh.nodes.len().to_string().as_str(), mesh.elements.len().to_string().as_str()));
+    assert!((deck[2].parse::<f64>().expect("a volume") / volume - 1.0).abs() < 1e-3, "{said}");
+    for (i, value) in vtu[..6].iter().enumerate() {
+        let [value, other]: [f64; 2] = [value, deck[i]].map(|value| value.parse().expect("a number"));
+        assert!((value - other).abs() <= 1e-6 * other.abs().max(1e-3), "{i}: {said}");
+    }
+    let sets = deck[6..].join(" ");
+    assert!(["ON-X-0:", "ON-Y-0:", "RIM:", "DEFLECTION:1"].iter().all(|name| sets.contains(name)), "{said}");
+}
+
+/// Quadrangles of the striker, and the materials of the parts by their names.
+fn striker_and_parts(host: &str, folder: &Path, case: &str) -> (Vec<[Vector3<f64>; 4]>, BTreeMap<String, String>) {
+    let (mesh, main, comment, keyword) = match host {
+        "openradioss" => (format!("{case}_mesh.inc"), format!("{case}_0000.rad"), "#", '/'),
+        "ls-dyna" => (format!("{case}-mesh.k"), format!("{case}.k"), "$", '*'),
+        _ => (format!("{case}-striker.inp"), format!("{case}.inp"), "**", '*'),
+    };
+    let split = |line: &str, width: usize| -> Vec<String> {
+        if host == "abaqus-explicit" {
+            return line.split(',').map(|x| x.trim().to_string()).filter(|x| !x.is_empty()).collect();
+        }
+        fields(line, width).into_iter().map(str::to_string).collect()
+    };
+    let (mut nodes, mut faces, mut parts) = (BTreeMap::new(), Vec::new(), BTreeMap::new());
+    for (keyword, lines) in blocks(&folder.join(mesh), comment, keyword) {
+        for line in &lines {
+            if keyword.starts_with("*NODE") || keyword == "/NODE" {
+                let (number, place) = match host {
+                    "openradioss" => (line[..10].to_string(), split(&line[10..], 20)),
+                    "ls-dyna" => (line[..8].to_string(), split(&line[8..56], 16)),
+                    _ => (split(line, 0)[0].clone(), split(line, 0)[1..].to_vec()),
+                };
+                let place: Vec<f64> = place.iter().map(|x| x.parse().expect("a number")).collect();
+                nodes.insert(number.trim().parse::<usize>().expect("a number"), Vector3::from_column_slice(&place));
+            } else if ["/SHELL", "*ELEMENT_SHELL", "*ELEMENT, TYPE=R3D4"].iter().any(|name| keyword.starts_with(name)) {
+                let values = split(line, if host == "ls-dyna" { 8 } else { 10 });
+                let corners: Vec<usize> =
+                    values[values.len() - 4..].iter().map(|x| x.parse().expect("a number")).collect();
+                faces.push(corners);
+            }
+        }
+    }
+    for (keyword, lines) in blocks(&folder.join(main), comment, keyword) {
+        if keyword.starts_with("/PART/") {
+            parts.insert(lines[0].clone(), split(&lines[1], 10)[1].clone());
+        } else if keyword == "*PART" {
+            parts.insert(lines[0].clone(), split(&lines[1], 10)[2].clone());
+        } else if let Some(section) = keyword.strip_prefix("*SOLID SECTION, ELSET=") {
+            let (part, material) = section.split_once(", MATERIAL=").expect("a material");
+            parts.insert(part.to_lowercase(), material.split(',').next().expect("a name").to_string());
+        }
+    }
+    let corners = |face: &Vec<usize>| [0, 1, 2, 3].map(|i| nodes[&face[i]]);
+    (faces.iter().map(corners).collect(), parts)
+}
+
+#[test]
+fn decks_have_cylinders_and_yarns_of_two_materials() {
+    let output = folder("scene-decks-cylinders");
+    let scene = output.join("scene.toml");
+    let cases = "[[case]]\nname = \"flat\"\nshape = \"flat\"\n[[case]]\nname = \"hemisphere\"\nshape = \"hemisphere\"\n\
+        [[case]]\nname = \"weft\"\nweave.weft.material = { properties = { k_el = 41170.5 } }\n";
+    std::fs::write(&scene, format!("{SCENE}{cases}")).expect("the scene can be written");
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let to = output.join(host);
+        run(
+            Command::new(env!("CARGO_BIN_EXE_toron")).arg("fabric").arg(&scene).args(["--deck", host, "-o"]).arg(&to),
+            "",
+        );
+        let [flat, hemisphere] = ["flat", "hemisphere"].map(|case| striker_and_parts(host, &to, case).0);
+        let area = |face: &[Vector3<f64>; 4]| 0.5 * (face[2] - face[0]).cross(&(face[3] - face[1]));
+        // Each end covers a disc, seen along its axis, and looks down.
+        for (faces, what) in [(&flat, "flat"), (&hemisphere, "hemisphere")] {
+            let low = faces.iter().flatten().map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+            let end = faces.iter().flatten().map(|corner| corner.x.hypot(corner.y)).fold(0.0, f64::max);
+            let seen: f64 = -faces.iter().map(|face| area(face).z).sum::<f64>();
+            assert!((seen / (std::f64::consts::PI * end * end) - 1.0).abs() < 2e-3, "{host}: {what}: {seen}");
+            assert!((2.74..2.779).contains(&end), "{host}: {what}: {end}");
+            let at_end = faces.iter().filter(|face| face.iter().all(|corner| corner.z < low + 1e-9));
+            let share = at_end.map(|face| -area(face).z).sum::<f64>() / seen;
+            assert!((share > 0.999) == (what == "flat"), "{host}: {what}: {share} lies at the end");
+        }
+        let (_, parts) = striker_and_parts(host, &to, "weft");
+        let material = |family: &str| -> Vec<&String> {
+            parts.iter().filter(|(name, _)| name.starts_with(family)).map(|(_, material)| material).collect()
+        };
+        let (warp, weft) = (material("warp"), material("weft"));
+        assert!(warp.len() > 3 && weft.len() > 3 && warp[0] != weft[0], "{host}: {parts:?}");
+        assert!(warp.iter().all(|other| *other == warp[0]) && weft.iter().all(|other| *other == weft[0]), "{host}");
     }
 }
 

@@ -1,0 +1,40 @@
+//! The histories in one figure: a panel for each quantity, a line for each history.
+
+use std::path::Path;
+
+use toron::host::units::UnitSystem;
+
+use super::history::{History, QUANTITIES};
+use crate::common::error::Error;
+use crate::common::units::{TIME, unit};
+use crate::picture::history;
+use crate::picture::panel::{Abscissa, Panel, Series};
+use crate::picture::style::COLOURS;
+
+/// Points of a line.
+const POINTS: usize = 1000;
+
+/// # Errors
+/// A file cannot be written.
+pub fn write(svg: &Path, png: &Path, histories: &[&History], units: &UnitSystem) -> Result<(), Error> {
+    let end = histories.iter().map(|history| history.end()).fold(0.0, f64::max);
+    let times: Vec<f64> = (0..=POINTS).map(|i| end * i as f64 / POINTS as f64).collect();
+    let panels = QUANTITIES.iter().map(|row| {
+        let lines = histories.iter().zip(COLOURS.iter().cycle()).filter_map(|(history, &colour)| {
+            let curve = history.curve(row.quantity)?;
+            // A gap is where the history has nothing.
+            let values = times.iter().map(|&time| curve.at(time).unwrap_or(f64::NAN)).collect();
+            Some(Series { name: history.name.clone(), colour, values })
+        });
+        Panel { title: row.title, unit: unit(units, row.dimension), series: lines.collect(), limit: None }
+    });
+    // A name that says the host says it alone.
+    let of_host = |history: &History| match history.name.contains(history.host) {
+        true => history.name.clone(),
+        false => format!("{}: {}", history.name, history.host),
+    };
+    let hosts: Vec<String> = histories.iter().copied().map(of_host).collect();
+    let label = format!("time ({})", unit(units, TIME));
+    let abscissa = Abscissa { label, values: times.clone(), failure: None };
+    history::write(svg, png, ["The same strike in several hosts", &hosts.join("; ")], panels, &abscissa)
+}
