@@ -100,7 +100,9 @@ const AXES: [&str; 2] = ["aopt macf xp yp zp a1 a2 a3", "v1 v2 v3 d1 d2 d3 beta 
 
 /// A comment with the names of the fields, and their line.
 pub fn lines(names: &str, fields: &[String]) -> String {
-    let names: String = names.split(' ').map(|name| format!("{name:>COLUMNS$}")).collect();
+    // A name as wide as the field would run into the one before.
+    let names: String =
+        names.split(' ').map(|name| format!("{:>COLUMNS$}", &name[..name.len().min(COLUMNS - 1)])).collect();
     let fields: String = fields.iter().map(|field| format!("{field:>COLUMNS$}")).collect();
     format!("$#{}\n{fields}\n", &names[2..])
 }

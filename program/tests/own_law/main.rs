@@ -195,7 +195,14 @@ fn cards_have_the_law_s_names_and_counts() {
             &["--host", "mtest"],
             &["@Behaviour<generic> 'libOWN.so' 'REINFORCED';\n", "@MaterialProperty<constant> 'mu' 2.0;"],
         ),
-        (&["--host", "ls-dyna"], &["standard reinforcing model, in mm, tonne, s\n", "       m_3      bulk\n"]),
+        (
+            &["--host", "ls-dyna"],
+            &[
+                "standard reinforcing model, in mm, tonne, s\n",
+                "         k stretch_l       m_1",
+                "       m_3      bulk\n",
+            ],
+        ),
     ] {
         let card = card(&folder, arguments).expect("the card");
         for part in parts {
