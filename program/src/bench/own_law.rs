@@ -1,5 +1,5 @@
-//! `bench` of a law of one's own: what a point of a block costs with each set of instructions, and whether the law's formulas are in
-//! the kernels.
+//! `bench` of a law of one's own: what a point of a block costs with each set of instructions, and whether the law's `constants`
+//! and `respond` are in the kernels.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -21,9 +21,9 @@ pub struct Arguments {
     preset: String,
 }
 
-/// Points of a call, and the distance of its arrays' components, which is no power of two.
+/// Points of a call, and the leading dimension of its arrays, which is no power of two.
 const POINTS: usize = 1000;
-const DISTANCE: usize = 1037;
+const LEADING_DIMENSION: usize = 1037;
 const ROUNDS: usize = 40;
 
 /// With four points in a register in place of two, a point takes about half of the time; of a law whose functions are called, the
@@ -55,7 +55,7 @@ pub fn run(law: &'static OwnLaw, arguments: &Arguments) -> Result<(), Error> {
 /// Stress and state at points that are strained a little, with every set of instructions that the processor has.
 fn measured(own: &Own) -> Result<Vec<(Level, f64)>, Error> {
     let levels: Vec<Level> = Level::ALL.into_iter().filter(|&level| level <= Level::best()).collect();
-    let mut points = own.at_rest(POINTS, DISTANCE, None);
+    let mut points = own.at_rest(POINTS, LEADING_DIMENSION, None);
     points.wave_modulus.clear();
     for (k, entry) in points.f.iter_mut().enumerate() {
         *entry += 1e-3 * ((k * 37 % 211) as f64 / 211.0 - 0.5);
@@ -76,8 +76,8 @@ fn warning(times: &[(Level, f64)]) -> Option<String> {
     let share = of(Level::Avx2)? / of(Level::Baseline)?;
     (share > SHARE).then(|| {
         format!(
-            "with AVX2 a point takes {share:.2} of its time without it, where about half is usual: something in the law is called and \
-             not inlined. Functions need #[inline(always)], numbers no closure, map, from_fn or iterator (docs/guides/own-law.md)"
+            "with AVX2 a point takes {share:.2} of its time without it, where about half is usual: probably something in the law is \
+             called and not inlined. Functions need #[inline(always)], numbers no closure, map, from_fn or iterator (docs/guides/own-law.md)"
         )
     })
 }

@@ -1,6 +1,6 @@
 //! `toron compare`: histories of a scene from several hosts in one table and one figure.
 //!
-//! A file for each host reads its histories; [`history`] is what they have in common.
+//! A file for each host reads its histories; `history` is what they have in common.
 
 pub mod command;
 mod figures;

@@ -51,13 +51,16 @@ pub const VELOCITIES: &CStr = c"mat_solid_get_nod_v_";
 /// The vectors of the nodes of the engine's current group, (`elements`, 8, 3); empty if the engine has no routine of this name.
 pub fn of_nodes<T: Real>(name: &CStr, elements: usize) -> Vec<T> {
     let Some(get) = routine(name) else { return Vec::new() };
-    let mut vectors = vec![T::splat(0.0); elements * 8 * 3];
+    // Room for numbers of double precision too: a library for the other precision is refused, but not before it has asked.
+    let room = elements * 8 * 3;
+    let mut vectors = vec![T::splat(0.0); room * size_of::<f64>() / size_of::<T>()];
     // SAFETY: `MAT_SOLID_GET_NOD_X(USER_X)` of the engine, and the one of velocities, write 24 numbers for each element of the group that
     // calls it.
     unsafe {
         let get: unsafe extern "C" fn(*mut T) = std::mem::transmute(get);
         get(vectors.as_mut_ptr());
     }
+    vectors.truncate(room);
     vectors
 }
 

@@ -123,8 +123,9 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
 }
 
 /// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
-/// strains. It gets that of an isotropic solid whose longitudinal wave speed is that of the fibre, since the yarn law has no
-/// transverse stiffness at rest. A point whose numbers are not finite is deleted, as in a step. Returns the worst status.
+/// strains. It gets that of an isotropic solid with the law's [`bulk_and_shear`](Law::bulk_and_shear), whose longitudinal wave is
+/// the law's fastest at rest: the yarn law itself has no transverse stiffness there. A point whose numbers are not finite is deleted, as
+/// in a step. Returns the worst status.
 ///
 /// # Safety
 /// As for [`vumat`], with `n` points.

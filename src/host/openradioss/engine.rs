@@ -105,7 +105,7 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
         if at_start && let Some(text) = group.other_precision() {
             return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
-        if group.deformation_gradient.iter().all(|&f| (*f).into() == 0.0) {
+        if group.has_no_gradient() {
             let text = if size_of::<T>() == size_of::<f32>() { NO_GRADIENT_IN_SINGLE } else { NO_GRADIENT };
             return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
@@ -127,9 +127,11 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
 pub unsafe fn needs_nodes<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> bool {
     in_default_environment(|| {
         let at_start = group.time.into() == 0.0;
-        // SAFETY: UPARAM is not null, as checked: NUPARAM values. To a library of the other precision the solver would write too many numbers, or too few.
+        // SAFETY: no array is null behind `check`: NUPARAM values of UPARAM, one element or more. A group of the other precision does not
+        // need nodes: it is refused.
         let parameters = unsafe {
-            if group.check(laws).is_err() || group.elements == 0 || (at_start && group.other_precision().is_some()) {
+            let empty = group.check(laws).is_err() || group.elements == 0;
+            if empty || (at_start && (group.other_precision().is_some() || group.has_no_gradient())) {
                 return false;
             }
             slice::from_raw_parts(group.uparam, group.parameters as usize)
@@ -167,7 +169,8 @@ impl<T: Precision> Group<T> {
     /// single precision, 0 and 1.875, and two numbers 1 in single precision are 0.0078125 and a bit in double precision.
     unsafe fn other_precision(&self) -> Option<&'static str> {
         let mut diagonal = self.deformation_gradient.iter().take(3);
-        // SAFETY: F has NEL values, and the second one is read only if there are two.
+        // SAFETY: F has NEL values, and the second one is read only if there are two. The solver's arrays have its vector length, so that
+        // those of the other precision have these bytes too.
         unsafe {
             if size_of::<T>() == size_of::<f32>() {
                 let is_double = |&f: &*const T| (*f).into() == 0.0 && (*f.add(1)).into() == 1.875;
@@ -177,6 +180,13 @@ impl<T: Precision> Group<T> {
                 diagonal.all(|&f| (*f).into().to_bits() == two).then_some(OF_SINGLE)
             }
         }
+    }
+
+    /// Whether the first element's F is 0: the solver passes none. Of one element this is what a library for single precision reads where
+    /// the solver's F is 1 in double precision.
+    unsafe fn has_no_gradient(&self) -> bool {
+        // SAFETY: there is a first element.
+        self.deformation_gradient.iter().all(|&f| unsafe { *f }.into() == 0.0)
     }
 
     /// # Errors

@@ -9,8 +9,8 @@
 //! # Speed
 //!
 //! The formulas must be inlined into the kernels: `#[inline(always)]` on [`constants`](UserMaterial::constants),
-//! [`respond`](UserMaterial::respond) and every function that they call, operators, and the functions of [`vector`] on vectors and
-//! matrices. A closure, and `map` or `from_fn` on an array, is a function of its own, which may be called for each lane: such a
+//! [`respond`](UserMaterial::respond), [`wave_modulus`](UserMaterial::wave_modulus) and every function that they call, operators, and
+//! the functions of [`vector`] on vectors and matrices. A closure, and `map` or `from_fn` on an array, is a function of its own, which may be called for each lane: such a
 //! law is right, but several times slower. `docs/guides/own-law.md` has a test for it.
 
 mod kernel;

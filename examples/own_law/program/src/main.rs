@@ -1,4 +1,4 @@
-//! A program for the reinforced solid: `reinforced run`, `params`, `deck`, `eval` and `header`.
+//! A program for the reinforced solid: `reinforced run`, `params`, `deck`, `eval`, `header` and `bench`.
 
 fn main() -> std::process::ExitCode {
     toron_program::of_law::<reinforced_solid::ReinforcedSolid>("REINFORCED", 3)
