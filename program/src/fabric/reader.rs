@@ -15,11 +15,13 @@ use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
+use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
-use crate::weave::file::{ThreadFile, WeaveFile};
-use crate::weave::reader::Woven;
+use crate::weave::file::{PlyFile, WeaveFile};
+use crate::weave::geometry::Family;
+use crate::weave::layup::{Layup, Ply};
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -52,9 +54,12 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let woven = Arc::new(source.woven(&file.weave, &units)?);
+        let layup = Arc::new(source.layup(&file.weave, &file.ply, &units, None)?);
         if let Some(weave) = &file.scene.get_ref().weave {
             return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
+        }
+        if file.scene.get_ref().ply.is_some() {
+            return Err(source.error(file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]"));
         }
         let cases = keys::cases(
             (&source, &units),
@@ -62,12 +67,17 @@ impl Scene {
             (&["summary"], PICTURES),
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
-                let weave = file.weave.get_ref();
-                let (woven, weave) = match &file_of_case.weave {
-                    Some(own) => (Arc::new(source.woven_of_case(own, weave, &units)?), own.get_ref().over(weave)),
-                    None => (woven.clone(), weave.clone()),
+                let (own, plies) = (&file_of_case.weave, file_of_case.ply.as_ref().unwrap_or(&file.ply));
+                let weave = own.as_ref().map(|own| Spanned::new(own.span(), own.get_ref().over(file.weave.get_ref())));
+                let layup = if own.is_none() && file_of_case.ply.is_none() {
+                    layup.clone()
+                } else {
+                    let case = own.as_ref().map(Spanned::span);
+                    Arc::new(source.layup(weave.as_ref().unwrap_or(&file.weave), plies, &units, case)?)
                 };
-                reader.panel_case(file_of_case, &weave, woven, name)
+                let weave = weave.as_ref().unwrap_or(&file.weave).get_ref();
+                let threads = reader.threads(weave, plies, &layup)?;
+                reader.panel_case(file_of_case, layup, threads, name)
             },
         )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
@@ -75,18 +85,24 @@ impl Scene {
 }
 
 impl Reader<'_> {
-    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
+    fn panel_case(
+        &self,
+        file: &CaseFile,
+        layup: Arc<Layup>,
+        threads: Vec<[Option<Box<Material>>; 2]>,
+        name: String,
+    ) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
-        let height = woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+        let [_, height] = layup.yarn_heights();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            woven,
+            layup,
             speed: self.speed(zones.inner())?,
             zones,
-            threads: [self.thread_material(&weave.warp)?, self.thread_material(&weave.weft)?],
+            threads,
             sphere: Rigid {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
@@ -108,19 +124,35 @@ impl Reader<'_> {
         })
     }
 
-    /// What the yarns of a family are made of, if their table says it: a material of the case's law.
-    fn thread_material(&self, table: &Option<Spanned<ThreadFile>>) -> Result<Option<Box<Material>>, Error> {
-        let Some(file) = table.as_ref().and_then(|table| table.get_ref().material.as_ref()) else { return Ok(None) };
+    /// What the yarns of each ply are made of, warp and weft, where the tables say it.
+    fn threads(
+        &self,
+        weave: &WeaveFile,
+        plies: &[Spanned<PlyFile>],
+        layup: &Layup,
+    ) -> Result<Vec<[Option<Box<Material>>; 2]>, Error> {
+        let none = PlyFile::default();
+        let plies = plies.iter().map(Spanned::get_ref).chain(plies.is_empty().then_some(&none));
+        let of_ply = |(file, laid): (&PlyFile, &Ply)| {
+            let [warp, weft] = Family::BOTH.map(|family| self.thread_material(file.material(weave, family)));
+            let [warp, weft] = [warp?, weft?];
+            Ok(if laid.woven.exchanged { [weft, warp] } else { [warp, weft] })
+        };
+        plies.zip(&layup.plies).map(of_ply).collect()
+    }
+
+    /// What the yarns of a family are made of, if a table says it: a material of the case's law.
+    fn thread_material(&self, file: Option<Spanned<MaterialFile>>) -> Result<Option<Box<Material>>, Error> {
+        let Some(file) = file else { return Ok(None) };
         let law = match self.keys.law() {
             LawName::Hyperelastic => HYPERELASTIC,
             LawName::LinearElastic => LINEAR_ELASTIC,
             LawName::Hybrid => {
-                let message =
-                    "material of a family of yarns with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+                let message = "material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
                 return Err(self.source.error(file.span(), message));
             }
         };
-        self.material(law, &Some(file.clone())).map(|material| Some(Box::new(material)))
+        self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
     }
 
     /// The mass of what strikes: the file's, which must be one that its volume can have, or its volume's.

@@ -1,4 +1,4 @@
-//! What a meshed panel is in figures.
+//! What a meshed ply is in figures.
 
 use nalgebra::Vector3;
 
@@ -26,21 +26,23 @@ pub struct Figures {
 }
 
 impl Figures {
-    pub fn of(model: &Model, geometry: &Geometry) -> Figures {
-        let heights = || model.nodes.iter().map(|node| node[2]);
-        let count = |family: Family| model.yarns.iter().filter(|yarn| yarn.family == family).count();
+    /// Those of a ply, from 0; the geometry is its own.
+    pub fn of(model: &Model, ply: usize, geometry: &Geometry) -> Figures {
+        let yarns = || model.yarns.iter().filter(move |yarn| yarn.ply == ply);
+        let heights = || yarns().flat_map(|yarn| &model.nodes[yarn.nodes.clone()]).map(|node| node[2]);
+        let count = |family: Family| yarns().filter(|yarn| yarn.family == family).count();
         let mut figures = Figures {
             yarns: Family::BOTH.map(count),
-            nodes: model.nodes.len(),
-            elements: model.elements.len(),
+            nodes: yarns().map(|yarn| yarn.nodes.len()).sum(),
+            elements: yarns().map(|yarn| yarn.elements.len()).sum(),
             crimp: Family::BOTH.map(|family| geometry.crimp(family)),
             thickness: heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min),
-            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, geometry, family)),
+            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, ply, geometry, family)),
             least_jacobian: f64::INFINITY,
             least_scaled_jacobian: f64::INFINITY,
             shortest_edge: f64::INFINITY,
         };
-        for element in &model.elements {
+        for element in yarns().flat_map(|yarn| &model.elements[yarn.elements.clone()]) {
             let mut nodes = [[0.0; 3]; 8];
             for (place, &node) in nodes.iter_mut().zip(element) {
                 *place = model.nodes[node as usize];
@@ -59,8 +61,8 @@ impl Figures {
 }
 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.
-fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
-    let yarns = || model.yarns.iter().filter(|yarn| yarn.family == family);
+fn volume_by_area(model: &Model, ply: usize, geometry: &Geometry, family: Family) -> f64 {
+    let yarns = || model.yarns.iter().filter(|yarn| yarn.ply == ply && yarn.family == family);
     let derivatives = derivatives();
     let volume: f64 = yarns()
         .flat_map(|yarn| model.elements[yarn.elements.clone()].iter())

@@ -10,6 +10,7 @@ pub mod distance;
 pub mod figures;
 pub mod file;
 pub mod geometry;
+pub mod layup;
 pub mod mesh;
 pub mod model;
 pub mod panel;

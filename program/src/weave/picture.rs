@@ -49,8 +49,8 @@ fn colour(family: Family) -> RGBColor {
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(), Error> {
-    let threads = scene.woven.geometry.weave.threads;
-    let pitch = threads[0].pitch.max(threads[1].pitch);
+    let threads = scene.layup.plies.iter().flat_map(|ply| ply.woven.geometry.weave.threads);
+    let pitch = threads.map(|thread| thread.pitch).fold(0.0, f64::max);
     let unit = scene.units.names()[0];
     let whole = bounds(model, LARGEST * pitch);
     let right = LEFT + VIEW + (WIDTH - 2 * LEFT - 2 * VIEW);
