@@ -41,6 +41,7 @@ mod own_program;
 pub mod params;
 pub mod picture;
 pub mod scene_deck;
+pub mod strength;
 pub mod struck;
 pub mod weave;
 

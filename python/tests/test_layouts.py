@@ -158,6 +158,26 @@ def test_fibre_directions_of_points(yarn):
     np.testing.assert_allclose(yarn.stress(last(F), fibre=last(fibre), points="last").T, turned.stress(F), rtol=1e-14, atol=1e-12)
 
 
+def test_limits_of_points(yarn, gradients):
+    F = gradients(40)
+    limit = np.resize([0.0, 1e-3, 0.03, 0.08], 40)
+    index = yarn.state_index("failure_index")
+    for dtype in (np.float64, np.float32):
+        G = F.astype(dtype)
+        own = {value: yarn.replace(eps_lim=np.expm1(value)) if value else yarn for value in np.unique(limit)}
+        found = yarn.evaluate(G, outputs="state", limit=limit.astype(dtype))["state"][:, index]
+        expected = [own[value].evaluate(f, outputs="state")["state"][index] for f, value in zip(G, limit)]
+        np.testing.assert_allclose(found, expected, rtol=1e-5 if dtype == np.float32 else 1e-13)
+        apart = np.stack([limit, -limit - 1.0], 1).astype(dtype)[:, 0]
+        np.testing.assert_array_equal(yarn.evaluate(G, outputs="state", limit=apart)["state"][:, index], found)
+        one = yarn.evaluate(G, outputs="failure", limit=0.03)["failure"][:, 0]
+        np.testing.assert_array_equal(one[limit == 0.03], found[limit == 0.03])
+    status = yarn.evaluate(F, outputs=("state", "status"), limit=-limit)["status"]
+    np.testing.assert_array_equal(status < 0, limit > 0)
+    with pytest.raises(toron.PointError, match="failure limit of this point"):
+        yarn.evaluate(F, outputs="state", limit=np.nan)
+
+
 @pytest.mark.parametrize("shape", [(), (3,), (2, 4)])
 def test_one_direction_is_that_of_all_points(yarn, linear, shape):
     F = np.tile(np.diag([1.01, 1.02, 0.97]), (*shape, 1, 1))

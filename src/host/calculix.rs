@@ -206,7 +206,10 @@ impl Arguments<'_> {
         let tangent = SixBySix(request, Measure::Material);
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
-        evaluate_call(Call { source: properties, f: self.f, fibre, state, tangent, sink: &mut answer }, Level::Avx512)?;
+        evaluate_call(
+            Call { source: properties, f: self.f, fibre, limit: None, state, tangent, sink: &mut answer },
+            Level::Avx512,
+        )?;
         self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())
     }
 

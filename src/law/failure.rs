@@ -41,14 +41,28 @@ impl<R: Real> Failure<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let fails = zero.lt(eps_lim);
         let limit = R::select(fails, limit.max(R::splat(LEAST_LIMIT)), one);
-        let weight = |x: R| R::select(fails, x, zero);
+        let threshold = R::select(fails, zero, R::splat(f64::INFINITY));
+        Failure { limit, inverse_limit: one / limit, threshold, alpha, beta }
+    }
+
+    /// The same criterion with `limit` = ln(1 + ε_lim) for a point that has a limit of its own; where that is 0, the criterion itself.
+    #[inline(always)]
+    pub fn at(self, limit: R) -> Self {
+        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let own = zero.lt(limit);
+        let limit = limit.max(R::splat(LEAST_LIMIT));
         Failure {
-            limit,
-            inverse_limit: one / limit,
-            threshold: R::select(fails, zero, R::splat(f64::INFINITY)),
-            alpha: weight(alpha),
-            beta: weight(beta),
+            limit: R::select(own, limit, self.limit),
+            inverse_limit: R::select(own, one / limit, self.inverse_limit),
+            threshold: R::select(own, zero, self.threshold),
+            ..self
         }
+    }
+
+    /// Whether a point may have this limit of its own: a finite number, not negative.
+    #[inline(always)]
+    pub fn is_limit(limit: R) -> R::Mask {
+        R::splat(0.0).le(limit) & limit.lt(R::splat(f64::INFINITY))
     }
 
     /// Its numbers, from which [`from_numbers`](Self::from_numbers) makes it again.

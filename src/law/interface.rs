@@ -69,6 +69,8 @@ pub struct Points<T> {
     pub f_new: [*const T; 9],
     /// The fibre direction of each point, of any length; null for that of the properties.
     pub fibre: [*const T; 3],
+    /// The true fibre strain at failure, ln(1 + ε_lim), of each point of the hyperelastic law; null or 0 for that of the properties.
+    pub limit: *const T,
     /// The law's state variables, old and new.
     pub state_old: *const T,
     pub state_new: *mut T,
@@ -102,6 +104,7 @@ impl<T: Precision> Points<T> {
             f_old: [null(); 9],
             f_new: [null(); 9],
             fibre: [null(); 3],
+            limit: null(),
             state_old: null(),
             state_new: null_mut(),
             density: T::splat(0.0),
@@ -157,6 +160,7 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
         let pointers = Pointers {
             deformation_gradient: points.f_new,
             fibre: points.fibre,
+            limit: points.limit,
             energies_old: old(ENERGIES),
             invariants_old: old(INVARIANTS),
             failure_old: old(FAILURE_INDEX),

@@ -78,7 +78,6 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
 
     /// The law at one point and the derivative `tangent`: that of the intact material in the call that detects failure, 0 in
     /// later calls and if the point cannot be evaluated. A point whose derivative is not finite cannot be evaluated.
-    #[inline(never)]
     pub(super) fn point_with<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
@@ -86,9 +85,22 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
+        self.point_limited(f, fibre, None, state, tangent)
+    }
+
+    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim).
+    #[inline(never)]
+    pub(super) fn point_limited<D: Derivative<N>, const N: usize>(
+        &self,
+        f: &[[T; 3]; 3],
+        fibre: Option<[T; 3]>,
+        limit: Option<T>,
+        state: &[T; HYPERELASTIC_STATE],
+        tangent: D,
+    ) -> (Point<T>, [T; N]) {
         let (mut point, mut entries) = (Point::nothing(), [T::splat(0.0); N]);
         let sink = (&mut point, &mut entries);
-        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, fibre, &cells(*state), tangent, sink);
+        let evaluated = evaluate::<T, T, _, _, _, D, _, N>(self, f, fibre, limit, &cells(*state), tangent, sink);
         debug_assert!(evaluated.is_ok()); // only wrong properties are an error, and those of a law are right
         (point, entries)
     }
@@ -119,6 +131,18 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         request: Request,
     ) -> (Point<T>, [T; 81]) {
         self.point_with(f, fibre, state, NineByNine(request))
+    }
+
+    /// The law with another failure limit, `limit` = ln(1 + ε_lim), as a point has it that is given one of its own; 0 gives the law
+    /// itself.
+    ///
+    /// # Errors
+    /// A limit that is negative, NaN or infinite.
+    pub fn with_limit(&self, limit: T) -> Result<Self, Error> {
+        if Failure::is_limit(limit) {
+            return Ok(Hyperelastic { failure: self.failure.at(limit), ..*self });
+        }
+        Err(Error::Argument { name: "limit", value: limit.into(), wanted: "a finite number, not negative" })
     }
 
     /// All results at one point without history, and its full 6×6 tangent; the fibre direction is that of the properties.
@@ -248,6 +272,7 @@ fn evaluate<
     source: L,
     f: F,
     fibre: Option<[T; 3]>,
+    limit: Option<T>,
     state: O,
     tangent: D,
     sink: S,
@@ -259,7 +284,7 @@ fn evaluate<
     let own = source.frame();
     if own.aligned && fibre.is_none() {
         let axes = MaterialAxes { axes: FirstAxis, frame: FibreFrame::first_axis(), usable: everywhere };
-        return point_in(source, &own, &f, &axes, &state, tangent, sink);
+        return point_in(source, &own, &f, &axes, limit, &state, tangent, sink);
     }
     let (frame, usable) = match fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
@@ -268,7 +293,7 @@ fn evaluate<
             (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
         }
     };
-    point_in(source, &own, &f, &MaterialAxes { axes: frame, frame, usable }, &state, tangent, sink)
+    point_in(source, &own, &f, &MaterialAxes { axes: frame, frame, usable }, limit, &state, tangent, sink)
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
@@ -277,6 +302,8 @@ pub(crate) struct Call<T, L, F, O, D, S, const N: usize> {
     pub f: F,
     /// A fibre direction of any length, or `None` for that of the properties.
     pub fibre: Option<[T; 3]>,
+    /// ln(1 + ε_lim) of a point that has a limit of its own; `None` or 0 for that of the properties.
+    pub limit: Option<T>,
     /// If it is an array, in cells, since the sink may overwrite it with the new one.
     pub state: O,
     pub tangent: D,
@@ -300,7 +327,8 @@ impl<
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn evaluate<R: Single<T>>(self) -> Result<(), Error> {
-        evaluate::<T, R, L, F, O, D, S, N>(self.source, self.f, self.fibre, self.state, self.tangent, self.sink)
+        let Call { source, f, fibre, limit, state, tangent, sink } = self;
+        evaluate::<T, R, L, F, O, D, S, N>(source, f, fibre, limit, state, tangent, sink)
     }
 
     /// Prepares the law and evaluates it with the instructions that every processor of the architecture has.
@@ -311,7 +339,8 @@ impl<
     pub(super) fn evaluate_baseline(self) -> Result<(), Error> {
         let law = self.source.whole()?;
         let state = core::array::from_fn(|c| self.state.entry(c));
-        let (point, entries) = law.point_with(&self.f.columns(), self.fibre, &state, self.tangent.general());
+        let (point, entries) =
+            law.point_limited(&self.f.columns(), self.fibre, self.limit, &state, self.tangent.general());
         self.sink.take(point, None, entries);
         Ok(())
     }
@@ -418,6 +447,7 @@ fn point_in<
     own: &PropertyFrame<T>,
     f: &[[R; 3]; 3],
     &MaterialAxes { ref axes, ref frame, usable }: &MaterialAxes<A, R>,
+    limit: Option<T>,
     state: &O,
     tangent: D,
     sink: S,
@@ -431,7 +461,11 @@ fn point_in<
     let early = if D::EARLY { Some(Bases::new(&stretch, &section, &images)) } else { None };
     let strain = Strain::new(&stretch, &section, &logarithms);
     let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
-    let (power, failure) = source.power_and_failure(&law, &strain);
+    let (power, mut failure) = source.power_and_failure(&law, &strain);
+    let mut may_have = R::splat(0.0).le(R::splat(0.0));
+    if let Some(limit) = limit.map(|limit| R::of(limit)) {
+        (failure, may_have) = (failure.at(limit), Failure::is_limit(limit));
+    }
     law.failure = failure;
     let k = law.kirchhoff(&stretch, &strain, power);
     let deformed = Deformed { law: &law, kinematics, k: &k, shear };
@@ -442,15 +476,15 @@ fn point_in<
     };
     let entries = tangent.of(deformed, frame, A::ALONG_COORDINATES, early);
     let latch = R::of(state.entry(FAILED));
-    let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
+    let nan_if_invalid = R::select(usable & may_have, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = deformed.respond(frame, nan_if_invalid, latch, request);
-    let h = law.history(&strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
+    let h = law.history(&failure, &strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
     // This check comes after the stress, so that the stress need not wait for the tangent.
     let zero = R::splat(0.0);
     let representable = if may_overflow { nan_unless_finite(&entries).le(zero) } else { zero.le(zero) };
     if !R::holds(r.updated & representable) {
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
-        let code: f64 = law.status_code(f, &stretch, usable, latch).value().into();
+        let code: f64 = law.status_code(f, &stretch, [usable, may_have], latch).value().into();
         let wave_modulus = R::select(representable, r.wave_modulus, law.k_el).value();
         sink.take(Point::unchanged(state, failed, wave_modulus, code as i32), None, [T::splat(0.0); N]);
         return Ok(());

@@ -51,8 +51,11 @@ pub const INCREMENT_TOO_LARGE: i32 = -306;
 /// The material axes given for this point, for the frame of the spin, are not orthonormal.
 pub const MATERIAL_AXES: i32 = -307;
 
+/// The failure limit given for this point is negative, NaN or infinite.
+pub const LIMIT: i32 = -308;
+
 /// Every code with its name and meaning.
-pub const TABLE: [(i32, &str, &str); 23] = [
+pub const TABLE: [(i32, &str, &str); 24] = [
     (OK, "ok", "no error"),
     (NULL_ARGUMENT, "null_argument", "an argument that must not be null is null"),
     (BAD_COUNT, "bad_count", "a count that this function does not support"),
@@ -103,6 +106,11 @@ pub const TABLE: [(i32, &str, &str); 23] = [
         MATERIAL_AXES,
         "material_axes",
         "the material axes of this point are not orthonormal: start with the law's own, and keep those that each step returns",
+    ),
+    (
+        LIMIT,
+        "limit",
+        "the failure limit of this point is negative, NaN or infinite; 0 stands for that of the properties",
     ),
 ];
 

@@ -106,7 +106,7 @@ fn by_points(level: Level, in_place: bool) -> Results {
         status: status.as_mut_ptr(),
         active: active.as_mut_ptr(),
         level: Some(level),
-        strides: Strides { deformation_gradient: 9, fibre: 3, state: 11, stress: 6, modes: 24, tangent: 36 },
+        strides: Strides { deformation_gradient: 9, fibre: 3, limit: 1, state: 11, stress: 6, modes: 24, tangent: 36 },
         ..Pointers::without_arrays(POINTS, 1)
     };
     // SAFETY: every array has a row for each point.

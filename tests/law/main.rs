@@ -6,6 +6,7 @@ mod common;
 mod block;
 mod energy;
 mod layouts;
+mod limits;
 mod linear_block;
 mod linear_elastic;
 mod parameters;

@@ -60,8 +60,8 @@ class Arrays:
         self.all[name] = array
         return array
 
-    def direction(self, name: str, member: Member, values: Any) -> np.ndarray:
-        """As `input`; one vector is that of all points."""
+    def one_for_all(self, name: str, member: Member, values: Any) -> np.ndarray:
+        """As `input`; one entry is that of all points."""
         array = self._array(name, values)
         if array.shape != member.components or not self.points:
             return self.input(name, member, values)

@@ -15,6 +15,7 @@ from toron.placement import Member
 
 _F = Member("deformation_gradient", (3, 3), "deformation_gradient", separate=True, order=(1, 0))
 _FIBRE = Member("fibre", (3,), "fibre", separate=True)
+_LIMIT = Member("limit", (), "limit")
 _OUTPUTS = {
     "stress": Member("stress", (6,), "stress", separate=True, written=True),
     "modes": Member("modes", (4, 6), "modes", written=True),
@@ -55,6 +56,7 @@ class Hyperelastic(Law):
         state: np.ndarray | None = None,
         state_old: ArrayLike | None = None,
         fibre: ArrayLike | None = None,
+        limit: ArrayLike | None = None,
         tangent: Tangent = "jaumann",
         density: float | None = None,
         points: Points = "first",
@@ -83,12 +85,13 @@ class Hyperelastic(Law):
         `state`: the old state, updated in place. Or `state_old`, which is only read, and the output "state". Without either all old
         states are 0. Without a new state, nor "failure", no point fails; those that have failed before stay so.
 
-        `fibre`: (3,) at every point, or one for all, reference directions of any length in place of the law's own; `level`: the widest instructions
-        to use, "best", "baseline", "avx2" or "avx512".
+        `fibre`: (3,) at every point, or one for all, reference directions of any length in place of the law's own; `limit`: (), the true fibre
+        strain at failure, ln(1 + eps_lim), of every point, or one for all, 0 for that of the law; `level`: the widest instructions to use,
+        "best", "baseline", "avx2" or "avx512".
 
         Raises `ArgumentError` for an argument, `PointError` for points that cannot be evaluated (all others have been written).
         """
-        return self._evaluate((F, state, state_old, fibre), out, outputs, (tangent, density, points, level))
+        return self._evaluate((F, state, state_old, fibre, limit), out, outputs, (tangent, density, points, level))
 
     def bind(
         self,
@@ -99,6 +102,7 @@ class Hyperelastic(Law):
         state: np.ndarray | None = None,
         state_old: np.ndarray | None = None,
         fibre: np.ndarray | None = None,
+        limit: np.ndarray | None = None,
         tangent: Tangent = "jaumann",
         density: float | None = None,
         points: Points = "first",
@@ -109,7 +113,7 @@ class Hyperelastic(Law):
         Every call reads and writes these arrays as they are then, checks nothing but their contents and that they have not been resized,
         and returns the same arrays.
         """
-        return self._bind((F, state, state_old, fibre), out, outputs, (tangent, density, points, level), frozen=False).for_later()
+        return self._bind((F, state, state_old, fibre, limit), out, outputs, (tangent, density, points, level), frozen=False).for_later()
 
     def stress(self, F: ArrayLike, *, out: np.ndarray | None = None, **arguments: Any) -> NDArray[Any]:
         """The Cauchy stress, 11 22 33 12 23 31: (…, 6), or (6, …) with `points="last"`; arguments as for `evaluate`."""
@@ -146,13 +150,15 @@ class Hyperelastic(Law):
         return least[0], normal
 
     def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
-        F, state, state_old, fibre = inputs
+        F, state, state_old, fibre, limit = inputs
         tangent, density, points, level = options
         wanted = arrays.names(outputs, out, _OUTPUTS)
         given = dict(out or {})
         placed = arrays.Arrays("F", _F, F, choice("points", points, POINTS) == 1, frozen)
         if fibre is not None:
-            placed.put(_FIBRE, placed.direction("fibre", _FIBRE, fibre))
+            placed.put(_FIBRE, placed.one_for_all("fibre", _FIBRE, fibre))
+        if limit is not None:
+            placed.put(_LIMIT, placed.one_for_all("limit", _LIMIT, limit))
         block = structure(f"toron_block_{SUFFIX[placed.dtype]}")
         block.level = choice("level", level, LEVELS)
         block.measure = choice("tangent", tangent, TANGENTS)

@@ -176,7 +176,7 @@ class LinearElastic(Law):
             placed.put(_OLD, placed.input("f_old", _OLD, f_old))
         for name, member, values in (("fibre", _FIBRE, fibre), ("second_axis", _SECOND_AXIS, second_axis)):
             if values is not None:
-                placed.put(member, placed.direction(name, member, values))
+                placed.put(member, placed.one_for_all(name, member, values))
         if axes is not None:
             placed.put(_AXES, placed.output("axes", _AXES, axes))
         block = structure(f"toron_linear_block_{SUFFIX[placed.dtype]}")

@@ -186,7 +186,7 @@ where
                 &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )
         };
-        evaluate_call(Call { source, f, fibre: None, state, tangent, sink }, Level::Avx512)?;
+        evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
     // SAFETY: the message is the caller's; what `body` reads and writes is not null.

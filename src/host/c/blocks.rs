@@ -84,13 +84,17 @@ pub struct Block<T> {
     pub stress_layout: Layout,
     pub modes_layout: Layout,
     pub tangent_layout: Layout,
+    /// In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
+    /// properties. If null, that of the properties. Read if `failure` is not null.
+    pub limit: *const T,
+    pub limit_layout: Layout,
 }
 
 structures! { Block, "toron_block_f64", "toron_block_f32", "block"; }
 
 #[cfg(target_pointer_width = "64")]
 const _: () =
-    assert!(size_of::<Block<f64>>() == 5 * 8 + 29 * 8 + 12 * 8 && size_of::<Block<f32>>() == size_of::<Block<f64>>());
+    assert!(size_of::<Block<f64>>() == 5 * 8 + 30 * 8 + 14 * 8 && size_of::<Block<f32>>() == size_of::<Block<f64>>());
 
 impl<T: Scalar> Block<T> {
     /// Whether all arrays are placed in the usual way: one pointer each, and one leading dimension for all. Most blocks are, and
@@ -107,6 +111,7 @@ impl<T: Scalar> Block<T> {
             | modes.leading_dimension
             | tangent.leading_dimension;
         let strides = f.stride | fibre.stride | state.stride | stress.stride | modes.stride | tangent.stride;
+        let strides = strides | self.limit_layout.stride;
         let [_, f1, f2, f3, f4, f5, f6, f7, f8] = self.deformation_gradient;
         let [_, m1, m2] = self.fibre;
         let [_, s1, s2, s3, s4, s5] = self.stress;
@@ -178,6 +183,7 @@ impl<T: Scalar> Block<T> {
             strides: Strides::UNIT,
             deformation_gradient: components(self.deformation_gradient[0], leading_dimension),
             fibre: components(self.fibre[0], leading_dimension),
+            limit: self.limit,
             energies_old: self.energies_old,
             invariants_old: self.invariants_old,
             failure_old: self.failure_old,
@@ -209,6 +215,7 @@ impl<T: Scalar> Block<T> {
             strides: Strides {
                 deformation_gradient: f.stride,
                 fibre: fibre.stride,
+                limit: self.limit_layout.stride.max(1),
                 state: state.stride,
                 stress: stress.stride,
                 modes: modes.stride,
@@ -282,6 +289,8 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
     let (source, f, old, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
     // SAFETY: the block is plain: its fibre, which is not null, is one array of three components.
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
+    // SAFETY: the block is plain: null, or the number of the only point.
+    let limit = unsafe { block.limit.as_ref() }.copied().filter(|_| !block.failure.is_null());
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
     let level = Level::Avx512;
@@ -294,14 +303,14 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
         let tangent = SixBySix(request, measure(block.measure)?);
         // As the lanes, which have no kernel of their own for the tangent of a fibre along the first axis.
         let source = &law.with_axes_of_any_fibre();
-        evaluate_call(Call { source, f, fibre, state: old, tangent, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, limit, state: old, tangent, sink }, level)?;
     } else if !block.wave_speed.is_null() {
         let tangent = NoTangent(Request { wave_modulus: true, ..Request::STRESS_AND_STATE });
-        evaluate_call(Call { source, f, fibre, state: old, tangent, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, limit, state: old, tangent, sink }, level)?;
     } else if block.energies.is_null() {
-        evaluate_call(Call { source, f, fibre, state: old, tangent: Stress::<false>, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, limit, state: old, tangent: Stress::<false>, sink }, level)?;
     } else {
-        evaluate_call(Call { source, f, fibre, state: old, tangent: Stress::<true>, sink }, level)?;
+        evaluate_call(Call { source, f, fibre, limit, state: old, tangent: Stress::<true>, sink }, level)?;
     }
     Ok(code)
 }

@@ -59,12 +59,15 @@ pub struct Point<T> {
     /// The call that detects failure returns that of the intact material, later calls return zeros. At a kink (I_el = 0 or I_tc =
     /// 0) it is that of loading.
     pub tangent: *mut T,
+    /// In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
+    /// properties. Read if `state_new` is not null.
+    pub limit: *const T,
 }
 
 structures! { Point, "toron_point_f64", "toron_point_f32", "point"; }
 
 #[cfg(target_pointer_width = "64")]
-const _: () = assert!(size_of::<Point<f64>>() == 3 * 8 + 8 * 8 && size_of::<Point<f32>>() == size_of::<Point<f64>>());
+const _: () = assert!(size_of::<Point<f64>>() == 3 * 8 + 9 * 8 && size_of::<Point<f32>>() == size_of::<Point<f64>>());
 
 /// The sink for one point: the caller's arrays, those for a tangent included. What is null is not stored, except that `tangent`
 /// must not be null if there is a tangent. Who makes one promises that the others have the values of one point: 6, 11, 4 × 6, 1, and
@@ -186,16 +189,18 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
         Some(state) => state,
         None => fresh.write(cells([T::splat(0.0); HYPERELASTIC_STATE])),
     };
+    // SAFETY: null or one number.
+    let limit = unsafe { point.limit.as_ref() }.copied().filter(|_| !state_new.is_null());
     let mut status = status::OK;
     let nothing_else = modes.is_null() && wave_speed.is_null() && tangent.is_null();
     if nothing_else && !stress.is_null() {
         // What most callers want is compiled for them.
         if state_new.is_null() {
             let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, fibre, state, tangent: Stress::<false>, sink }, level)?;
+            evaluate_call(Call { source, f, fibre, limit, state, tangent: Stress::<false>, sink }, level)?;
         } else {
             let sink = StressAnswer::<T, true> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, fibre, state, tangent: Stress::<true>, sink }, level)?;
+            evaluate_call(Call { source, f, fibre, limit, state, tangent: Stress::<true>, sink }, level)?;
         }
         return Ok(status);
     }
@@ -212,15 +217,15 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
     };
     let sink = PointAnswer { stress, state: state_new, modes, density, wave_speed, tangent, status: &mut status };
     if tangent.is_null() {
-        evaluate_call(Call { source, f, fibre, state, tangent: NoTangent(request), sink }, level)?;
+        evaluate_call(Call { source, f, fibre, limit, state, tangent: NoTangent(request), sink }, level)?;
         return Ok(status);
     }
     match measure(point.measure)? {
         Measure::Nominal => {
-            evaluate_call(Call { source, f, fibre, state, tangent: NineByNine(request), sink }, level)?;
+            evaluate_call(Call { source, f, fibre, limit, state, tangent: NineByNine(request), sink }, level)?;
         }
         measure => {
-            evaluate_call(Call { source, f, fibre, state, tangent: SixBySix(request, measure), sink }, level)?;
+            evaluate_call(Call { source, f, fibre, limit, state, tangent: SixBySix(request, measure), sink }, level)?;
         }
     }
     Ok(status)

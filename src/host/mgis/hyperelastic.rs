@@ -89,7 +89,10 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
     let usual = request == Request::STRESS_AND_STATE;
     macro_rules! evaluate_with {
         ($tangent:expr) => {
-            evaluate_call(Call { source, f: &f, fibre: None, state, tangent: $tangent, sink: to }, Level::Avx512)
+            evaluate_call(
+                Call { source, f: &f, fibre: None, limit: None, state, tangent: $tangent, sink: to },
+                Level::Avx512,
+            )
         };
     }
     match options.operator {

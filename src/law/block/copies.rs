@@ -25,7 +25,8 @@ const ACTIVE: usize = WAVE_SPEED + 1;
 const MODES: usize = ACTIVE + 1;
 const TANGENT: usize = MODES + 24;
 /// With the largest tangent.
-const COMPONENTS: usize = TANGENT + 81;
+const LIMIT: usize = TANGENT + 81;
+const COMPONENTS: usize = LIMIT + 1;
 /// F at both ends, fibre, second axis, axes, state at both ends, stress, wave speed and active of the linear elastic law.
 const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
@@ -125,6 +126,7 @@ fn block_in<T: Scalar>(memory: *mut T, count: usize, codes: *mut i32, like: &Poi
         strides: Strides::UNIT,
         deformation_gradient: components(memory.wrapping_add(F * count), count),
         fibre: components(array(!like.fibre[0].is_null(), FIBRE), count),
+        limit: array(!like.limit.is_null(), LIMIT),
         energies_old: energies,
         invariants_old: invariants,
         failure_old: failure,
@@ -159,7 +161,8 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
     let of_copies = block_in(memory.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), block);
     let (energies, invariants) = (of_copies.energies, of_copies.invariants);
     let (failure, latch) = (of_copies.failure_old.cast_mut(), !block.failure_old.is_null());
-    let Strides { deformation_gradient, fibre: of_fibre, state, stress: of_stress, modes, tangent } = block.strides;
+    let Strides { deformation_gradient, fibre: of_fibre, limit, state, stress: of_stress, modes, tangent } =
+        block.strides;
     let state = copies.group(state, block.leading_dimension);
     let single = copies.group(1, 0);
     // SAFETY: each array of `of_copies` begins in `memory` at its first component, with space for COUNT points of all its components;
@@ -176,6 +179,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
                 of_fibre.copy_in(from, to.cast_mut(), 1);
             }
         }
+        copies.group(limit, 0).copy_in(block.limit, of_copies.limit.cast_mut(), 1);
         let groups = [
             (block.energies_old, energies, 4),
             (block.invariants_old, invariants, 4),
@@ -236,6 +240,9 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, run: im
                 let fill = if c == 0 { one } else { zero };
                 R::load_first(block.fibre[c], count, fill).store(copies.fibre[c].cast_mut());
             }
+        }
+        if !block.limit.is_null() {
+            R::load_first(block.limit, count, zero).store(copies.limit.cast_mut());
         }
         for (old, to) in [(block.energies, copies.energies), (block.invariants, copies.invariants)] {
             if !old.is_null() {

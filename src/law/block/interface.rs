@@ -26,6 +26,8 @@ pub struct Arrays<'a, T> {
     pub leading_dimension: usize,
     pub deformation_gradient: &'a [T],
     pub fibre: Option<&'a [T]>,
+    /// The true fibre strain at failure, ln(1 + ε_lim), of each point; 0 for that of the properties. Read where `failure` is computed.
+    pub limit: Option<&'a [T]>,
     /// The reference density; used only with `wave_speed`.
     pub density: T,
     pub stress: Option<&'a mut [T]>,
@@ -96,6 +98,7 @@ impl<'a, T: Precision> Block<'a, T> {
             strides: Strides::UNIT,
             deformation_gradient: components(arrays.deformation_gradient.as_ptr(), leading_dimension),
             fibre: components(input("entries of fibre", arrays.fibre, 3)?, leading_dimension),
+            limit: input("entries of limit", arrays.limit, 1)?,
             energies_old: energies,
             invariants_old: invariants,
             failure_old: failure,
@@ -233,6 +236,7 @@ impl<T: Precision> Hyperelastic<T> {
                 strides: points.strides,
                 deformation_gradient: points.deformation_gradient,
                 fibre: points.fibre,
+                limit: points.limit,
                 failure_old: points.failure_old,
                 status: codes.as_mut_ptr(),
                 level: points.level,

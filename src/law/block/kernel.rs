@@ -3,6 +3,7 @@
 use core::mem::MaybeUninit;
 
 use super::pointers::Pointers;
+use crate::law::failure::Failure;
 use crate::law::hyperelastic::{Deformed, Hyperelastic};
 use crate::law::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
 use crate::law::number::elementary::{Power, Reduced};
@@ -368,6 +369,10 @@ unsafe fn respond<T: Scalar, R: Lanes<T>, const WANT: u8>(
         let frame = if request.modes || tangent { frame::<T, R, WANT>(law, block, i).0 } else { law.frame };
         let k = law.kirchhoff(d, strain, power);
         let point = Deformed { law, kinematics, k: &k, shear: shears::<R, WANT>(law) };
+        let nan_if_invalid = match limit::<T, R, WANT>(block, i) {
+            Some(limit) => R::select(Failure::is_limit(limit), nan_if_invalid, R::splat(f64::NAN)),
+            None => nan_if_invalid,
+        };
         let nan_if_invalid =
             if tangent { nan_if_invalid + store_tangent(point, block, i, &frame) } else { nan_if_invalid };
         let r = point.respond(&frame, nan_if_invalid, latch, request);
@@ -404,6 +409,20 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
     }
     // SAFETY: `failure_old` is not null; its second component has n ≥ i + COUNT values.
     unsafe { R::load(block.failure_old.add(block.leading_dimension + i)) }
+}
+
+/// The limits of points that have their own, where the failure is computed.
+///
+/// # Safety
+/// As for [`sweep`], for the lanes from i on.
+#[inline(always)]
+unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> Option<R> {
+    let fails = if WANT & ANY != 0 { !block.failure.is_null() } else { WANT & STATE != 0 };
+    if !fails || block.limit.is_null() {
+        return None;
+    }
+    // SAFETY: `limit` is not null; it has n ≥ i + COUNT values.
+    Some(unsafe { R::load(block.limit.add(i)) })
 }
 
 /// Whether the tangent is requested, which only the general kernel without an aligned fibre computes.
@@ -505,7 +524,8 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     // SAFETY: what is requested has an array, whose components have n ≥ i + COUNT values.
     unsafe {
         let (k, shear) = (law.kirchhoff(d, strain, power), shears::<R, WANT>(law));
-        let r = law.history(strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
+        let failure = limit::<T, R, WANT>(block, i).map_or(law.failure, |limit| law.failure.at(limit));
+        let r = law.history(&failure, strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
         if request.energies {
             for (c, energy) in r.energies.into_iter().enumerate() {
                 energy.store_where(outcome.updated, block.energies.add(c * stride + i));
@@ -566,8 +586,10 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
             finite = finite & unsafe { (R::load(entry) * zero).le(zero) };
         }
     }
-    // SAFETY: F has the lanes from i on.
-    let code = unsafe { law.status_code(&gradient(block, i), d, usable, outcome.latch) };
+    // SAFETY: F has the lanes from i on, and so has a limit.
+    let (limit, gradient) = unsafe { (limit::<T, R, WANT>(block, i), gradient(block, i)) };
+    let usable = [usable, limit.map_or(zero.le(zero), Failure::is_limit)];
+    let code = law.status_code(&gradient, d, usable, outcome.latch);
     let code = R::select(!finite & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
     R::select(outcome.updated, zero, code)
 }

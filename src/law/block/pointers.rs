@@ -34,6 +34,8 @@ pub struct Pointers<T> {
     pub strides: Strides,
     pub deformation_gradient: [*const T; 9],
     pub fibre: [*const T; 3],
+    /// ln(1 + ε_lim) of each point, 0 for that of the properties; read where the failure is computed.
+    pub limit: *const T,
     pub energies_old: *const T,
     pub invariants_old: *const T,
     pub failure_old: *const T,
@@ -60,6 +62,7 @@ pub struct Pointers<T> {
 pub struct Strides {
     pub deformation_gradient: usize,
     pub fibre: usize,
+    pub limit: usize,
     /// Of energies, invariants and failure, old and new.
     pub state: usize,
     pub stress: usize,
@@ -70,7 +73,7 @@ pub struct Strides {
 impl Strides {
     /// Points next to each other: component-major arrays.
     pub(crate) const UNIT: Strides =
-        Strides { deformation_gradient: 1, fibre: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
+        Strides { deformation_gradient: 1, fibre: 1, limit: 1, state: 1, stress: 1, modes: 1, tangent: 1 };
 }
 
 /// The names of an array's leading dimension and stride, for messages.
@@ -108,9 +111,10 @@ impl<T> Pointers<T> {
     pub(super) fn from(self, first: usize) -> Self {
         let input = |p: *const T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
         let output = |p: *mut T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
-        let Strides { deformation_gradient, fibre, state, stress, modes, tangent } = self.strides;
+        let Strides { deformation_gradient, fibre, limit, state, stress, modes, tangent } = self.strides;
         let mut rest = Pointers {
             n: self.n - first,
+            limit: input(self.limit, limit),
             energies_old: input(self.energies_old, state),
             invariants_old: input(self.invariants_old, state),
             failure_old: input(self.failure_old, state),
@@ -206,6 +210,7 @@ impl<T: Scalar> Pointers<T> {
             strides: Strides::UNIT,
             deformation_gradient: [null(); 9],
             fibre: [null(); 3],
+            limit: null(),
             energies_old: null(),
             invariants_old: null(),
             failure_old: null(),
@@ -233,7 +238,10 @@ impl<T: Scalar> Pointers<T> {
         if self.n > 0 && self.deformation_gradient.iter().any(|pointer| pointer.is_null()) {
             return Err(Error::Null { name: "deformation_gradient" });
         }
-        let Strides { state, modes, tangent, .. } = self.strides;
+        let Strides { limit, state, modes, tangent, .. } = self.strides;
+        if !self.limit.is_null() {
+            check_layout(self.n, 1, self.n, limit, distances!("limit"))?;
+        }
         let old = [self.energies_old, self.invariants_old];
         let of_modes =
             old.iter().any(|array| !array.is_null()) || !self.energies.is_null() || !self.invariants.is_null();

@@ -1,0 +1,4 @@
+//! Strength that scatters along a yarn: by Weibull's law, in independent cells of a correlation length.
+
+pub mod field;
+pub mod weibull;

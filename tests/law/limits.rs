@@ -1,0 +1,275 @@
+//! Points with a failure limit of their own: they get what a law with that limit gives them.
+
+use std::ptr::{null, null_mut};
+
+use crate::common::block::levels;
+use crate::common::deformations::{Ranges, deformation, samples};
+use nalgebra::Matrix3;
+use toron::host::c::{
+    Block, Layout, Point, hyperelastic_block_with_properties_f64, hyperelastic_point_with_properties_f64,
+};
+use toron::law::block::{Pointers, Strides, components, components_mut};
+use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
+use toron::law::status;
+use toron::{Arrays, Hyperelastic, Level, Request};
+
+const PROPERTIES: [f64; 11] = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
+/// 0 is that of the properties.
+const LIMITS: [f64; 7] = [0.0, 0.02, 1e-3, 0.06, 0.0458, 0.0, 3.0];
+const STATE: usize = HYPERELASTIC_STATE;
+
+fn gradients(n: usize) -> Vec<Matrix3<f64>> {
+    let spread = Ranges { i_el: -0.02..0.08, i_tc: -0.3..0.1, i_td: 0.0..0.3, i_ld: 0.0..0.2 };
+    samples(deformation(spread), n).map(|sample| sample.f).collect()
+}
+
+fn limit(i: usize) -> f64 {
+    LIMITS[i % LIMITS.len()]
+}
+
+/// What is requested besides stress and state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Asked {
+    State,
+    Fibres,
+    WaveSpeed,
+    Modes,
+}
+
+/// Stress, state and status of all points, as bits.
+fn block(
+    law: &Hyperelastic<f64>,
+    f: &[Matrix3<f64>],
+    limits: Option<&[f64]>,
+    level: Level,
+    asked: Asked,
+) -> Vec<Vec<u64>> {
+    let n = f.len();
+    let gradient: Vec<f64> = (0..9).flat_map(|c| f.iter().map(move |f| f[c])).collect();
+    let fibre: Vec<f64> = [0.8, 0.0, 0.6].into_iter().flat_map(|m| vec![m; n]).collect();
+    let [mut stress, mut modes, mut wave] = [6, 24, 1].map(|components| vec![0.0; components * n]);
+    let mut state = vec![0.0; STATE * n];
+    let mut codes = vec![0; n];
+    let (energies, rest) = state.split_at_mut(4 * n);
+    let (invariants, failure) = rest.split_at_mut(4 * n);
+    let arrays = Arrays {
+        n,
+        leading_dimension: n,
+        deformation_gradient: &gradient,
+        fibre: (asked == Asked::Fibres).then_some(&fibre),
+        limit: limits,
+        density: 1.35e-9,
+        stress: Some(&mut stress),
+        energies: Some(energies),
+        invariants: Some(invariants),
+        failure: Some(failure),
+        modes: (asked == Asked::Modes).then_some(&mut modes),
+        wave_speed: (asked == Asked::WaveSpeed).then_some(&mut wave),
+        status: Some(&mut codes),
+        level: Some(level),
+        ..Arrays::default()
+    };
+    law.block(arrays).expect("a good call");
+    let point = |i: usize| {
+        let numbers = [&stress, &state, &modes, &wave].into_iter().flat_map(|array| array[i..].iter().step_by(n));
+        numbers.map(|x| x.to_bits()).chain([codes[i] as u64]).collect()
+    };
+    (0..n).map(point).collect()
+}
+
+/// Whatever the number of points, the instructions, what is requested and where the fibre comes from.
+#[test]
+fn a_block_gives_each_point_what_the_law_with_its_limit_gives() {
+    for properties in [PROPERTIES, [82341.0, 1055.0, 2.2, 649.74, 90.0, 0.0, 1.8, 0.1, 0.6, 0.0, 0.8]] {
+        let law = Hyperelastic::new(&properties).expect("valid properties");
+        let mut failed = [0; 2];
+        for level in levels() {
+            for n in [1, 2, 3, 5, 8, 9, 17, 50] {
+                let f = gradients(n);
+                let limits: Vec<f64> = (0..n).map(limit).collect();
+                for asked in [Asked::State, Asked::Fibres, Asked::WaveSpeed, Asked::Modes] {
+                    let found = block(&law, &f, Some(&limits), level, asked);
+                    for own in LIMITS {
+                        let wanted = block(&law.with_limit(own).expect("a limit"), &f, None, level, asked);
+                        for i in (0..n).filter(|&i| limit(i) == own) {
+                            assert_eq!(found[i], wanted[i], "point {i} of {n}, {asked:?}, {level:?}, limit {own}");
+                            failed[f64::from_bits(found[i][6 + FAILED]) as usize] += 1;
+                        }
+                    }
+                }
+            }
+        }
+        assert!(failed.iter().all(|&count| count > 100), "{failed:?}");
+    }
+}
+
+/// A limit is ln(1 + ε_lim): as the property has it, to rounding.
+#[test]
+fn a_limit_is_the_logarithm_of_the_property_s_stretch() {
+    let law = Hyperelastic::new(&PROPERTIES).expect("valid properties");
+    let fresh = [0.0; STATE];
+    for (i, f) in gradients(200).iter().enumerate() {
+        let eps_lim = 0.002 * (1 + i) as f64;
+        let properties = std::array::from_fn(|c| if c == 5 { eps_lim } else { PROPERTIES[c] });
+        let own = Hyperelastic::new(&properties).expect("valid properties").point(f, &fresh, Request::ALL);
+        let limited = law.with_limit(eps_lim.ln_1p()).expect("a limit").point(f, &fresh, Request::ALL);
+        let [wanted, found] = [own, limited].map(|point| point.state[FAILURE_INDEX]);
+        assert!((wanted - found).abs() <= 4.0 * f64::EPSILON * wanted, "{eps_lim}: {wanted} {found}");
+        assert_eq!(own.stress, limited.stress);
+    }
+}
+
+/// Points in rows, a block of one point and the entry for a point read the limit where the caller says.
+#[test]
+fn limits_stand_where_the_caller_says() {
+    let law = Hyperelastic::new(&PROPERTIES).expect("valid properties");
+    let n = 70;
+    let f = gradients(n);
+    let gradient: Vec<[f64; 9]> = f.iter().map(|f| std::array::from_fn(|c| f[c])).collect();
+    let limits: Vec<[f64; 3]> = (0..n).map(|i| [-1.0, limit(i), f64::NAN]).collect();
+    let mut state = vec![[0.0; STATE]; n];
+    let mut stress = vec![[0.0; 6]; n];
+    let to = state.as_mut_ptr().cast::<f64>();
+    let rows = Pointers {
+        deformation_gradient: components(gradient.as_ptr().cast(), 1),
+        limit: limits.as_ptr().cast::<f64>().wrapping_add(1),
+        stress: components_mut(stress.as_mut_ptr().cast(), 1),
+        energies: to,
+        invariants: to.wrapping_add(4),
+        failure: to.wrapping_add(8),
+        strides: Strides {
+            deformation_gradient: 9,
+            fibre: 3,
+            limit: 3,
+            state: STATE,
+            stress: 6,
+            modes: 24,
+            tangent: 36,
+        },
+        ..Pointers::without_arrays(n, 1)
+    };
+    // SAFETY: every array has a row for each point.
+    unsafe { law.raw_block(&rows) }.expect("a good call");
+    let mut of_c = state.clone();
+    of_c.fill([7.0; STATE]);
+    let to = of_c.as_mut_ptr().cast::<f64>();
+    let row = |stride: usize| Layout { leading_dimension: 1, stride };
+    let block = Block {
+        n,
+        deformation_gradient: std::array::from_fn(|c| if c == 0 { gradient.as_ptr().cast() } else { null() }),
+        energies: to,
+        invariants: to.wrapping_add(4),
+        failure: to.wrapping_add(8),
+        limit: limits.as_ptr().cast::<f64>().wrapping_add(1),
+        deformation_gradient_layout: row(9),
+        state_layout: row(STATE),
+        limit_layout: row(3),
+        ..Block::empty()
+    };
+    // SAFETY: every array has a row for each point.
+    let code = unsafe { hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, null_mut(), 0) };
+    assert_eq!((code, of_c), (status::OK, state.clone()));
+    for i in 0..n {
+        let wanted = law.with_limit(limit(i)).expect("a limit").point(&f[i], &[0.0; STATE], Request::STRESS_AND_STATE);
+        let close = |found: &[f64; STATE], what: &str| {
+            let apart = found.iter().zip(&wanted.state).map(|(a, b)| (a - b).abs() / b.abs().max(1e-3));
+            assert!(apart.fold(0.0, f64::max) < 1e-11, "{what} {i}: {found:?} {:?}", wanted.state);
+        };
+        close(&state[i], "row");
+        let (mut one, mut stress) = ([0.0; STATE], [0.0; 6]);
+        let own = limit(i);
+        let to = one.as_mut_ptr();
+        let block = Block {
+            n: 1,
+            deformation_gradient: std::array::from_fn(|c| if c == 0 { gradient[i].as_ptr() } else { null() }),
+            stress: std::array::from_fn(|c| if c == 0 { stress.as_mut_ptr() } else { null_mut() }),
+            energies: to,
+            invariants: to.wrapping_add(4),
+            failure: to.wrapping_add(8),
+            limit: &raw const own,
+            ..Block::empty()
+        };
+        // SAFETY: arrays of one point.
+        let code = unsafe { hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, null_mut(), 0) };
+        assert_eq!(code, status::OK);
+        close(&one, "block");
+        let mut alone = [0.0; STATE];
+        let point = Point {
+            deformation_gradient: gradient[i].as_ptr(),
+            state_new: alone.as_mut_ptr(),
+            stress: stress.as_mut_ptr(),
+            limit: &raw const own,
+            ..Point::empty()
+        };
+        // SAFETY: arrays of one point.
+        let code = unsafe { hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &point, null_mut(), 0) };
+        assert_eq!(code, status::OK);
+        close(&alone, "point");
+    }
+}
+
+/// A limit that means nothing has a code of its own; the point keeps its state, and the others do not notice.
+#[test]
+fn a_limit_that_means_nothing_is_an_error_of_its_point() {
+    let law = Hyperelastic::new(&PROPERTIES).expect("valid properties");
+    for wrong in [-1e-300, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(law.with_limit(wrong).is_err());
+        for n in [1, 3, 8, 20] {
+            let f = gradients(n);
+            let mut limits = vec![0.0; n];
+            limits[n / 2] = wrong;
+            for level in levels() {
+                for asked in [Asked::State, Asked::Modes] {
+                    let found = block(&law, &f, Some(&limits), level, asked);
+                    let wanted = block(&law, &f, None, level, asked);
+                    for i in 0..n {
+                        if i == n / 2 {
+                            assert_eq!(found[i].last(), Some(&(status::LIMIT as u64)), "{wrong} {n} {level:?}");
+                            assert!(found[i][..6 + STATE - 1].iter().all(|&bits| bits == 0), "{:?}", found[i]);
+                        } else {
+                            assert_eq!(found[i], wanted[i], "{wrong} {n} {level:?} {asked:?}");
+                        }
+                    }
+                }
+            }
+        }
+        let gradient = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let (mut state, mut message) = ([0.0; STATE], [0; 300]);
+        let point = Point {
+            deformation_gradient: gradient.as_ptr(),
+            state_new: state.as_mut_ptr(),
+            limit: &raw const wrong,
+            ..Point::empty()
+        };
+        // SAFETY: arrays of one point, and a message of its length.
+        let code = unsafe {
+            hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &point, message.as_mut_ptr(), message.len())
+        };
+        let text: String = message.iter().take_while(|&&c| c != 0).map(|&c| char::from(c as u8)).collect();
+        assert_eq!(code, status::LIMIT);
+        assert!(text.contains("the failure limit of this point is negative, NaN or infinite"), "{text}");
+    }
+    // Where nothing fails it is not read.
+    let f = gradients(9);
+    let gradient: Vec<f64> = (0..9).flat_map(|c| f.iter().map(move |f| f[c])).collect();
+    let mut stress = vec![0.0; 54];
+    let limits = [f64::NAN; 9];
+    let arrays = Arrays {
+        n: 9,
+        leading_dimension: 9,
+        deformation_gradient: &gradient,
+        limit: Some(&limits),
+        stress: Some(&mut stress),
+        ..Arrays::default()
+    };
+    assert_eq!(law.block(arrays), Ok(status::OK));
+    let short = Arrays {
+        n: 9,
+        leading_dimension: 9,
+        deformation_gradient: &gradient,
+        limit: Some(&limits[..8]),
+        ..Arrays::default()
+    };
+    let error = law.block(short).expect_err("eight limits of nine").to_string();
+    assert!(error.contains("entries of limit"), "{error}");
+}
