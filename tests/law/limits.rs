@@ -110,7 +110,7 @@ fn a_limit_is_the_logarithm_of_the_property_s_stretch() {
     let fresh = [0.0; STATE];
     for (i, f) in gradients(200).iter().enumerate() {
         let eps_lim = 0.002 * (1 + i) as f64;
-        let properties = std::array::from_fn(|c| if c == 5 { eps_lim } else { PROPERTIES[c] });
+        let properties: [f64; 11] = std::array::from_fn(|c| if c == 5 { eps_lim } else { PROPERTIES[c] });
         let own = Hyperelastic::new(&properties).expect("valid properties").point(f, &fresh, Request::ALL);
         let limited = law.with_limit(eps_lim.ln_1p()).expect("a limit").point(f, &fresh, Request::ALL);
         let [wanted, found] = [own, limited].map(|point| point.state[FAILURE_INDEX]);

@@ -112,6 +112,7 @@ fn stress_arrays<'a, T: Real>(
         leading_dimension,
         deformation_gradient,
         fibre: None,
+        limit: None,
         density: T::splat(0.0),
         stress: Some(stress),
         energies: None,

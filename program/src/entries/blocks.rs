@@ -58,6 +58,8 @@ pub struct SolverBlock<'a, T> {
     /// Whether energies and invariants are wanted, and whether points may fail.
     pub energies: bool,
     pub failure: bool,
+    /// A failure limit of its own for each point, ln(1 + ε_lim).
+    pub limit: Option<&'a [T]>,
     /// Out, 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: &'a mut [T],
     /// The reference density, and out, 1: a bound of the wave speed.
@@ -82,6 +84,7 @@ impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
         assert!(holds(stress.len(), 6) && status.len() >= n && wave_speed.as_ref().is_none_or(|to| to.len() >= n));
         assert!(tangent.as_ref().is_none_or(|to| holds(to.len(), 36)));
         assert!(self.state_old.is_none_or(|old| holds(old.len(), HYPERELASTIC_STATE)));
+        assert!(self.limit.is_none_or(|limit| limit.len() >= n));
         let state = state.as_mut_ptr();
         let old = self.state_old.map_or(state.cast_const(), <[T]>::as_ptr);
         // SAFETY: the array holds all rows, as has just been seen.
@@ -104,6 +107,7 @@ impl<'a, T: BlockPrecision> SolverBlock<'a, T> {
             wave_speed: wave_speed.map_or(null_mut(), <[T]>::as_mut_ptr),
             tangent: tangent.map_or(null_mut(), <[T]>::as_mut_ptr),
             status: status.as_mut_ptr(),
+            limit: self.limit.map_or(null(), <[T]>::as_ptr),
             ..Block::empty()
         };
         arrays.deformation_gradient[0] = deformation_gradient.as_ptr();

@@ -138,6 +138,8 @@ pub struct ElementBlock<T> {
     pub first: usize,
     pub medium: usize,
     pub history: History<T>,
+    /// ln(1 + ε_lim) of each element, where they have limits of their own; else empty.
+    limit: Vec<T>,
 }
 
 /// What a block's elements remember from step to step.
@@ -172,8 +174,14 @@ impl<T: Number> ElementBlock<T> {
                 viscosity: Viscosity::new(&shapes),
                 f_old: shapes.at_rest(),
             },
+            limit: Vec::new(),
             shapes,
         }
+    }
+
+    /// Gives each element a failure limit of its own, ln(1 + ε_lim), which only the hyperelastic law reads.
+    pub fn limit(&mut self, limits: &[f64]) {
+        self.limit = limits.iter().map(|&limit| T::from_f64(limit)).collect();
     }
 
     /// From the nodes' displacements to their forces; updates the history.
@@ -247,6 +255,7 @@ impl<T: Number> ElementBlock<T> {
             state_old: None,
             energies: options.law_outputs,
             failure: medium.fails,
+            limit: (!self.limit.is_empty()).then_some(&self.limit),
             stress: &mut scratch.stress,
             wave_speed: Some((T::from_f64(medium.density), wave_speed)),
             tangent: None,

@@ -92,6 +92,13 @@ impl<T: Number> Body<T> {
         }
     }
 
+    /// Gives each element a failure limit of its own, ln(1 + ε_lim).
+    pub fn limit(&mut self, limits: &[f64]) {
+        for block in &mut self.blocks {
+            block.limit(&limits[block.first..block.first + block.shapes.n]);
+        }
+    }
+
     /// Lumps an eighth of every element's mass at each corner.
     fn lump_mass(&mut self, media: &[Medium<T>]) {
         for block in &self.blocks {
