@@ -23,6 +23,9 @@ const HISTORIES: usize = 60;
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
 
+/// Relative difference from which the modulus of unloading is another than that of loading.
+const TWO_MODULI: f64 = 5e-2;
+
 /// What DDSDDE may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Convention {
@@ -94,7 +97,12 @@ pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
         Err(line) => return *line,
     };
     if broken && states.is_empty() {
-        return Line::new(Question::Tangent, Verdict::NotSure, None, "the law asks for smaller increments at every state");
+        return Line::new(
+            Question::Tangent,
+            Verdict::NotSure,
+            None,
+            "the law asks for smaller increments at every state",
+        );
     }
     let tolerance = allowed.unwrap_or(TOLERANCE);
     let judged = |convention: &Convention| {
@@ -247,13 +255,7 @@ fn refused(failure: Failure) -> Result<bool, Box<Line>> {
     }
 }
 
-fn state(
-    session: &mut Session,
-    before: &Point,
-    f1: &Matrix3<f64>,
-    reads: Reads,
-    name: &str,
-) -> Result<State, Failure> {
+fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads, name: &str) -> Result<State, Failure> {
     let call = before.call(f1, session.material);
     let answer = session.ask(&call);
     if answer.refused() {
@@ -330,6 +332,14 @@ fn in_what_way(
                 let error = error_at(found, k);
                 if error <= TOLERANCE { mistaken <= near } else { mistaken <= near.max(0.1 * error).min(0.3 * error) }
             };
+            // What unloads as it loads has no modulus of its own for that, and any factor of each state explains too much.
+            let kept = tried.iter().all(|(k, all)| {
+                let truth = states[*k].truth(convention, components);
+                truth.is_none_or(|(sure, truth)| compare(&all[h].modulus, &truth, sure, components).worst < TWO_MODULI)
+            });
+            if kept && tried[0].1[h].kinds.contains(&"intact") {
+                continue;
+            }
             if common.is_nan() || (tried[0].1[h].factor == Factor::OfAllStates && (common - 1.0).abs() < 1e-3) {
                 continue;
             }
@@ -377,7 +387,8 @@ fn error_at(found: &[Option<Difference>], k: usize) -> f64 {
 
 /// The factor of one modulus that makes it most like the other.
 fn fitted(modulus: &Modulus, like: &Modulus) -> f64 {
-    let product = |a: &Modulus, b: &Modulus| a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum::<f64>();
+    let product =
+        |a: &Modulus, b: &Modulus| a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum::<f64>();
     product(modulus, like) / product(like, like)
 }
 
