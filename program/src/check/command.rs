@@ -222,7 +222,8 @@ impl Check<'_> {
         }
         ended.push((kind.clone(), question));
         let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
-        if let Some(call) = call {
+        // The build with checks at run time is not the one that repeats a call.
+        if let Some(call) = call.filter(|_| question != Question::Runtime) {
             let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
             line.call = Some(repeated.write(&self.arguments.output, question)?.display().to_string());
         }

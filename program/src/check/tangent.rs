@@ -174,6 +174,9 @@ fn convergence(factor: f64) -> String {
     if factor < 1e-3 {
         return "it hardly slows Newton's method".to_string();
     }
+    if factor > 0.98 {
+        return format!("Newton's method keeps {factor:.2} of an error and hardly converges");
+    }
     let iterations = (1e-8_f64.ln() / factor.ln()).ceil();
     format!("Newton's method keeps {factor:.2} of an error: {iterations} iterations for eight digits")
 }
@@ -309,7 +312,7 @@ fn in_what_way(
     let spread = wrong.len().div_ceil(TRIED).max(1);
     let wrong: Vec<usize> = wrong.into_iter().step_by(spread).collect();
     let right: Vec<usize> = right.iter().copied().step_by(right.len().div_ceil(TRIED).max(1)).collect();
-    let mut names: Vec<(Vec<&'static str>, String, bool)> = Vec::new();
+    let mut names: Vec<(Vec<&'static str>, String, Factor, bool)> = Vec::new();
     for &convention in conventions {
         let tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = wrong
             .iter()
@@ -352,7 +355,7 @@ fn in_what_way(
                 if tried[0].1[h].factor == Factor::OfAllStates {
                     text = format!("{text} times {common:.4}");
                 }
-                names.push((tried[0].1[h].kinds.clone(), text, explains(&right)));
+                names.push((tried[0].1[h].kinds.clone(), text, tried[0].1[h].factor, explains(&right)));
             }
         }
     }
@@ -361,6 +364,10 @@ fn in_what_way(
     names.retain(|(.., holds)| *holds || !everywhere);
     let fewest = names.iter().map(|(kinds, ..)| kinds.len()).min().unwrap_or(0);
     names.retain(|(kinds, ..)| kinds.len() == fewest);
+    // A mistake that needs no factor explains more than the same with one.
+    let plain: Vec<Vec<&'static str>> =
+        names.iter().filter(|named| named.2 == Factor::One).map(|(kinds, ..)| kinds.clone()).collect();
+    names.retain(|(kinds, _, factor, _)| *factor == Factor::One || !plain.contains(kinds));
     let mut kinds: Vec<String> = Vec::new();
     for kind in names.iter().flat_map(|(kinds, ..)| kinds) {
         if !kinds.iter().any(|known| known == kind) {
@@ -371,7 +378,7 @@ fn in_what_way(
         return (vec!["unknown".to_string()], "none of the usual mistakes".to_string());
     }
     let mut texts: Vec<String> = Vec::new();
-    for (kinds, text, _) in &names {
+    for (kinds, text, ..) in &names {
         let said = format!("{}: {text}", kinds.join(" and "));
         if !texts.contains(&said) {
             texts.push(said);
