@@ -8,7 +8,7 @@ use super::kinematics::Modulus;
 /// Largest relative error that is right.
 pub const TOLERANCE: f64 = 1e-4;
 /// A soft direction counts against this part of the stiffest one.
-const SOFTEST: f64 = 1e-2;
+const SOFTEST: f64 = 1e-4;
 
 /// How wrong a modulus is.
 #[derive(Clone, Copy, Debug, Default)]

@@ -377,13 +377,21 @@ fn in_what_way(
     if kinds.is_empty() {
         return (vec!["unknown".to_string()], "none of the usual mistakes".to_string());
     }
-    let mut texts: Vec<String> = Vec::new();
-    for (kinds, text, ..) in &names {
-        let said = format!("{}: {text}", kinds.join(" and "));
-        if !texts.contains(&said) {
-            texts.push(said);
-        }
-    }
+    let texts: Vec<String> = kinds
+        .iter()
+        .map(|kind| {
+            let of_kind = names.iter().filter(|(kinds, ..)| kinds[0] == kind);
+            let mut texts: Vec<&str> = of_kind.map(|(_, text, ..)| text.as_str()).collect();
+            texts.dedup();
+            match texts[..] {
+                [] => kind.clone(),
+                [ref said @ .., last] if texts.len() <= 2 => {
+                    format!("{kind}: {}", [said, &[last]].concat().join(" or "))
+                }
+                [first, ..] => format!("{kind}: {first}, or {} others like it", texts.len() - 1),
+            }
+        })
+        .collect();
     let branch = if everywhere { "" } else { ", in one branch" };
     (kinds, format!("{}{branch}", texts.join(", or ")))
 }
