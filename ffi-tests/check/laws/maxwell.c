@@ -33,8 +33,8 @@ static void eigen(const matrix of, double value[3], matrix axes)
             p = 1, q = 2;
         if (a[p][q] == 0)
             break;
-        double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        double t = (theta < 0 ? -1 : 1) / (fabs(theta) + hypot(theta, 1)), c = 1 / hypot(t, 1), s = t * c;
+        double gap = a[q][q] - a[p][p], twice = 2 * a[p][q];
+        double t = twice / (gap + copysign(hypot(gap, twice), gap)), c = 1 / hypot(t, 1), s = t * c;
         for (int k = 0; k < 3; k++) {
             double x = a[k][p], y = a[k][q];
             a[k][p] = c * x - s * y, a[k][q] = s * x + c * y;

@@ -28,8 +28,8 @@ static void eigen(double a[3][3], double value[3], double axes[3][3])
             for (int q = p + 1; q < 3; q++) {
                 if (a[p][q] == 0)
                     continue;
-                double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-                double t = (theta < 0 ? -1 : 1) / (fabs(theta) + hypot(theta, 1));
+                double gap = a[q][q] - a[p][p], twice = 2 * a[p][q];
+                double t = twice / (gap + copysign(hypot(gap, twice), gap)); /* of the smaller angle */
                 double c = 1 / sqrt(t * t + 1), s = t * c;
                 for (int k = 0; k < 3; k++) {
                     double x = a[k][p], y = a[k][q];
