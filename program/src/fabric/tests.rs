@@ -26,7 +26,8 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
 
 /// The directions of a yarn's middle line from section to section, as angles over the panel.
 fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
-    let per = yarn.nodes_per_section();
+    let grid = yarn.grid.expect("a grid");
+    let per = grid.nodes_per_section();
     let middle = |section: usize| -> Vector3<f64> {
         let nodes = section * per..(section + 1) * per;
         nodes.map(|node| Vector3::from(body.position(node))).sum::<Vector3<f64>>() / per as f64
@@ -35,7 +36,7 @@ fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
         let along = middle(layer + 1) - middle(layer);
         along.z.atan2(along.x)
     };
-    (0..yarn.layers).map(slope).collect()
+    (0..grid.layers).map(slope).collect()
 }
 
 /// What acts on a body's nodes.
@@ -59,7 +60,7 @@ struct Pull {
 fn pull(friction: f64) -> Pull {
     let (yarns, mut solver) = patch(friction);
     let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
-    let (warp, per) = (&yarns[0], yarns[0].nodes_per_section());
+    let (warp, per) = (&yarns[0], yarns[0].grid.expect("a grid").nodes_per_section());
     let last = solver.bodies[0].mesh.nodes.len() - per;
     for node in 0..per {
         solver.bodies[0].support(node, held([0.0; 3]));

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::geometry::{Family, Geometry};
 use super::model::{Model, Yarn};
-use crate::explicit::hexahedron::Edges;
+use crate::explicit::hexahedron::{Edges, solid_corners};
 
 /// Lengths are in the units of the weave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,28 +27,33 @@ pub struct Figures {
 
 impl Figures {
     pub fn of(model: &Model, geometry: &Geometry) -> Figures {
+        let pitch = Family::BOTH.map(|family| geometry.weave.thread(family).pitch);
+        Figures::with(model, Family::BOTH.map(|family| geometry.crimp(family)), pitch)
+    }
+
+    /// With the crimp and the pitch of warp and weft.
+    pub fn with(model: &Model, crimp: [f64; 2], pitch: [f64; 2]) -> Figures {
         let heights = || model.nodes.iter().map(|node| node[2]);
         let count = |family: Family| model.yarns.iter().filter(|yarn| yarn.family == family).count();
         let mut figures = Figures {
             yarns: Family::BOTH.map(count),
             nodes: model.nodes.len(),
             elements: model.elements.len(),
-            crimp: Family::BOTH.map(|family| geometry.crimp(family)),
+            crimp,
             thickness: heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min),
-            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, geometry, family)),
+            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, family, pitch[family as usize])),
             least_jacobian: f64::INFINITY,
             least_scaled_jacobian: f64::INFINITY,
             shortest_edge: f64::INFINITY,
         };
         for element in &model.elements {
-            let mut nodes = [[0.0; 3]; 8];
-            for (place, &node) in nodes.iter_mut().zip(element) {
-                *place = model.nodes[node as usize];
-            }
-            let edges = Edges::of(&nodes);
-            figures.least_jacobian = edges.jacobians().into_iter().fold(figures.least_jacobian, f64::min);
-            figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(edges.least_scaled_jacobian());
-            figures.shortest_edge = edges.lengths().into_iter().flatten().fold(figures.shortest_edge, f64::min);
+            let edges = Edges::of(&model.corners(element));
+            let jacobians = edges.jacobians().into_iter().zip(solid_corners(element)).filter(|(_, solid)| *solid);
+            figures.least_jacobian = jacobians.fold(figures.least_jacobian, |least, (jacobian, _)| least.min(jacobian));
+            figures.least_scaled_jacobian =
+                figures.least_scaled_jacobian.min(edges.least_scaled_jacobian(solid_corners(element)));
+            let lengths = edges.lengths().into_iter().flatten().filter(|length| *length > 0.0);
+            figures.shortest_edge = lengths.fold(figures.shortest_edge, f64::min);
         }
         figures
     }
@@ -59,7 +64,7 @@ impl Figures {
 }
 
 /// The volume of a family over the area that its yarns cover, each its pitch wide.
-fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
+fn volume_by_area(model: &Model, family: Family, pitch: f64) -> f64 {
     let yarns = || model.yarns.iter().filter(|yarn| yarn.family == family);
     let derivatives = derivatives();
     let volume: f64 = yarns()
@@ -67,8 +72,12 @@ fn volume_by_area(model: &Model, geometry: &Geometry, family: Family) -> f64 {
         .map(|e| volume(model, e, &derivatives))
         .sum();
     let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
-    let layers: f64 = yarns().map(|yarn| width(yarn) * yarn.layers as f64).sum();
-    volume / (layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch)
+    let length = |yarn: &Yarn| {
+        let [low, high] = model.extent(yarn, family as usize);
+        high - low
+    };
+    let covered: f64 = yarns().map(|yarn| width(yarn) * length(yarn)).sum::<f64>() * pitch;
+    if covered > 0.0 { volume / covered } else { 0.0 }
 }
 
 /// Derivatives of the corners' weights along the three axes, at the eight points of Gauss.

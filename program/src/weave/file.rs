@@ -6,6 +6,7 @@ use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use super::foreign::file::MeshFile;
 use super::panel::{Centre, Part};
 use super::section::Section;
 use crate::common::toml_file::{Numbers, over};
@@ -16,7 +17,8 @@ use crate::material::file::MaterialFile;
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Spanned<WeaveFile>,
+    pub weave: Option<Spanned<WeaveFile>>,
+    pub mesh: Option<Spanned<MeshFile>>,
     pub material: Option<Spanned<MaterialFile>>,
     /// How the panel is struck, which is nothing to its mesh.
     #[serde(rename = "scene")]

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
+use super::cloth::Cloth;
 use super::file::{PanelFile, PatternFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::model::Model;
@@ -43,7 +44,7 @@ impl Woven {
 pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
-    pub woven: Woven,
+    pub cloth: Cloth,
     /// Of the yarns, where the scene names one.
     pub material: Option<Material>,
 }
@@ -71,7 +72,7 @@ impl Scene {
             material.map(|table| source.material(Laws::Toron, table.get_ref(), &units, table.span())).transpose()?;
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
-            woven: source.woven(&file.weave, &units)?,
+            cloth: source.cloth(file.weave.as_ref(), file.mesh.as_ref(), &units)?,
             material,
             units,
         })

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
+use super::cloth::Cloth;
 use super::figures::Figures;
 use super::reader::Scene;
 use crate::common::units::number;
@@ -37,19 +38,22 @@ pub fn areal_density_warning(volume_by_area: f64, density: f64, units: &UnitSyst
 
 pub fn report(scene: &Scene, figures: &Figures) -> String {
     let length = scene.units.names()[0];
-    let geometry = &scene.woven.geometry;
     let percent = figures.crimp.map(|crimp| number(100.0 * crimp));
     let [warps, wefts] = figures.yarns;
     let density = scene.material.as_ref().and_then(|material| material.density);
     let areal_density = density.map_or("no material that has a density".to_string(), |density| {
         format!("{} kg/m²", number(areal_density(figures.volume_by_area(), density, &scene.units)))
     });
-    let rows = [
+    let mut rows = vec![
         ("yarns", format!("{warps} warp, {wefts} weft")),
         ("elements, nodes", format!("{}, {}", figures.elements, figures.nodes)),
         ("crimp of warp and weft", format!("{} %, {} %", percent[0], percent[1])),
-        ("amplitude of the centre lines", format!("{} {length}", number(geometry.amplitude))),
-        ("least distance of yarns", format!("{} {length}", number(geometry.weave.clearance))),
+    ];
+    if let Cloth::Woven(woven) = &scene.cloth {
+        rows.push(("amplitude of the centre lines", format!("{} {length}", number(woven.geometry.amplitude))));
+    }
+    rows.extend([
+        ("least distance of yarns", format!("{} {length}", number(scene.cloth.clearance()))),
         ("thickness", format!("{} {length}", number(figures.thickness))),
         ("volume over area", format!("{} {length}", number(figures.volume_by_area()))),
         ("areal density", areal_density),
@@ -58,7 +62,12 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
             format!("{} {length}³, scaled {}", number(figures.least_jacobian), number(figures.least_scaled_jacobian)),
         ),
         ("shortest edge", format!("{} {length}", number(figures.shortest_edge))),
-    ];
+    ]);
+    let mut of_mesh = Vec::new();
+    if let Cloth::Foreign(foreign) = &scene.cloth {
+        rows.extend(foreign.rows(length));
+        of_mesh = foreign.checks.warnings();
+    }
     let mut text = format!("{}\n\n", scene.title);
     for (name, value) in rows {
         let _ = writeln!(text, "  {name:<30}  {value}");
@@ -66,7 +75,7 @@ pub fn report(scene: &Scene, figures: &Figures) -> String {
     let wave = scene.material.as_ref().and_then(|material| FibreWave::of(material, &scene.units));
     let of_wave = wave.and_then(|wave| wave.unit_warning(&scene.units));
     let of_area = density.and_then(|density| areal_density_warning(figures.volume_by_area(), density, &scene.units));
-    let warnings: Vec<String> = of_wave.into_iter().chain(of_area).collect();
+    let warnings: Vec<String> = of_mesh.into_iter().chain(of_wave).chain(of_area).collect();
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };
         let _ = writeln!(text, "{before}warning: {}", warning.replace('\n', "\n  "));

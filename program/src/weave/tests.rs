@@ -5,11 +5,12 @@ use std::collections::HashSet;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::cloth::Cloth;
 use super::distance::{self, Quad};
 use super::figures::Figures;
 use super::file::WeaveFile;
 use super::geometry::{Family, Weave};
-use super::model::{Crossing, Model, Yarn};
+use super::model::{Crossing, Grid, Model, Yarn};
 use super::panel::{Centre, Outline, Panel, Part};
 use super::pattern::Pattern;
 use super::preset::Preset;
@@ -42,6 +43,10 @@ fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
 fn small(weave: &Weave) -> Panel {
     let half = [1, 0].map(|family: usize| 2.0 * weave.threads[family].pitch);
     panel(Outline::Rectangle(half), Part::Whole, Centre::Crossing)
+}
+
+fn grid(yarn: &Yarn) -> Grid {
+    yarn.grid.expect("a woven yarn has a grid")
 }
 
 /// The least distance between the faces of two yarns within half a pitch of their crossing, up to a bound.
@@ -132,7 +137,10 @@ fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
     assert!((0.232..0.235).contains(&figures.thickness), "{figures:?}");
     assert!(figures.least_scaled_jacobian > 0.9);
     assert_eq!(figures.elements, 98_136);
-    assert_eq!(figures.elements, model.yarns.iter().map(|yarn| yarn.layers * yarn.columns * 2).sum::<usize>());
+    assert_eq!(
+        figures.elements,
+        model.yarns.iter().map(|yarn| 2 * grid(yarn).layers * grid(yarn).columns).sum::<usize>()
+    );
 }
 
 /// Places to a picometre, to be found in a set.
@@ -160,7 +168,7 @@ fn a_quarter_is_the_whole_where_x_and_y_are_positive() {
             assert!(on == set.len() && on > 0 && set.iter().all(|&node| quarter.nodes[node as usize][axis] == 0.0));
         }
         // The rim is one section of each yarn of the quarter, two of the whole.
-        let ends = |model: &Model| model.yarns.iter().map(Yarn::nodes_per_section).sum::<usize>();
+        let ends = |model: &Model| model.yarns.iter().map(|yarn| grid(yarn).nodes_per_section()).sum::<usize>();
         assert_eq!([quarter.rim.len(), whole.rim.len()], [ends(&quarter), 2 * ends(&whole)]);
         // No face lies on a plane of symmetry.
         for face in &quarter.faces {
@@ -177,15 +185,16 @@ fn yarns_are_contiguous_and_fibres_unit_tangents_of_their_centre_lines() {
     for yarn in &model.yarns {
         assert_eq!([yarn.nodes.start, yarn.elements.start, yarn.faces.start], [node, element, face]);
         (node, element, face) = (yarn.nodes.end, yarn.elements.end, yarn.faces.end);
-        assert_eq!(yarn.section(yarn.layers).end, node);
-        assert_eq!(yarn.layer(yarn.layers - 1).end, element);
+        let grid = grid(yarn);
+        assert_eq!(yarn.nodes.start + grid.section(grid.layers).end, node);
+        assert_eq!(yarn.elements.start + grid.layer(grid.layers - 1).end, element);
         let centre = |section: usize| {
-            let nodes = yarn.section(section).map(|node| nalgebra::Vector3::from(model.nodes[node]));
-            nodes.sum::<nalgebra::Vector3<f64>>() / yarn.nodes_per_section() as f64
+            let nodes = grid.section(section).map(|node| nalgebra::Vector3::from(model.nodes[yarn.nodes.start + node]));
+            nodes.sum::<nalgebra::Vector3<f64>>() / grid.nodes_per_section() as f64
         };
-        for layer in 0..yarn.layers {
+        for layer in 0..grid.layers {
             let tangent = (centre(layer + 1) - centre(layer)).normalize();
-            for element in yarn.layer(layer) {
+            for element in grid.layer(layer).map(|element| yarn.elements.start + element) {
                 assert!((nalgebra::Vector3::from(model.fibre[element]) - tangent).norm() < 1e-12);
                 let corners = model.elements[element];
                 assert!(corners.iter().all(|&corner| yarn.nodes.contains(&(corner as usize))));
@@ -269,7 +278,8 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     );
     let own = format!("{own}warp = {{ pitch = 1, width = 0.6, height = 0.1 }}");
     let scene = Scene::parse("weave.toml", &own).expect("the weft is as the warp");
-    let threads = scene.woven.geometry.weave.threads;
+    let Cloth::Woven(woven) = scene.cloth else { panic!("a weave") };
+    let threads = woven.geometry.weave.threads;
     assert_eq!(threads[0], threads[1]);
 }
 
