@@ -87,7 +87,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
 
 /// The part of the panel that is modelled.
 pub fn share(case: &Case) -> f64 {
-    match case.woven.panel.part {
+    match case.cloth.part() {
         Part::Whole => 1.0,
         Part::Quarter => 0.25,
     }

@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
+use crate::common::toml_file::{self, Source, over};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
@@ -18,8 +18,9 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
+use crate::weave::cloth::Cloth;
 use crate::weave::file::{ThreadFile, WeaveFile};
-use crate::weave::reader::Woven;
+use crate::weave::foreign::file::MeshFile;
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -52,9 +53,12 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let woven = Arc::new(source.woven(&file.weave, &units)?);
+        let cloth = Arc::new(source.cloth(file.weave.as_ref(), file.mesh.as_ref(), &units)?);
         if let Some(weave) = &file.scene.get_ref().weave {
             return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
+        }
+        if let Some(mesh) = &file.scene.get_ref().mesh {
+            return Err(source.error(mesh.span(), "mesh in [scene]; allowed: [mesh], or in a [[case]]"));
         }
         let cases = keys::cases(
             (&source, &units),
@@ -62,12 +66,20 @@ impl Scene {
             (&["summary"], PICTURES),
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
-                let weave = file.weave.get_ref();
-                let (woven, weave) = match &file_of_case.weave {
-                    Some(own) => (Arc::new(source.woven_of_case(own, weave, &units)?), own.get_ref().over(weave)),
-                    None => (woven.clone(), weave.clone()),
+                let (weave, none) = (file.weave.as_ref().map(Spanned::get_ref), WeaveFile::default());
+                let (cloth, weave) = match (&file_of_case.weave, &file_of_case.mesh) {
+                    (Some(own), None) => {
+                        let base = weave.unwrap_or(&none);
+                        let woven = source.woven_of_case(own, base, &units)?;
+                        (Arc::new(Cloth::Woven(woven)), own.get_ref().over(base))
+                    }
+                    (None, None) => (cloth.clone(), weave.unwrap_or(&none).clone()),
+                    (own, Some(mesh)) => {
+                        let mesh = over(&Some(mesh.clone()), &file.mesh, MeshFile::over);
+                        (Arc::new(source.cloth(own.as_ref(), mesh.as_ref(), &units)?), none)
+                    }
                 };
-                reader.panel_case(file_of_case, &weave, woven, name)
+                reader.panel_case(file_of_case, &weave, cloth, name)
             },
         )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
@@ -75,15 +87,15 @@ impl Scene {
 }
 
 impl Reader<'_> {
-    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
+    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, cloth: Arc<Cloth>, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
-        let height = woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+        let [_, height] = cloth.yarn_heights();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            woven,
+            cloth,
             speed: self.speed(zones.inner())?,
             zones,
             threads: [self.thread_material(&weave.warp)?, self.thread_material(&weave.weft)?],

@@ -17,7 +17,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
          yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
-    let panel = scene.cases[0].woven.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
     solver.projectile = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
@@ -135,7 +135,7 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
          [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
          [scene]\nspeed = 1.0\nmass = 2e-6\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
     let scene = Scene::parse("patch.toml", text).expect("a scene");
-    let panel = scene.cases[0].woven.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
     let sphere = solver.projectile.as_mut().expect("it is there");
     // The heights of the nodes on the axis, three of each of the two yarns that cross there.

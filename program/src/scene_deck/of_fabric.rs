@@ -22,7 +22,7 @@ pub const WATCHED: usize = 100;
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    let panel = case.woven.model();
+    let panel = case.cloth.model();
     check(case, &panel)?;
     let Conversion { from, to } = conversion;
     let used = used(case);
@@ -49,7 +49,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         supports.push(rim(&panel));
     }
     let length = |value| conversion.of(value, LENGTH);
-    let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(f64::INFINITY, f64::min);
+    let [height, _] = case.cloth.yarn_heights();
     let end = conversion.of(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
@@ -64,10 +64,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         },
         part: share(case),
         height: length(height),
-        contact: Some(Contact {
-            friction: case.mutual.friction,
-            clearance: length(case.woven.geometry.weave.clearance),
-        }),
+        contact: Some(Contact { friction: case.mutual.friction, clearance: length(case.cloth.clearance()) }),
         control: case.control,
         end,
         sample: conversion.of(case.plan.sample, TIME),

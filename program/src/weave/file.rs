@@ -28,7 +28,7 @@ pub struct SceneFile {
 }
 
 /// The table `[weave]`, and what a case has otherwise.
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WeaveFile {
     pub preset: Option<Spanned<String>>,

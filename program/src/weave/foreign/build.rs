@@ -70,7 +70,9 @@ impl<'a> Thread<'a> {
         for element in &elements {
             let corners = Corners::new(element.nodes, &raw.nodes);
             let given = element.direction.map(Vector3::from);
-            let direction = given.unwrap_or_else(|| corners.nearest_axis(long));
+            let direction = given.or_else(|| long.map(|long| corners.nearest_axis(long))).ok_or_else(|| {
+                format!("{name} has no fibre directions and is hardly longer than wide; allowed: directions, or a longer yarn")
+            })?;
             if !(direction.norm() > 0.0 && direction.norm().is_finite()) {
                 return Err(format!("element {} of {name} has a fibre direction of no length", element.number));
             }
@@ -78,7 +80,8 @@ impl<'a> Thread<'a> {
             fibre.push(if unit { direction } else { direction.normalize() });
         }
         // A fibre has no sense.
-        let sum: Vector3<f64> = fibre.iter().map(|axis| if axis.dot(&long) < 0.0 { -axis } else { *axis }).sum();
+        let sense = |axis: &Vector3<f64>| if axis.dot(&fibre[0]) < 0.0 { -axis } else { *axis };
+        let sum: Vector3<f64> = fibre.iter().map(sense).sum();
         let family = if sum.x.abs() >= sum.y.abs() { Family::Warp } else { Family::Weft };
         for axis in &mut fibre {
             if axis[family as usize] < 0.0 {
@@ -96,12 +99,18 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// The direction in which points are farthest from each other.
-fn long_axis(points: &[Vector3<f64>]) -> Vector3<f64> {
+/// A yarn is so many times as long as wide, where its shape tells which is which.
+const LONGER: f64 = 1.5;
+
+/// The direction in which points are spread most; none where they are so in another one hardly less.
+pub fn long_axis(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
     let middle = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
     let spread: Matrix3<f64> = points.iter().map(|point| (point - middle) * (point - middle).transpose()).sum();
     let axes = spread.symmetric_eigen();
-    axes.eigenvectors.column(axes.eigenvalues.imax()).into_owned()
+    let longest = axes.eigenvalues.imax();
+    let others = (0..3).filter(|&axis| axis != longest).map(|axis| axes.eigenvalues[axis]).fold(0.0, f64::max);
+    let longer = axes.eigenvalues[longest] > LONGER * LONGER * others;
+    longer.then(|| axes.eigenvectors.column(longest).into_owned())
 }
 
 impl Model {
@@ -235,22 +244,17 @@ impl Model {
         }
     }
 
-    /// The height of the yarn's node that is nearest to a place, seen from above, and at its middle height.
+    /// The middle height of a yarn's nodes that are nearest to a place along it.
     fn height_at(&self, yarn: &Yarn, place: [f64; 2]) -> f64 {
         let along = yarn.family as usize;
         let nodes = &self.nodes[yarn.nodes.clone()];
         let distance = |node: &[f64; 3]| (node[along] - place[along]).abs();
         let least = nodes.iter().map(distance).fold(f64::INFINITY, f64::min);
-        let near =
-            nodes.iter().filter(|node| distance(node) <= least * (1.0 + ROUNDING) + ROUNDING * yarn_width(self, yarn));
-        let [low, high] = extent(near.map(|node| node[2]));
+        let [low, high] = self.extent(yarn, 1 - along);
+        let reach = least + ROUNDING * (high - low);
+        let [low, high] = extent(nodes.iter().filter(|node| distance(node) <= reach).map(|node| node[2]));
         0.5 * (low + high)
     }
-}
-
-fn yarn_width(model: &Model, yarn: &Yarn) -> f64 {
-    let [low, high] = model.extent(yarn, 1 - yarn.family as usize);
-    high - low
 }
 
 impl Grid {

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 use super::bins::{Bins, around};
+use super::build::long_axis;
 use crate::common::units::number;
 use crate::explicit::hexahedron::{Edges, solid_corners};
 use crate::weave::cut;
@@ -172,14 +173,11 @@ fn off_element(model: &Model, element: usize) -> f64 {
     angle(end - start, Vector3::from(model.fibre[element]))
 }
 
-/// The angle between the mean of a yarn's fibres and the direction in which it is longest.
+/// The angle between the mean of a yarn's fibres and the direction in which it is longest; 0 of one that is hardly longer than wide.
 fn off_yarn(model: &Model, yarn: &Yarn) -> f64 {
-    let nodes = || model.nodes[yarn.nodes.clone()].iter().map(|&node| Vector3::from(node));
-    let middle = nodes().sum::<Vector3<f64>>() / yarn.nodes.len() as f64;
-    let spread: Matrix3<f64> = nodes().map(|node| (node - middle) * (node - middle).transpose()).sum();
-    let axes = spread.symmetric_eigen();
+    let nodes: Vec<Vector3<f64>> = model.nodes[yarn.nodes.clone()].iter().map(|&node| Vector3::from(node)).collect();
     let fibres = model.fibre[yarn.elements.clone()].iter().map(|&axis| Vector3::from(axis));
-    angle(fibres.sum(), axes.eigenvectors.column(axes.eigenvalues.imax()).into_owned())
+    long_axis(&nodes).map_or(0.0, |long| angle(fibres.sum(), long))
 }
 
 /// The number of the yarn of every element.
