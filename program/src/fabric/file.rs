@@ -6,7 +6,7 @@ use toml::Spanned;
 use crate::common::toml_file::Unused;
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
-use crate::weave::file::WeaveFile;
+use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 
 #[derive(Deserialize)]
@@ -15,6 +15,8 @@ pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
     pub weave: Option<Spanned<WeaveFile>>,
+    #[serde(default)]
+    pub ply: Vec<Spanned<PlyFile>>,
     pub mesh: Option<Spanned<MeshFile>>,
     pub scene: Spanned<CaseFile>,
     #[serde(default)]
@@ -24,6 +26,7 @@ pub struct SceneFile {
 with_common_keys!(case_file! {
     {
         weave: Spanned<WeaveFile>,
+        ply: Vec<Spanned<PlyFile>>,
         mesh: Spanned<MeshFile>,
         shape: ShapeName,
         length: Spanned<f64>,

@@ -67,12 +67,14 @@ impl Measures {
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
-    let figures = case.cloth.figures(panel);
-    let density = |family: Family| case.material(family).density.unwrap_or_default();
-    let mass: f64 = Family::BOTH.map(|family| figures.volumes_by_area[family as usize] * density(family)).iter().sum();
-    let volume = figures.volume_by_area();
-    let areal_density = areal_density_warning(volume, mass / volume, units);
-    findings.extend(areal_density.map(|text| Finding::new("units", text)));
+    for (number, figures) in case.cloth.figures(panel).into_iter().enumerate() {
+        let density = |family: Family| case.material(number, family).density.unwrap_or_default();
+        let mass = |family: Family| figures.volumes_by_area[family as usize] * density(family);
+        let volume = figures.volume_by_area();
+        let mass: f64 = Family::BOTH.map(mass).iter().sum();
+        let areal_density = areal_density_warning(volume, mass / volume, units);
+        findings.extend(areal_density.map(|text| Finding::new("units", text)));
+    }
     findings.extend(coarse(units, case, panel));
     findings
 }

@@ -117,12 +117,8 @@ impl OfPanel {
 
 /// The farthest place from the centre, along the yarns next to its axes, that has come down by more than a threshold.
 fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
-    let nearest = panel.yarns.iter().map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min);
     let mut farthest: f64 = 0.0;
-    for (yarn, body) in panel.yarns.iter().zip(&solver.bodies) {
-        if yarn.coordinate.abs() > 1.001 * nearest {
-            continue;
-        }
+    for body in panel.central().map(|(number, _)| &solver.bodies[number]) {
         for (node, [x, y, _]) in body.mesh.nodes.iter().enumerate() {
             if -body.state.displacement[node][2].into() > threshold {
                 farthest = farthest.max(x.hypot(*y));

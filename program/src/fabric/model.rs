@@ -68,7 +68,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let surface = Surface::new(&mesh, local, elements);
         mesh.surface = struck_surface(&mesh, &surface.area);
         let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
-        let own = case.own_material(yarn.family);
+        let own = case.own_material(yarn.ply, yarn.family);
         let medium = |element| own.unwrap_or_else(|| zone(&case.zones, corners(element)));
         let zones: Vec<usize> = mesh.elements.iter().map(medium).collect();
         let body = Body::new(mesh, &media, |element| zones[element]);

@@ -19,7 +19,7 @@ pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     folder::check(output)?;
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
-    let mut text = report::report(&scene, &scene.cloth.figures(&model));
+    let mut text = report::report(&scene, &model);
     let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));
     std::fs::write(&mesh, vtu::unstructured_grid(&model)).map_err(|error| file_error(&mesh, &error))?;
     picture::write(&svg, &png, &scene, &model)?;

@@ -30,12 +30,12 @@ impl Model {
         let (family, rows) = (place.family, weave.rows);
         let lines = lines(place, weave.columns);
         let columns = lines.len() - 1;
-        let [first, last] = [if panel.part == Part::Whole { -(place.layers as i64) } else { 0 }, place.layers as i64];
+        let [first, last] = place.stations;
         let starts = [self.nodes.len(), self.elements.len(), self.faces.len()];
         for station in first..=last {
             self.add_section(geometry, panel, place, station, lines.clone());
         }
-        let layers = (last - first) as usize;
+        let layers = place.layers();
         let grid = Grid { layers, columns, rows };
         for layer in 0..layers {
             let direction =
@@ -52,6 +52,7 @@ impl Model {
             }
         }
         let yarn = Yarn {
+            ply: 0,
             family,
             number: place.number,
             coordinate: place.coordinate,
@@ -115,8 +116,10 @@ impl Model {
 
     fn find_crossings(&mut self, geometry: &Geometry, places: &[Place]) {
         let weave = &geometry.weave;
-        let reaches =
-            |place: &Place, coordinate: f64| coordinate.abs() <= weave.step(place.family) * place.layers as f64;
+        let reaches = |place: &Place, coordinate: f64| {
+            let [first, last] = place.stations.map(|station| weave.step(place.family) * station as f64);
+            (first..=last).contains(&coordinate)
+        };
         let warps = places.iter().take_while(|place| place.family == Family::Warp).count();
         for (warp, i) in places[..warps].iter().enumerate() {
             for (weft, j) in places[warps..].iter().enumerate() {

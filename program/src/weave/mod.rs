@@ -12,6 +12,7 @@ pub mod figures;
 pub mod file;
 pub mod foreign;
 pub mod geometry;
+pub mod layup;
 pub mod mesh;
 pub mod model;
 pub mod panel;

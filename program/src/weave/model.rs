@@ -34,8 +34,11 @@ pub struct Face {
 /// A yarn and its parts of the model's lists.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Yarn {
+    /// From the struck side.
+    pub ply: usize,
     pub family: Family,
-    /// Its number in the pattern, 0 at the origin or next to it, and its place: y of a warp yarn, x of a weft yarn.
+    /// Its number in the pattern, 0 at the origin or next to it, and its place: y of a warp yarn, x of a weft yarn, before the ply is
+    /// turned.
     pub number: i64,
     pub coordinate: f64,
     /// Cut along its axis by a plane of symmetry: half of the columns are there.
@@ -104,7 +107,7 @@ pub struct Model {
     pub elements: Vec<[u32; 8]>,
     /// The unit direction of each element's fibres: that of the centre line, as it is meshed, at the element's middle.
     pub fibre: Vec<[f64; 3]>,
-    /// The warp first, by their coordinates.
+    /// Ply by ply, the warp first, by their coordinates.
     pub yarns: Vec<Yarn>,
     pub faces: Vec<Face>,
     /// Nodes of the sections where yarns end at the panel's edge.
@@ -125,5 +128,19 @@ impl Model {
     pub fn extent(&self, yarn: &Yarn, axis: usize) -> [f64; 2] {
         let places = self.nodes[yarn.nodes.clone()].iter().map(|node| node[axis]);
         places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
+    /// The yarns nearest to the centre of each ply.
+    pub fn central(&self) -> impl Iterator<Item = (usize, &Yarn)> {
+        let nearest = |ply: usize| {
+            let of_ply = self.yarns.iter().filter(|yarn| yarn.ply == ply);
+            of_ply.map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min)
+        };
+        let nearest: Vec<f64> = (0..self.plies()).map(nearest).collect();
+        self.yarns.iter().enumerate().filter(move |(_, yarn)| yarn.coordinate.abs() <= 1.001 * nearest[yarn.ply])
+    }
+
+    pub fn plies(&self) -> usize {
+        self.yarns.last().map_or(0, |yarn| yarn.ply + 1)
     }
 }

@@ -65,6 +65,7 @@ mod tests {
         let elements: Vec<[u32; 8]> = places.map(|place| grid.corners(place).map(|node| node as u32)).collect();
         let section = |number: usize| grid.section(number).map(|node| node as u32).collect();
         let of_grid = Yarn {
+            ply: 0,
             family: Family::Warp,
             number: 0,
             coordinate: 0.0,

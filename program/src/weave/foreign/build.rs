@@ -141,6 +141,7 @@ impl Model {
         let [low, high] = extent(self.nodes[nodes.clone()].iter().map(|node| node[1 - family as usize]));
         let rounding = ROUNDING * (high - low);
         let mut yarn = Yarn {
+            ply: 0,
             family,
             number: 0,
             coordinate: thread.coordinate,

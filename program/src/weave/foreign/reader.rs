@@ -80,7 +80,7 @@ impl Source<'_> {
         let part = keys.part.unwrap_or_default();
         let model = raw.model(part).map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let pitch = pitch(&model);
-        let figures = Figures::with(&model, crimp(&model), pitch);
+        let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
         let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
         if !(THICKNESS[0]..=THICKNESS[1]).contains(&thickness) {
             let [least, most] = THICKNESS.map(|size| number(1e3 * size));
@@ -149,6 +149,17 @@ fn crimp(model: &Model) -> [f64; 2] {
             (length, crossed) = (length + volume, crossed + volume * model.fibre[element][family as usize].abs());
         }
         length / crossed - 1.0
+    })
+}
+
+/// The area that the yarns of warp and weft cover, each its pitch wide.
+fn covered(model: &Model, pitch: [f64; 2]) -> [f64; 2] {
+    Family::BOTH.map(|family| {
+        let area = |yarn: &Yarn| {
+            let [low, high] = model.extent(yarn, family as usize);
+            (high - low) * pitch[family as usize] * if yarn.halved { 0.5 } else { 1.0 }
+        };
+        model.yarns.iter().filter(|yarn| yarn.family == family).map(area).sum()
     })
 }
 
