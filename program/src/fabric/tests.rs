@@ -234,5 +234,5 @@ fn plies_have_materials_of_their_own() {
     }
     let cases =
         plies("", "[[case]]\nname = \"one\"\n[[case]]\nname = \"two\"\nply = [{}, { angle = 90 }]\n").expect("cases");
-    assert_eq!(cases.cases.iter().map(|case| case.cloth.plies.len()).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(cases.cases.iter().map(|case| case.cloth.plies().len()).collect::<Vec<_>>(), [1, 2]);
 }

@@ -34,7 +34,13 @@ impl Raw {
                 }
             }
         }
-        let mut threads = (0..self.yarns.len()).map(|yarn| Thread::of(self, yarn)).collect::<Result<Vec<_>, _>>()?;
+        let mut points = vec![Vec::new(); self.yarns.len()];
+        for (owner, &node) in owner.iter().zip(&self.nodes) {
+            owner.iter().for_each(|&yarn| points[yarn].push(Vector3::from(node)));
+        }
+        let axes = LongAxis::told(points.iter().map(|points| LongAxis::of(points)).collect());
+        let threads = axes.into_iter().enumerate().map(|(yarn, long)| Thread::of(self, yarn, long));
+        let mut threads = threads.collect::<Result<Vec<_>, _>>()?;
         let families = |family: Family| threads.iter().filter(move |thread| thread.family == family).count();
         if threads.is_empty() || families(Family::Warp) == 0 || families(Family::Weft) == 0 {
             let [warps, wefts] = Family::BOTH.map(families);
@@ -61,17 +67,16 @@ struct Thread<'a> {
 }
 
 impl<'a> Thread<'a> {
-    fn of(raw: &'a Raw, yarn: usize) -> Result<Thread<'a>, String> {
+    fn of(raw: &'a Raw, yarn: usize, long: Option<Vector3<f64>>) -> Result<Thread<'a>, String> {
         let name = &*raw.yarns[yarn];
         let elements: Vec<&Element> = raw.elements.iter().filter(|element| element.yarn == yarn).collect();
         let nodes = elements.iter().flat_map(|element| element.nodes).map(|node| raw.nodes[node as usize]);
-        let long = long_axis(&nodes.clone().map(Vector3::from).collect::<Vec<_>>());
         let mut fibre = Vec::with_capacity(elements.len());
         for element in &elements {
             let corners = Corners::new(element.nodes, &raw.nodes);
             let given = element.direction.map(Vector3::from);
             let direction = given.or_else(|| long.map(|long| corners.nearest_axis(long))).ok_or_else(|| {
-                format!("{name} has no fibre directions and is hardly longer than wide; allowed: directions, or a longer yarn")
+                format!("{name} has no fibre directions and is too short to tell them; allowed: directions, or a longer yarn")
             })?;
             if !(direction.norm() > 0.0 && direction.norm().is_finite()) {
                 return Err(format!("element {} of {name} has a fibre direction of no length", element.number));
@@ -99,18 +104,40 @@ fn extent(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 
-/// A yarn is so many times as long as wide, where its shape tells which is which.
-const LONGER: f64 = 1.5;
+/// The direction in which points are spread most.
+#[derive(Clone, Copy)]
+pub struct LongAxis {
+    pub direction: Vector3<f64>,
+    /// How far, and over how far in another direction.
+    spread: f64,
+    ratio: f64,
+}
 
-/// The direction in which points are spread most; none where they are so in another one hardly less.
-pub fn long_axis(points: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-    let middle = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
-    let spread: Matrix3<f64> = points.iter().map(|point| (point - middle) * (point - middle).transpose()).sum();
-    let axes = spread.symmetric_eigen();
-    let longest = axes.eigenvalues.imax();
-    let others = (0..3).filter(|&axis| axis != longest).map(|axis| axes.eigenvalues[axis]).fold(0.0, f64::max);
-    let longer = axes.eigenvalues[longest] > LONGER * LONGER * others;
-    longer.then(|| axes.eigenvectors.column(longest).into_owned())
+/// A yarn is so many times as long as wide where its shape tells which is which, and has this part of the longest yarn's length:
+/// those that the outline cuts short do not.
+const LONGER: f64 = 1.5;
+const NO_STUB: f64 = 0.25;
+
+impl LongAxis {
+    pub fn of(points: &[Vector3<f64>]) -> LongAxis {
+        let middle = points.iter().sum::<Vector3<f64>>() / points.len().max(1) as f64;
+        let spread: Matrix3<f64> = points.iter().map(|point| (point - middle) * (point - middle).transpose()).sum();
+        let axes = (spread / points.len().max(1) as f64).symmetric_eigen();
+        let longest = axes.eigenvalues.imax();
+        let others = (0..3).filter(|&axis| axis != longest).map(|axis| axes.eigenvalues[axis]).fold(0.0, f64::max);
+        LongAxis {
+            direction: axes.eigenvectors.column(longest).into_owned(),
+            spread: axes.eigenvalues[longest].sqrt(),
+            ratio: (axes.eigenvalues[longest] / others).sqrt(),
+        }
+    }
+
+    /// Of each yarn, where its shape tells it.
+    pub fn told(axes: Vec<LongAxis>) -> Vec<Option<Vector3<f64>>> {
+        let longest = axes.iter().map(|axis| axis.spread).fold(0.0, f64::max);
+        let tells = |axis: &LongAxis| axis.ratio > LONGER && axis.spread >= NO_STUB * longest;
+        axes.into_iter().map(|axis| tells(&axis).then_some(axis.direction)).collect()
+    }
 }
 
 impl Model {

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 use super::bins::{Bins, around};
-use super::build::long_axis;
+use super::build::LongAxis;
 use crate::common::units::number;
 use crate::explicit::hexahedron::{Edges, solid_corners};
 use crate::weave::cut;
@@ -58,7 +58,6 @@ impl Checks {
         let volume = |element: usize| Edges::of(&model.corners(&model.elements[element])).volume();
         let shared: f64 = overlapping.iter().map(|&(element, share)| share * volume(element)).sum();
         let whole: f64 = (0..model.elements.len()).map(volume).sum();
-        let off_yarn = model.yarns.iter().map(|yarn| (off_yarn(model, yarn), yarn.family, yarn.number));
         Checks {
             shared: shared / whole,
             clearance: if overlapping.is_empty() { clearance(model, heights[0].max(heights[1])) } else { 0.0 },
@@ -67,7 +66,7 @@ impl Checks {
             wedges: elements().filter(|element| solid_corners(element).contains(&false)).count(),
             inside_out: elements().filter(|element| is_inside_out(model, element)).count(),
             off_element: (0..model.elements.len()).map(|element| off_element(model, element)).fold(0.0, f64::max),
-            off_yarn: off_yarn.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Family::Warp, 0)),
+            off_yarn: off_yarn(model),
         }
     }
 
@@ -173,11 +172,16 @@ fn off_element(model: &Model, element: usize) -> f64 {
     angle(end - start, Vector3::from(model.fibre[element]))
 }
 
-/// The angle between the mean of a yarn's fibres and the direction in which it is longest; 0 of one that is hardly longer than wide.
-fn off_yarn(model: &Model, yarn: &Yarn) -> f64 {
-    let nodes: Vec<Vector3<f64>> = model.nodes[yarn.nodes.clone()].iter().map(|&node| Vector3::from(node)).collect();
-    let fibres = model.fibre[yarn.elements.clone()].iter().map(|&axis| Vector3::from(axis));
-    long_axis(&nodes).map_or(0.0, |long| angle(fibres.sum(), long))
+/// The largest angle between the mean of a yarn's fibres and the direction in which it is longest, where its shape tells that.
+fn off_yarn(model: &Model) -> (f64, Family, i64) {
+    let nodes = |yarn: &Yarn| model.nodes[yarn.nodes.clone()].iter().map(|&node| node.into()).collect::<Vec<_>>();
+    let axes = LongAxis::told(model.yarns.iter().map(|yarn| LongAxis::of(&nodes(yarn))).collect());
+    let off = |(yarn, axis): (&Yarn, Option<Vector3<f64>>)| {
+        let fibres = model.fibre[yarn.elements.clone()].iter().map(|&axis| Vector3::from(axis));
+        axis.map(|axis| (angle(fibres.sum(), axis), yarn.family, yarn.number))
+    };
+    let all = model.yarns.iter().zip(axes).filter_map(off);
+    all.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Family::Warp, 0))
 }
 
 /// The number of the yarn of every element.
