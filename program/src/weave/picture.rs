@@ -1,5 +1,6 @@
 //! The picture of a panel: from above, its middle larger, and a cut through the axis of a warp yarn.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use plotters::prelude::*;
@@ -40,6 +41,9 @@ const CUT: f64 = 6.0;
 const CONTRAST: f64 = 1.5;
 const DEPTH: f64 = 0.45;
 
+/// Elements of a mesh that reach into another yarn.
+const OVERLAP: RGBColor = RGBColor(200, 20, 40);
+
 fn colour(family: Family) -> RGBColor {
     if family == Family::Warp { COLOURS[0] } else { COLOURS[4] }
 }
@@ -49,8 +53,7 @@ fn colour(family: Family) -> RGBColor {
 /// # Errors
 /// A file cannot be written.
 pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(), Error> {
-    let threads = scene.layup.plies.iter().flat_map(|ply| ply.woven.geometry.weave.threads);
-    let pitch = threads.map(|thread| thread.pitch).fold(0.0, f64::max);
+    let pitch = scene.cloth.pitch();
     let unit = scene.units.names()[0];
     let whole = bounds(model, LARGEST * pitch);
     let right = LEFT + VIEW + (WIDTH - 2 * LEFT - 2 * VIEW);
@@ -67,14 +70,16 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     let height = bottom + RULER_BELOW + FOOT;
     let sides = surface::visible(model, &model.nodes, |_| true);
     let family: Vec<Family> = model.yarns.iter().flat_map(|yarn| yarn.elements.clone().map(|_| yarn.family)).collect();
+    let overlapping: HashSet<usize> = scene.cloth.overlapping().iter().copied().collect();
+    let colour_of = |element| if overlapping.contains(&element) { OVERLAP } else { colour(family[element]) };
     let shade = |side: &Visible, lit: Lit| {
         let depth = 0.5 * (1.0 - lit.height / highest);
         let brightness = 1.0 + CONTRAST * (lit.light - FACING) - DEPTH * depth;
-        projection::brightened(colour(family[side.element]), brightness)
+        projection::brightened(colour_of(side.element), brightness)
     };
     page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
-        draw_legend(root)?;
+        draw_legend(root, !overlapping.is_empty())?;
         let of_part = if whole == bounds(model, f64::INFINITY) {
             "The panel from above"
         } else {
@@ -87,7 +92,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
             ruler::draw(root, [left, rulers_top], view.scale, unit)?;
         }
         draw_heading(root, "Cut through the axis of a warp yarn", LEFT, VIEW_TOP + VIEW + CUT_HEADING)?;
-        cut::draw(root, &cut, &cut::pieces(model, &model.nodes), |piece| Some(colour(piece.family)))?;
+        cut::draw(root, &cut, &cut::through_a_warp_yarn(model), |piece| colour_of(piece.element))?;
         ruler::draw(root, [LEFT, bottom + RULER_BELOW], cut.scale, unit)
     })
 }
@@ -112,13 +117,14 @@ fn draw_heading(root: &Area, name: &str, left: i32, top: i32) -> Drawn<()> {
     Ok(())
 }
 
-fn draw_legend(root: &Area) -> Drawn<()> {
-    for (number, (family, name)) in
-        [(Family::Warp, "warp, along x"), (Family::Weft, "weft, along y")].into_iter().enumerate()
-    {
+fn draw_legend(root: &Area, overlap: bool) -> Drawn<()> {
+    let families = [(Family::Warp, "warp, along x"), (Family::Weft, "weft, along y")];
+    let entries = families.into_iter().map(|(family, name)| (colour(family), name));
+    let overlap = overlap.then_some((OVERLAP, "in two yarns"));
+    for (number, (colour, name)) in entries.chain(overlap).enumerate() {
         let left = LEFT + number as i32 * LEGEND_STEP;
         let corners = [(left, LEGEND_TOP), (left + SWATCH, LEGEND_TOP + SWATCH)].map(|(x, y)| (fine(x), fine(y)));
-        root.draw(&Rectangle::new(corners, colour(family).filled()))?;
+        root.draw(&Rectangle::new(corners, colour.filled()))?;
         let style = text(TEXT, &GREY).pos(Pos::new(HPos::Left, VPos::Center));
         root.draw_text(name, &style, (fine(left + SWATCH + 8), fine(LEGEND_TOP + SWATCH / 2)))?;
     }
