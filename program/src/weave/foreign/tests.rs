@@ -109,7 +109,7 @@ impl Cross {
         for (number, solid) in (1..).zip(&self.elements) {
             let n: Vec<usize> = solid.nodes.iter().map(|node| node + 1).collect();
             let nodes = match n[..] {
-                [a, b, c, d, e, f] => [a, b, e, d, c, c, f, f],
+                [a, b, c, d, e, f] => [b, a, d, e, c, c, f, f],
                 _ => std::array::from_fn(|i| n[i]),
             };
             let _ = write!(text, "{number:>8}{:>8}", 11 + solid.yarn);
