@@ -33,8 +33,10 @@ const MATERIAL: &str = "[material]\npreset = \"kevlar-km2-600\"\n";
 
 /// The value that a figure of the report has.
 fn figure(report: &str, name: &str) -> f64 {
-    let line = report.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_else(|| panic!("{name}: {report}"));
-    let value = line.trim_start()[name.len()..].split_whitespace().find_map(|word| word.trim_end_matches(',').parse().ok());
+    let line =
+        report.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_else(|| panic!("{name}: {report}"));
+    let value =
+        line.trim_start()[name.len()..].split_whitespace().find_map(|word| word.trim_end_matches(',').parse().ok());
     value.unwrap_or_else(|| panic!("{line}"))
 }
 
@@ -121,9 +123,11 @@ fn a_woven_panel_read_back_has_the_same_history() {
     assert!(toron(&output, "weave", &format!("units = \"mm-g-ms\"\n{weave}")).status.success());
     assert!(woven == history("[mesh]\nfile = \"weave.vtu\"\npart = \"quarter\"\n"), "the histories differ");
     // A case may have a mesh of its own.
-    let cases = "[[case]]\nname = \"woven\"\n[[case]]\nname = \"read\"\nmesh = { file = \"weave.vtu\", part = \"quarter\" }\n";
+    let cases =
+        "[[case]]\nname = \"woven\"\n[[case]]\nname = \"read\"\nmesh = { file = \"weave.vtu\", part = \"quarter\" }\n";
     let answer = toron(&output, "fabric", &format!("units = \"mm-g-ms\"\n{weave}{SCENE}{cases}"));
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
-    let [one, other] = ["woven", "read"].map(|name| std::fs::read(output.join(format!("{name}.csv"))).expect("a history"));
+    let [one, other] =
+        ["woven", "read"].map(|name| std::fs::read(output.join(format!("{name}.csv"))).expect("a history"));
     assert!(one == other && one == woven.as_bytes());
 }
