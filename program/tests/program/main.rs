@@ -29,6 +29,7 @@ mod impact;
 mod licences;
 mod load_paths;
 mod long;
+mod meshes;
 mod newton;
 mod one_element;
 mod parallel;

@@ -14,11 +14,12 @@ use crate::weave::model::{END, Model, START, Yarn};
 
 /// Stations along a yarn at which its height is measured; the middle one of the heights counts.
 const STATIONS: usize = 9;
-/// The points of an element that are looked for in other yarns stand so far from its middle, of 1 to its faces.
-const POINTS: f64 = 0.5;
-/// More of the yarns' volume may not be in two of them, and from this part on it is warned of.
+/// The points of an element that are looked for in other yarns are the middles of its thirds along each axis.
+const THIRDS: [f64; 3] = [-2.0 / 3.0, 0.0, 2.0 / 3.0];
+/// A node is in an element where it is farther than this part of it from its faces.
+const ON_FACE: f64 = 1e-6;
+/// More of the yarns' volume may not be in two of them.
 const MOST_SHARED: f64 = 0.02;
-const SHARED: f64 = 1e-4;
 /// Fibres may be farther off the line through their element, and those of a yarn off its length, by these angles in degrees.
 const OFF_ELEMENT: f64 = 25.0;
 const OFF_YARN: f64 = 45.0;
@@ -26,8 +27,10 @@ const OFF_YARN: f64 = 45.0;
 /// The figures of a mesh. Lengths are in the scene's units, angles in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checks {
-    /// The part of the yarns' volume that is in another yarn too, by eight points an element, and the elements with such points.
+    /// The part of the yarns' volume that is in another yarn too, by 27 points an element, nodes that are, and the elements that have
+    /// such points or nodes.
     pub shared: f64,
+    pub sunk_nodes: usize,
     pub overlapping: Vec<usize>,
     /// The least distance between yarns; 0 where they meet.
     pub clearance: f64,
@@ -54,14 +57,15 @@ impl Checks {
             middle_of(&mut all).unwrap_or(0.0)
         });
         let elements = || model.elements.iter();
-        let overlapping = overlapping(model);
+        let overlap = Overlap::of(model);
         let volume = |element: usize| Edges::of(&model.corners(&model.elements[element])).volume();
-        let shared: f64 = overlapping.iter().map(|&(element, share)| share * volume(element)).sum();
+        let shared: f64 = overlap.elements.iter().map(|&(element, share)| 0.0_f64.max(share * volume(element))).sum();
         let whole: f64 = (0..model.elements.len()).map(volume).sum();
         Checks {
-            shared: shared / whole,
-            clearance: if overlapping.is_empty() { clearance(model, heights[0].max(heights[1])) } else { 0.0 },
-            overlapping: overlapping.into_iter().map(|(element, _)| element).collect(),
+            shared: shared.max(0.0) / whole,
+            sunk_nodes: overlap.nodes,
+            clearance: if overlap.elements.is_empty() { clearance(model, heights[0].max(heights[1])) } else { 0.0 },
+            overlapping: overlap.elements.into_iter().map(|(element, _)| element).collect(),
             heights,
             wedges: elements().filter(|element| solid_corners(element).contains(&false)).count(),
             inside_out: elements().filter(|element| is_inside_out(model, element)).count(),
@@ -95,10 +99,11 @@ impl Checks {
     /// What is likely wrong, though a run can begin.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if self.shared > SHARED {
+        if !self.overlapping.is_empty() {
             warnings.push(format!(
-                "{} % of the yarns' volume is in two yarns, in {} elements, red in the picture:\n\
+                "{} nodes are in another yarn, and {} % of the yarns' volume, in {} elements, red in the picture:\n\
                  the contact presses them apart with a force that is there before the strike",
+                self.sunk_nodes,
                 number(100.0 * self.shared),
                 self.overlapping.len()
             ));
@@ -124,7 +129,12 @@ impl Checks {
             ("heights of warp and weft", format!("{warp} {length}, {weft} {length}")),
             (
                 "volume in two yarns",
-                format!("{} %, of {} elements", number(100.0 * self.shared), self.overlapping.len()),
+                format!(
+                    "{} %, of {} elements, {} nodes",
+                    number(100.0 * self.shared),
+                    self.overlapping.len(),
+                    self.sunk_nodes
+                ),
             ),
             ("elements with a corner inside out", self.inside_out.to_string()),
             ("fibres off their elements", format!("up to {}°", number(self.off_element))),
@@ -193,36 +203,55 @@ fn yarn_of_element(model: &Model) -> Vec<u32> {
     yarns
 }
 
-/// The elements that have points in another yarn, and the part of their points.
-fn overlapping(model: &Model) -> Vec<(usize, f64)> {
-    let yarns = yarn_of_element(model);
-    let bins = Bins::new(model.elements.iter().map(|element| around(model.corners(element))).collect());
-    let inside = |element: usize, point: &Vector3<f64>| {
-        let bounds = [(*point).into(); 2];
-        bins.near(&bounds)
-            .any(|other| yarns[other] != yarns[element] && holds(&model.corners(&model.elements[other]), point))
-    };
-    let of_element = |element: usize| {
-        let points = points_in(&model.corners(&model.elements[element]));
-        let found = points.iter().filter(|point| inside(element, point)).count();
-        (found > 0).then_some((element, found as f64 / points.len() as f64))
-    };
-    (0..model.elements.len()).into_par_iter().filter_map(of_element).collect()
+/// Where yarns are in one another.
+struct Overlap {
+    /// The elements that have points or nodes in another yarn, and the part of their points.
+    elements: Vec<(usize, f64)>,
+    nodes: usize,
 }
 
-/// Eight points of an element, between its middle and its corners.
-fn points_in(corners: &[[f64; 3]; 8]) -> [Vector3<f64>; 8] {
+impl Overlap {
+    fn of(model: &Model) -> Overlap {
+        let yarns = yarn_of_element(model);
+        let bins = Bins::new(model.elements.iter().map(|element| around(model.corners(element))).collect());
+        let inside = |yarn: u32, point: &Vector3<f64>, margin: f64| {
+            let bounds = [(*point).into(); 2];
+            let mut near = bins.near(&bounds).filter(|&other| yarns[other] != yarn);
+            near.any(|other| holds(&model.corners(&model.elements[other]), point, margin))
+        };
+        let mut sunk = vec![false; model.nodes.len()];
+        for (number, yarn) in model.yarns.iter().enumerate() {
+            sunk[yarn.nodes.clone()].par_iter_mut().zip(&model.nodes[yarn.nodes.clone()]).for_each(|(sunk, &node)| {
+                *sunk = inside(number as u32, &Vector3::from(node), ON_FACE);
+            });
+        }
+        let of_element = |element: usize| {
+            let points = points_in(&model.corners(&model.elements[element]));
+            let found = points.iter().filter(|point| inside(yarns[element], point, 0.0)).count();
+            let with_node = model.elements[element].iter().any(|&node| sunk[node as usize]);
+            (found > 0 || with_node).then_some((element, found as f64 / points.len() as f64))
+        };
+        Overlap {
+            elements: (0..model.elements.len()).into_par_iter().filter_map(of_element).collect(),
+            nodes: sunk.iter().filter(|sunk| **sunk).count(),
+        }
+    }
+}
+
+/// The middles of an element's 27 parts.
+fn points_in(corners: &[[f64; 3]; 8]) -> [Vector3<f64>; 27] {
     std::array::from_fn(|point| {
+        let place = [point / 9, point / 3 % 3, point % 3].map(|third| THIRDS[third]);
         let weight = |corner: usize| {
-            let near = |axis: usize| if (point ^ corner) >> axis & 1 == 0 { 1.0 + POINTS } else { 1.0 - POINTS };
+            let near = |axis: usize| if corner >> axis & 1 == 1 { 1.0 + place[axis] } else { 1.0 - place[axis] };
             0.125 * near(0) * near(1) * near(2)
         };
         (0..8).map(|corner| Vector3::from(corners[corner]) * weight(corner)).sum()
     })
 }
 
-/// Whether a point is in one of the six tetrahedra about an element's diagonal.
-fn holds(corners: &[[f64; 3]; 8], point: &Vector3<f64>) -> bool {
+/// Whether a point is in one of the six tetrahedra about an element's diagonal, by this margin from what is outside the element.
+fn holds(corners: &[[f64; 3]; 8], point: &Vector3<f64>, margin: f64) -> bool {
     let from_first = |corner: usize| Vector3::from(corners[corner]) - Vector3::from(corners[0]);
     let (diagonal, point) = (from_first(7), point - Vector3::from(corners[0]));
     [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]].into_iter().any(|[a, b]| {
@@ -230,7 +259,8 @@ fn holds(corners: &[[f64; 3]; 8], point: &Vector3<f64>) -> bool {
         // One of no volume holds nothing.
         edges.try_inverse().is_some_and(|inverse| {
             let shares = inverse * point;
-            shares.iter().all(|&share| share >= 0.0) && shares.sum() <= 1.0
+            // Two of the four faces are the element's: across from its first and its last corner.
+            shares.iter().all(|&share| share >= 0.0) && 1.0 - shares.sum() >= margin && shares.z >= margin
         })
     })
 }

@@ -109,7 +109,7 @@ impl Cross {
         for (number, solid) in (1..).zip(&self.elements) {
             let n: Vec<usize> = solid.nodes.iter().map(|node| node + 1).collect();
             let nodes = match n[..] {
-                [a, b, c, d, e, f] => [a, b, e, d, c, c, f, f],
+                [a, b, c, d, e, f] => [b, a, d, e, c, c, f, f],
                 _ => std::array::from_fn(|i| n[i]),
             };
             let _ = write!(text, "{number:>8}{:>8}", 11 + solid.yarn);
@@ -238,11 +238,16 @@ fn a_woven_panel_comes_back_as_it_was() {
 #[test]
 fn yarns_that_go_into_each_other_are_counted_and_refused() {
     let sunk = |gap: f64| read("sunk", &[("cross.k", &Cross::new(gap).ls_dyna())], "");
-    let slightly = sunk(-0.02).expect("a panel");
-    // Twice what the tops share, 0.22 by 0.22 and less upwards, of eight points an element.
-    assert!(slightly.checks.shared > 1e-3 && slightly.checks.shared < 0.02, "{:?}", slightly.checks);
-    assert!(slightly.clearance == 0.0 && slightly.checks.warnings()[0].contains("is in two yarns"));
-    assert!(slightly.checks.overlapping.iter().all(|&element| slightly.model.nodes.len() > element));
+    let slightly = sunk(-0.012).expect("a panel");
+    // Eight nodes of each crossing's hexahedra are in the other yarn, and no point of an element's thirds.
+    let checks = &slightly.checks;
+    assert_eq!((checks.sunk_nodes, checks.shared, slightly.clearance), (4 * 4, 0.0, 0.0), "{checks:?}");
+    assert!(checks.warnings()[0].contains("16 nodes are in another yarn"), "{:?}", checks.warnings());
+    // Squares of 0.2 at four crossings, a third of an element high in both yarns; the wedges add little.
+    let error = sunk(-0.02).map(|_| ()).expect_err("too deep").to_string();
+    let share = error.split(' ').nth(1).and_then(|share| share.parse::<f64>().ok()).expect("a number");
+    let hexahedra = 100.0 * 4.0 * 2.0 * 0.2 * 0.2 * HEIGHT / 3.0 / (4.0 * 0.04 * LENGTH);
+    assert!((0.9 * hexahedra..2.0 * hexahedra).contains(&share), "{error}");
     let error = sunk(-0.1).map(|_| ()).expect_err("on one level").to_string();
     assert!(error.contains("% of the yarns' volume is in two yarns; allowed: up to 2.000 %"), "{error}");
 }
@@ -253,7 +258,7 @@ fn a_wrong_file_is_refused_by_name() {
     let (abaqus, ls_dyna) = (cross.abaqus(""), cross.ls_dyna());
     let own = vtu::unstructured_grid(&read("own", &[("cross.k", &ls_dyna)], "").expect("a panel").model);
     let inp = |text: &str, message: &str| refused(&[("cross.inp", text)], "", message);
-    inp(&abaqus.replace("\n1, ", "\n1000, "), "element 1 has node 1, which the file does not have");
+    inp(&abaqus.replacen("\n1, ", "\n1000, ", 1), "element 1 has node 1, which the file does not have");
     inp(&abaqus.replace("ElSet=Yarn3, Generate\n55, 72", "ElSet=Yarn3"), "set YARN3 has no elements");
     inp(&abaqus.replace("55, 72", "55, 71"), "element 72 is of no yarn");
     inp(&abaqus.replace("55, 72", "50, 72"), "element 50 of set YARN3 is of another yarn too");
@@ -266,13 +271,19 @@ fn a_wrong_file_is_refused_by_name() {
     inp(&cross.abaqus("*Distribution, Input=none.ori\n"), "none.ori");
     refused(&[("cross.inp", &abaqus)], "units = \"m\"", "allowed: 0.003000 to 30.00, in mesh.units = \"m\"");
     refused(&[("cross.inp", &abaqus)], "units = \"kg\"", "mesh.units is \"kg\"; allowed: a unit of length");
-    refused(&[("cross.inp", &abaqus)], "part = \"quarter\"", "YARN0 has a node at y = -0.8");
+    refused(&[("cross.inp", &abaqus)], "part = \"quarter\"", "YARN0 has a node at x = -1.5; allowed: 0 and more");
     refused(&[("cross.stl", "")], "", "mesh.file is \"cross.stl\"; allowed: .inp, .k, .key or .vtu");
     // All fibres along x: the weft's are then across it.
     let across = "*Distribution, Location=Element\n, 1., 0., 0., 0., 1., 0.\n";
     inp(&cross.abaqus(across), "4 yarns along x and 0 along y");
     let swapped = "*Distribution, Location=Element\n, 1., 0., 0.\nYarn0, 0., 1., 0.\nYarn1, 0., 1., 0.\n";
-    inp(&cross.abaqus(swapped), "are 90° off its length; allowed: up to 45°");
+    inp(&cross.abaqus(swapped), "is a wedge with triangles along the fibre, which is 90° off");
+    let weave =
+        "units = \"mm-tonne-s\"\n[weave]\npreset = \"kevlar-s706\"\n[weave.panel]\nshape = \"circle\"\nradius = 3.0\n";
+    let mut model = Scene::parse("weave.toml", weave).expect("a weave").cloth.model();
+    model.fibre.iter_mut().for_each(|fibre| fibre.swap(0, 1));
+    let turned = vtu::unstructured_grid(&model);
+    refused(&[("turned.vtu", &turned)], "", "are 90° off its length; allowed: up to 45°, directions along the yarn");
     let k = |text: &str, message: &str| refused(&[("cross.k", text)], "", message);
     k(&ls_dyna.replace("*END", "*PART\nempty\n        99\n*END"), "part 99, empty, has no elements");
     k(&ls_dyna.replace("*KEYWORD", "*KEYWORD LONG=Y"), "cross.k:1: LONG=Y; allowed: the standard format");
