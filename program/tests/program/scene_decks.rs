@@ -506,7 +506,7 @@ fn of_abaqus(folder: &Path) -> Said {
 fn decks_of_plies_say_what_the_scene_says() {
     let output = folder("scene-decks-plies");
     let scene = output.join("scene.toml");
-    let plies = "friction = 0.21\nyarn-friction = 0.17\n[[ply]]\n[[ply]]\nangle = 90\nmaterial = { properties = { k_el = 41170.5, k_ld = 5.0 } }\n";
+    let plies = "failure = \"uniaxial\"\nfriction = 0.21\nyarn-friction = 0.17\n[[ply]]\n[[ply]]\nangle = 90\nmaterial = { properties = { k_el = 41170.5, k_ld = 5.0 } }\n";
     std::fs::write(&scene, format!("{SCENE}{plies}")).expect("the scene can be written");
     for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
         let to = output.join(host);

@@ -1,0 +1,150 @@
+//! Whether the answer turns with the axes: superposed rotations, and those of the reference where the law is isotropic or has fibres.
+
+use fastrand::Rng;
+use nalgebra::{Matrix3, Vector3};
+
+use super::call::Session;
+use super::histories::{history, rotation, turn};
+use super::line::{Line, Question, Verdict};
+use super::material::Material;
+use super::point::{Failure, Point};
+
+/// Of the stress.
+const TOLERANCE: f64 = 1e-6;
+const HISTORIES: usize = 24;
+/// Increments of a history, at most.
+const INCREMENTS: usize = 40;
+
+/// What differs between two histories that should answer the same.
+struct Worst {
+    figure: f64,
+    compared: usize,
+    text: String,
+}
+
+pub fn objectivity(session: &mut Session) -> Line {
+    let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| -> (String, Vec<Matrix3<f64>>) {
+        let z = Vector3::z();
+        let half = std::f64::consts::FRAC_PI_2;
+        let tilted = if material.components == 6 { Vector3::new(1.0, 0.0, 0.0) } else { z };
+        match number % 5 {
+            0 => ("a quarter turn in the last increment".into(), last(turn(tilted * half), count)),
+            1 => ("half a turn in the last increment".into(), last(turn(z * 2.0 * half), count)),
+            2 => ("a random turn in the last increment".into(), last(rotation(rng, material), count)),
+            3 => {
+                let axis = if material.components == 6 { Vector3::new(0.3, -0.5, 0.8) } else { z };
+                let spin = (0..count).map(|k| turn(axis * (0.1 * (k + 1) as f64))).collect();
+                ("a steady spin".into(), spin)
+            }
+            _ => ("a random turn in every increment".into(), (0..count).map(|_| rotation(rng, material)).collect()),
+        }
+    };
+    match compared(session, |f, q| q * f, rotations) {
+        Ok(worst) => {
+            judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone")
+        }
+        Err(text) => Line::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"),
+    }
+}
+
+/// Rotations of the material before all else.
+pub fn isotropy(session: &mut Session) -> Line {
+    let material = session.material;
+    if !material.traits.isotropic && material.fibres.is_empty() {
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
+    }
+    if material.orientation {
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
+    }
+    let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {
+        let q = if material.traits.isotropic {
+            if number == 0 { turn(Vector3::z() * std::f64::consts::FRAC_PI_2) } else { rotation(rng, material) }
+        } else {
+            // Half a turn about a fibre leaves it, and others only if they are along it or across.
+            turn(Vector3::from(material.fibres[0]) * std::f64::consts::PI)
+        };
+        ("the material turned beforehand".to_string(), vec![q; count])
+    };
+    if !material.traits.isotropic && !about_first_fibre(material) {
+        let text = "no rotation leaves the fibres where they are";
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, text);
+    }
+    match compared(session, |f, q| q * f * q.transpose(), rotations) {
+        Ok(worst) => judged(Question::Isotropy, "axes matter", &worst, "turning the material turns the stress alone"),
+        Err(text) => Line::new(Question::Isotropy, Verdict::Wrong, None, text).with("NaN"),
+    }
+}
+
+fn about_first_fibre(material: &Material) -> bool {
+    let first = Vector3::from(material.fibres[0]);
+    let planar = material.components == 6 || (first - Vector3::z()).norm() < 1e-12;
+    let left = |fibre: &[f64; 3]| {
+        let along = first.dot(&Vector3::from(*fibre)).abs();
+        along < 1e-9 || (along - 1.0).abs() < 1e-9
+    };
+    planar && material.fibres.iter().all(left)
+}
+
+fn last(rotation: Matrix3<f64>, count: usize) -> Vec<Matrix3<f64>> {
+    let mut rotations = vec![Matrix3::identity(); count];
+    if let Some(last) = rotations.last_mut() {
+        *last = rotation;
+    }
+    rotations
+}
+
+/// Random histories, and the same with rotations: the largest difference of the stress, over the largest stress of the history.
+fn compared(
+    session: &mut Session,
+    turned: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+    rotations: impl Fn(&mut Rng, &Material, usize, usize) -> (String, Vec<Matrix3<f64>>),
+) -> Result<Worst, String> {
+    let mut rng = Rng::with_seed(session.material.seed ^ 0x0b);
+    let mut worst = Worst { figure: 0.0, compared: 0, text: String::new() };
+    for number in 0..HISTORIES {
+        let mut path = history(&mut rng, session.material, 2);
+        path.truncate(INCREMENTS);
+        let (text, rotations) = rotations(&mut rng, session.material, number, path.len());
+        let mut plain = Point::virgin(session, [1, 1]);
+        let mut other = Point::virgin(session, [2, 1]);
+        let mut largest = 0.0_f64;
+        for (f, q) in path.iter().zip(&rotations) {
+            match (plain.advance(session, f), other.advance(session, &turned(f, q))) {
+                (Ok(_), Ok(_)) => {}
+                (Err(Failure::NotFinite(_)), _) | (_, Err(Failure::NotFinite(_))) => {
+                    return Err(format!("not finite with {text}"));
+                }
+                _ => break,
+            }
+            let (stress, seen) = (plain.global_stress(session.material), other.global_stress(session.material));
+            largest = largest.max(stress.norm());
+            let difference = (seen - q * stress * q.transpose()).norm();
+            if largest > 0.0 {
+                worst.compared += 1;
+                if difference / largest > worst.figure {
+                    worst = Worst { figure: difference / largest, text: text.clone(), ..worst };
+                }
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
+    if worst.compared == 0 {
+        return Line::new(question, Verdict::NotSure, None, "there was no stress");
+    }
+    if worst.figure <= TOLERANCE {
+        return Line::new(
+            question,
+            Verdict::Right,
+            Some(worst.figure),
+            format!("{right}, {} increments", worst.compared),
+        );
+    }
+    let mut text = format!("the stress changes by {:.2e} of itself with {}", worst.figure, worst.text);
+    if question == Question::Objectivity {
+        text.push_str("; a rate law with directions of its own needs orientation = true");
+    }
+    Line::new(question, Verdict::Wrong, Some(worst.figure), text).with(kind)
+}
