@@ -79,6 +79,8 @@ impl Source<'_> {
         place_nodes(&mut raw, factor, shift).map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let part = keys.part.unwrap_or_default();
         let model = raw.model(part).map_err(|message| Error::Input(format!("{file}: {message}")))?;
+        let checks = Checks::of(&model);
+        checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let pitch = pitch(&model);
         let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
         let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
@@ -92,8 +94,6 @@ impl Source<'_> {
             );
             return Err(self.error(span, &message));
         }
-        let checks = Checks::of(&model);
-        checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let own = |key: &str, value: &Option<Spanned<f64>>| {
             value.as_ref().map(|value| self.positive(key, *value.get_ref(), value.span())).transpose()
         };
