@@ -10,6 +10,8 @@ use crate::picture::view::View;
 
 /// A plane goes by this part of a yarn's width beside where it is asked for, so that it meets no node.
 const BESIDE: f64 = 1e-5;
+/// Planes that are tried for the one that meets the most of some elements.
+const TRIED: usize = 500;
 /// The edges of an element by their corners.
 const EDGES: [[usize; 2]; 12] =
     [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
@@ -21,17 +23,36 @@ pub struct Piece {
     pub corners: Vec<[f64; 2]>,
 }
 
-/// The elements that the plane through the axis of the warp yarn nearest to y = 0 cuts: first the weft's, then the warp's.
-pub fn through_a_warp_yarn(model: &Model) -> Vec<Piece> {
-    let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp);
-    let Some(warp) = warps.min_by(|a, b| a.coordinate.abs().total_cmp(&b.coordinate.abs())) else {
-        return Vec::new();
-    };
-    let [low, high] = model.extent(warp, 1);
-    let plane = warp.coordinate + BESIDE * (high - low);
+/// The elements that the plane y = `plane` cuts: first the weft's, then the warp's.
+pub fn along_the_warp(model: &Model, plane: f64) -> Vec<Piece> {
     let of = |family: Family| model.yarns.iter().filter(move |yarn| yarn.family == family);
     let elements = of(Family::Weft).chain(of(Family::Warp)).flat_map(|yarn| yarn.elements.clone());
     elements.filter_map(|element| piece(model, element, 1, plane)).collect()
+}
+
+/// y of the axis of the warp yarn nearest to y = 0, but for a little by which the plane misses its nodes.
+pub fn warp_axis(model: &Model) -> f64 {
+    let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp);
+    let nearest = warps.min_by(|a, b| a.coordinate.abs().total_cmp(&b.coordinate.abs()));
+    nearest.map_or(0.0, |warp| {
+        let [low, high] = model.extent(warp, 1);
+        warp.coordinate + BESIDE * (high - low)
+    })
+}
+
+/// y of the plane that meets the most of these elements.
+pub fn through_most(model: &Model, elements: &[usize]) -> f64 {
+    let extents: Vec<[f64; 2]> = elements
+        .iter()
+        .map(|&element| {
+            let places = model.corners(&model.elements[element]).map(|corner| corner[1]);
+            places.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+        })
+        .collect();
+    let met = |plane: f64| extents.iter().filter(|[low, high]| (low..=high).contains(&&plane)).count();
+    let middles = extents.iter().map(|[low, high]| 0.5 * (low + high));
+    let step = (extents.len() / TRIED).max(1);
+    middles.step_by(step).max_by_key(|&plane| met(plane)).unwrap_or_default()
 }
 
 /// What a plane across an axis, 0 or 1, cuts out of an element.

@@ -37,6 +37,8 @@ const FOOT: i32 = 36;
 const LARGEST: f64 = 40.0;
 const MIDDLE: f64 = 4.0;
 const CUT: f64 = 6.0;
+/// Radius of the mark of an element that is in two yarns.
+const MARK: i32 = 2;
 /// How much a slope towards the light or away changes the brightness, and what the lowest lose.
 const CONTRAST: f64 = 1.5;
 const DEPTH: f64 = 0.45;
@@ -72,6 +74,10 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     let family: Vec<Family> = model.yarns.iter().flat_map(|yarn| yarn.elements.clone().map(|_| yarn.family)).collect();
     let overlapping: HashSet<usize> = scene.cloth.overlapping().iter().copied().collect();
     let colour_of = |element| if overlapping.contains(&element) { OVERLAP } else { colour(family[element]) };
+    let (of_cut, plane) = match scene.cloth.overlapping() {
+        [] => ("Cut through the axis of a warp yarn", cut::warp_axis(model)),
+        elements => ("Cut along the warp where most elements are in two yarns", cut::through_most(model, elements)),
+    };
     let shade = |side: &Visible, lit: Lit| {
         let depth = 0.5 * (1.0 - lit.height / highest);
         let brightness = 1.0 + CONTRAST * (lit.light - FACING) - DEPTH * depth;
@@ -89,10 +95,11 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
         for (left, name, view) in [(LEFT, of_part, panel), (right, "Its middle", middle)] {
             draw_heading(root, name, left, HEADING_TOP)?;
             projection::draw_above(root, view, &sides, shade)?;
+            mark(root, &view, model, scene.cloth.overlapping())?;
             ruler::draw(root, [left, rulers_top], view.scale, unit)?;
         }
-        draw_heading(root, "Cut through the axis of a warp yarn", LEFT, VIEW_TOP + VIEW + CUT_HEADING)?;
-        cut::draw(root, &cut, &cut::through_a_warp_yarn(model), |piece| colour_of(piece.element))?;
+        draw_heading(root, of_cut, LEFT, VIEW_TOP + VIEW + CUT_HEADING)?;
+        cut::draw(root, &cut, &cut::along_the_warp(model, plane), |piece| colour_of(piece.element))?;
         ruler::draw(root, [LEFT, bottom + RULER_BELOW], cut.scale, unit)
     })
 }
@@ -110,6 +117,18 @@ pub fn bounds(model: &Model, size: f64) -> [[f64; 2]; 2] {
     let quarter = !model.on_x.is_empty();
     let limit = if quarter { [0.0, size] } else { [-0.5 * size, 0.5 * size] };
     [low.map(|x| x.max(limit[0])), high.map(|x| x.min(limit[1]))]
+}
+
+/// Marks these elements, which others may hide.
+fn mark(area: &Area, view: &View, model: &Model, elements: &[usize]) -> Drawn<()> {
+    for &element in elements {
+        let corners = model.corners(&model.elements[element]);
+        let middle = [0, 1].map(|axis| 0.125 * corners.iter().map(|corner| corner[axis]).sum::<f64>());
+        if (0..2).all(|axis| (view.low[axis]..=view.high[axis]).contains(&middle[axis])) {
+            area.draw(&Circle::new(view.place(middle), fine(MARK), OVERLAP.filled()))?;
+        }
+    }
+    Ok(())
 }
 
 fn draw_heading(root: &Area, name: &str, left: i32, top: i32) -> Drawn<()> {

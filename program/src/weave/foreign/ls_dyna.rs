@@ -140,7 +140,6 @@ impl Reader {
         for (number, field) in numbers.iter_mut().zip(nodes) {
             *number = line.number(&format!("a node of element {element}"), field)?;
         }
-        // A wedge may have six nodes and then none, or 0.
         self.mesh.add_element(line, element, numbers)?;
         Ok(if axes { Next::Fibre(element) } else { Next::Element(false) })
     }

@@ -1,5 +1,7 @@
 //! A panel from the mesh file that a scene names.
 
+use std::fmt;
+
 use toml::Spanned;
 
 use super::checks::Checks;
@@ -20,7 +22,7 @@ use toron::host::units::UnitSystem;
 const THICKNESS: [f64; 2] = [3e-6, 3e-2];
 
 /// A panel of a mesh file, in the scene's units.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Foreign {
     /// The name of the file, for messages and reports.
     pub file: String,
@@ -34,6 +36,24 @@ pub struct Foreign {
     pub pitch: [f64; 2],
     pub figures: Figures,
     pub checks: Checks,
+}
+
+/// What tells one mesh from another, without the mesh: runs are known again by it.
+impl fmt::Debug for Foreign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Foreign { model, part, clearance, heights, .. } = self;
+        let mut sum = crc32fast::Hasher::new();
+        let numbers = model.nodes.iter().chain(&model.fibre).flatten();
+        numbers.for_each(|number| sum.update(&number.to_le_bytes()));
+        model.elements.iter().flatten().for_each(|node| sum.update(&node.to_le_bytes()));
+        let checksum = sum.finalize();
+        f.debug_struct("Foreign")
+            .field("checksum", &checksum)
+            .field("part", part)
+            .field("clearance", clearance)
+            .field("heights", heights)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Foreign {
@@ -79,6 +99,8 @@ impl Source<'_> {
         place_nodes(&mut raw, factor, shift).map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let part = keys.part.unwrap_or_default();
         let model = raw.model(part).map_err(|message| Error::Input(format!("{file}: {message}")))?;
+        let checks = Checks::of(&model);
+        checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let pitch = pitch(&model);
         let figures = Figures::with(&model, 0, crimp(&model), covered(&model, pitch));
         let thickness = figures.volume_by_area() / units.from_si(1.0, LENGTH);
@@ -92,8 +114,6 @@ impl Source<'_> {
             );
             return Err(self.error(span, &message));
         }
-        let checks = Checks::of(&model);
-        checks.refuse().map_err(|message| Error::Input(format!("{file}: {message}")))?;
         let own = |key: &str, value: &Option<Spanned<f64>>| {
             value.as_ref().map(|value| self.positive(key, *value.get_ref(), value.span())).transpose()
         };

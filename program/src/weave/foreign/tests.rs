@@ -15,9 +15,7 @@ use crate::weave::vtu;
 /// outer ones wedges of half the width.
 struct Cross {
     nodes: Vec<[f64; 3]>,
-    /// By the node of a section: four of the wedges' and hexahedron's outline.
     elements: Vec<Solid>,
-    gap: f64,
 }
 
 struct Solid {
@@ -36,7 +34,7 @@ const PIECES: [&[usize]; 3] = [&[0, 2, 1], &[1, 2, 4, 3], &[3, 4, 5]];
 
 impl Cross {
     fn new(gap: f64) -> Cross {
-        let mut cross = Cross { nodes: Vec::new(), elements: Vec::new(), gap };
+        let mut cross = Cross { nodes: Vec::new(), elements: Vec::new() };
         for (yarn, (family, coordinate)) in [(0, -0.5), (0, 0.5), (1, -0.5), (1, 0.5)].into_iter().enumerate() {
             let first = cross.nodes.len();
             let level = if family == 0 { 0.0 } else { HEIGHT + gap };

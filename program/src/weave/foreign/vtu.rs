@@ -63,7 +63,7 @@ pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
         };
         if let Some(node) = nodes.iter().find(|&&node| node as usize >= raw.nodes.len()) {
             let points = raw.nodes.len();
-            return wrong(&format!("has node {node}, which the file does not have; allowed: 0 to {}", points - 1));
+            return wrong(&format!("has node {node}, which the file does not have; allowed: less than {points}"));
         }
         raw.elements.push(Element {
             number: cell as u64,
