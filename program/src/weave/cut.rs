@@ -3,13 +3,15 @@
 use plotters::prelude::*;
 
 use super::geometry::Family;
-use super::model::Model;
+use super::model::{Model, Yarn};
 use crate::picture::page::{Area, Drawn};
 use crate::picture::style::fine;
 use crate::picture::view::View;
 
 /// A plane goes by this part of a yarn's width beside where it is asked for, so that it meets no node.
 const BESIDE: f64 = 1e-5;
+/// The fibre of a yarn along an axis has less than this of the other one.
+const ALONG: f64 = 0.1;
 /// Planes that are tried for the one that meets the most of some elements.
 const TRIED: usize = 500;
 /// The edges of an element by their corners.
@@ -30,14 +32,23 @@ pub fn along_the_warp(model: &Model, plane: f64) -> Vec<Piece> {
     elements.filter_map(|element| piece(model, element, 1, plane)).collect()
 }
 
-/// y of the axis of the warp yarn nearest to y = 0, but for a little by which the plane misses its nodes.
-pub fn warp_axis(model: &Model) -> f64 {
-    let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp);
+/// y of the axis of the warp yarn along x that is nearest to y = 0, but for a little by which the plane misses its nodes; none where
+/// all plies are turned.
+pub fn warp_axis(model: &Model) -> Option<f64> {
+    let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp && is_along(model, yarn, 0));
     let nearest = warps.min_by(|a, b| a.coordinate.abs().total_cmp(&b.coordinate.abs()));
-    nearest.map_or(0.0, |warp| {
+    nearest.map(|warp| {
         let [low, high] = model.extent(warp, 1);
-        warp.coordinate + BESIDE * (high - low)
+        // Turned by half a turn it is on the other side.
+        let axis = if (low..=high).contains(&warp.coordinate) { warp.coordinate } else { -warp.coordinate };
+        axis + BESIDE * (high - low)
     })
+}
+
+/// Whether a yarn runs along x (0) or y (1).
+pub fn is_along(model: &Model, yarn: &Yarn, axis: usize) -> bool {
+    let middle = yarn.elements.start + yarn.elements.len() / 2;
+    model.fibre[middle][1 - axis].abs() < ALONG
 }
 
 /// y of the plane that meets the most of these elements.

@@ -75,7 +75,10 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     let overlapping: HashSet<usize> = scene.cloth.overlapping().iter().copied().collect();
     let colour_of = |element| if overlapping.contains(&element) { OVERLAP } else { colour(family[element]) };
     let (of_cut, plane) = match scene.cloth.overlapping() {
-        [] => ("Cut through the axis of a warp yarn", cut::warp_axis(model)),
+        [] => match cut::warp_axis(model) {
+            Some(plane) => ("Cut through the axis of a warp yarn", plane),
+            None => ("Cut at y = 0", 0.0),
+        },
         elements => ("Cut along the warp where most elements are in two yarns", cut::through_most(model, elements)),
     };
     let shade = |side: &Visible, lit: Lit| {
@@ -85,7 +88,7 @@ pub fn write(svg: &Path, png: &Path, scene: &Scene, model: &Model) -> Result<(),
     };
     page::write(svg, png, [WIDTH as u32, height as u32], |root| {
         root.draw_text(&scene.title, &text(TITLE, &INK), (fine(LEFT), fine(TITLE_TOP)))?;
-        draw_legend(root, !overlapping.is_empty())?;
+        draw_legend(root, is_turned(model), !overlapping.is_empty())?;
         let of_part = if whole == bounds(model, f64::INFINITY) {
             "The panel from above"
         } else {
@@ -136,8 +139,14 @@ fn draw_heading(root: &Area, name: &str, left: i32, top: i32) -> Drawn<()> {
     Ok(())
 }
 
-fn draw_legend(root: &Area, overlap: bool) -> Drawn<()> {
-    let families = [(Family::Warp, "warp, along x"), (Family::Weft, "weft, along y")];
+/// Whether some ply is turned.
+fn is_turned(model: &Model) -> bool {
+    model.yarns.iter().any(|yarn| !cut::is_along(model, yarn, yarn.family as usize))
+}
+
+fn draw_legend(root: &Area, turned: bool, overlap: bool) -> Drawn<()> {
+    let names = if turned { ["warp", "weft"] } else { ["warp, along x", "weft, along y"] };
+    let families = [(Family::Warp, names[0]), (Family::Weft, names[1])];
     let entries = families.into_iter().map(|(family, name)| (colour(family), name));
     let overlap = overlap.then_some((OVERLAP, "in two yarns"));
     for (number, (colour, name)) in entries.chain(overlap).enumerate() {
