@@ -5,12 +5,12 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
+#[cfg(target_os = "linux")]
+use toron_program::check;
 use toron_program::common::console::print;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
-#[cfg(target_os = "linux")]
-use toron_program::check;
 use toron_program::{
     bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck,
     weave,

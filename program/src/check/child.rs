@@ -17,7 +17,7 @@ use crate::common::bound_child;
 use crate::common::error::Error;
 
 /// A call that takes longer has no end.
-const LONGEST_CALL: Duration = Duration::from_secs(5);
+pub const LONGEST_CALL: Duration = Duration::from_secs(5);
 /// A question that takes longer is given up.
 const LONGEST_QUESTION: Duration = Duration::from_secs(60);
 const GLANCE: Duration = Duration::from_millis(4);
@@ -38,7 +38,11 @@ const PANICKED: i32 = 101;
 pub enum Task {
     /// What the law reads.
     Reads,
-    Question { question: Question, reads: Reads, allowed: Option<f64> },
+    Question {
+        question: Question,
+        reads: Reads,
+        allowed: Option<f64>,
+    },
     /// One call, as the bits of its numbers: they need not be finite.
     Call(Vec<u64>),
 }
@@ -159,6 +163,7 @@ pub fn ask(
     material: &Material,
     task: Task,
     fence: Fence,
+    longest_call: Duration,
 ) -> Result<Result<Said, Ending>, Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", folder.display()));
     let (request, shared, result) = (folder.join("request.json"), folder.join("shared"), folder.join("result.json"));
@@ -186,7 +191,7 @@ pub fn ask(
     let mut child = command.spawn().map_err(io_error)?;
     let errors = child.stderr.take();
     let reader = std::thread::spawn(move || errors.map_or(String::new(), last_of));
-    let status = watch(&mut child, &shared).map_err(io_error)?;
+    let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
     let messages = reader.join().unwrap_or_default();
     let said = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<Said>(&text).ok());
     if let (Some(said), Watched::Ended(status)) = (said, &status)
@@ -200,12 +205,12 @@ pub fn ask(
 
 enum Watched {
     Ended(ExitStatus),
-    Hangs,
+    Hangs(Duration),
     TakesTooLong,
 }
 
 /// Waits for the child's end, unless a call has none.
-fn watch(child: &mut Child, shared: &Path) -> io::Result<Watched> {
+fn watch(child: &mut Child, shared: &Path, longest_call: Duration) -> io::Result<Watched> {
     let started = Instant::now();
     let (mut calls, mut since) = (0, Instant::now());
     loop {
@@ -216,11 +221,11 @@ fn watch(child: &mut Child, shared: &Path) -> io::Result<Watched> {
         if now != calls {
             (calls, since) = (now, Instant::now());
         }
-        let hangs = since.elapsed() > LONGEST_CALL;
+        let hangs = since.elapsed() > longest_call;
         if hangs || started.elapsed() > LONGEST_QUESTION {
             child.kill()?;
             child.wait()?;
-            return Ok(if hangs { Watched::Hangs } else { Watched::TakesTooLong });
+            return Ok(if hangs { Watched::Hangs(longest_call) } else { Watched::TakesTooLong });
         }
         std::thread::sleep(GLANCE);
     }
@@ -248,8 +253,8 @@ fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
     let end = |kind: &str, text: String| Ending { kind: kind.to_string(), text, call: call.clone() };
     let after = format!("in call {}", seen.calls);
     let status = match status {
-        Watched::Hangs => {
-            return end("hang", format!("the law does not return within {} s {after}", LONGEST_CALL.as_secs()));
+        Watched::Hangs(longest) => {
+            return end("hang", format!("the law does not return within {} s {after}", longest.as_secs()));
         }
         Watched::TakesTooLong => {
             return end("slow", format!("no answer within {} s, {} calls", LONGEST_QUESTION.as_secs(), seen.calls));
@@ -265,11 +270,11 @@ fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
     match (status.code(), status.signal()) {
         (Some(SIGNALLED), _) => at_signal(seen, &after, call),
         (Some(BY_XIT), _) => end("XIT", format!("the law calls XIT {after}")),
-        (Some(BY_MESSAGE), _) => {
-            end("XIT", format!("the law ends the analysis {after}: {}", last_line(messages)))
-        }
+        (Some(BY_MESSAGE), _) => end("XIT", format!("the law ends the analysis {after}: {}", last_line(messages))),
         (Some(NOT_LOADED), _) => end("crash", format!("the library cannot be loaded: {}", last_line(messages))),
-        (Some(UNRESOLVED), _) => end("missing routine", format!("a routine is nowhere, {after}: {}", last_line(messages))),
+        (Some(UNRESOLVED), _) => {
+            end("missing routine", format!("a routine is nowhere, {after}: {}", last_line(messages)))
+        }
         (Some(PANICKED), _) => end("slow", format!("this check itself fails: {}", last_line(messages))),
         (Some(code), _) => {
             let said = last_line(messages);
@@ -292,7 +297,9 @@ fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
             let text = if beside.behind { text } else { text.replace("its end", "its beginning") };
             (format!("{side} {}", beside.array), text)
         }
-        (None, libc::SIGFPE) => ("crash".to_string(), format!("a floating-point or whole-number exception ends it {after}")),
+        (None, libc::SIGFPE) => {
+            ("crash".to_string(), format!("a floating-point or whole-number exception ends it {after}"))
+        }
         (None, libc::SIGILL) => ("crash".to_string(), format!("an illegal instruction (a trap) {after}")),
         (None, _) => ("crash".to_string(), format!("an address that is nowhere {after}")),
     };

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use clap::Args;
 
@@ -108,6 +109,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
 }
 
+/// How long a law is waited for that has hung before.
+const SHORTER: Duration = Duration::from_secs(1);
+
 /// A file that is checked.
 struct Check<'a> {
     file: &'a Path,
@@ -121,7 +125,7 @@ impl Check<'_> {
     fn material(&self, material: &Material) -> Result<OfMaterial, Error> {
         let mut lines = vec![Line::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
         // With room, since the law may need it; the pages at the ends come next.
-        let reads = match self.ask(material, Task::Reads, Fence::Room, false)? {
+        let reads = match self.ask(material, Task::Reads, Fence::Room, false, child::LONGEST_CALL)? {
             Ok(Said::Reads(reads)) => Some(reads),
             Ok(_) => None,
             Err(_) => None,
@@ -153,9 +157,10 @@ impl Check<'_> {
         task: Task,
         fence: Fence,
         checked: bool,
+        longest_call: Duration,
     ) -> Result<Result<Said, Ending>, Error> {
         let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
-        child::ask(self.room, library, material, task, fence)
+        child::ask(self.room, library, material, task, fence, longest_call)
     }
 
     fn question(
@@ -178,9 +183,12 @@ impl Check<'_> {
             Question::Runtime => &[Fence::Room],
             _ => &[fence],
         };
+        // A law that has hung once is not waited for as long again.
+        let hung = ended.iter().any(|(kind, _)| kind == "hang");
+        let longest_call = if hung { SHORTER } else { child::LONGEST_CALL };
         let mut answer = None;
         for &fence in fences {
-            match self.ask(material, task.clone(), fence, checked)? {
+            match self.ask(material, task.clone(), fence, checked, longest_call)? {
                 Ok(Said::Line(line)) => answer = Some(line),
                 Ok(_) => {}
                 Err(ending) => return self.ended(material, question, ending, fence, ended),
@@ -214,7 +222,8 @@ impl Check<'_> {
         }
         ended.push((kind.clone(), question));
         let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
-        if let Some(call) = call {
+        // The build with checks at run time is not the one that repeats a call.
+        if let Some(call) = call.filter(|_| question != Question::Runtime) {
             let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
             line.call = Some(repeated.write(&self.arguments.output, question)?.display().to_string());
         }

@@ -55,7 +55,8 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     run(&mut command, "utilities.c")?;
     let library = build(&file, language, compiler, folder, &utilities, false)?;
     // Where the checks do not compile there is no second build, which is said.
-    let checked = (compiler == "gfortran").then(|| build(&file, language, compiler, folder, &utilities, true).ok()).flatten();
+    let checked =
+        (compiler == "gfortran").then(|| build(&file, language, compiler, folder, &utilities, true).ok()).flatten();
     Ok(Built { library, checked, by: compiler.to_string() })
 }
 
@@ -117,9 +118,11 @@ fn compiler(language: Language) -> Result<&'static str, Error> {
         _ => &["gfortran", "ifx", "ifort"],
     };
     let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
-    known.iter().find(there).copied().ok_or_else(|| {
-        Error::Input(format!("no compiler is found; wanted: one of {} in PATH", known.join(", ")))
-    })
+    known
+        .iter()
+        .find(there)
+        .copied()
+        .ok_or_else(|| Error::Input(format!("no compiler is found; wanted: one of {} in PATH", known.join(", "))))
 }
 
 fn build(

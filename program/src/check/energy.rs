@@ -80,7 +80,12 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         return Line::new(Question::Cycles, Verdict::NotAsked, None, "plane stress: the work across it is not known");
     }
     if !declared.hyperelastic && !declared.dissipative && reads != Reads::Total {
-        return Line::new(Question::Cycles, Verdict::NotAsked, None, "neither hyperelastic nor dissipative is declared");
+        return Line::new(
+            Question::Cycles,
+            Verdict::NotAsked,
+            None,
+            "neither hyperelastic nor dissipative is declared",
+        );
     }
     let mut rng = Rng::with_seed(material.seed ^ 0xc1);
     let (mut worst, mut unsure, mut gained, mut asked) = (0.0_f64, 0.0_f64, f64::INFINITY, 0);
@@ -103,7 +108,9 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         if worst <= CLOSED {
             return Line::new(Question::Cycles, Verdict::Right, Some(worst), text);
         }
-        let text = format!("closed cycles give or take up to {worst:.1e} of the work on their way: no potential has this stress");
+        let text = format!(
+            "closed cycles give or take up to {worst:.1e} of the work on their way: no potential has this stress"
+        );
         return Line::new(Question::Cycles, Verdict::Wrong, Some(worst), text).with("no energy");
     }
     if gained < -(if reads == Reads::Total { GAINED } else { GAINED_BY_RATE }) {
@@ -161,7 +168,11 @@ fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
             let regained = before[1] + before[2] - plastic - creep;
             let sum = elastic + plastic + creep;
             let by_volume = work / f.determinant();
-            differences.push(([(elastic - work).abs(), (elastic - by_volume).abs()], [(sum - work).abs(), (sum - by_volume).abs()], regained));
+            differences.push((
+                [(elastic - work).abs(), (elastic - by_volume).abs()],
+                [(sum - work).abs(), (sum - by_volume).abs()],
+                regained,
+            ));
         }
         if largest > 0.0 {
             asked += 1;
@@ -203,6 +214,12 @@ pub fn energy(session: &mut Session) -> Line {
         return Line::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
     }
     let text = format!("{of} differs from the work done by {:.1e} of W, {:.1e} of W/J", differences[0], differences[1]);
+    let declared = session.material.traits;
+    if !hyperelastic && !declared.dissipative {
+        // Growth, for one, brings energy along.
+        let text = format!("{text}; neither hyperelastic nor dissipative is declared");
+        return Line::new(Question::Energy, Verdict::NotAsked, Some(figure), text);
+    }
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
     Line::new(Question::Energy, verdict, Some(figure), text).with("SSE")
 }

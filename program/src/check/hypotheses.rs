@@ -53,14 +53,8 @@ fn stress_terms(stress: &Components, components: usize) -> Modulus {
 
 /// A linear map of symmetric tensors, by its columns.
 fn columns(components: usize, of: impl Fn(Matrix3<f64>) -> Matrix3<f64>) -> Modulus {
-    let mut modulus = [[0.0; 6]; 6];
-    for j in 0..components {
-        let column = of(unit_strain(components, j));
-        for (i, &place) in places(components).iter().enumerate() {
-            modulus[i][j] = column[place];
-        }
-    }
-    modulus
+    let columns: Vec<Matrix3<f64>> = (0..components).map(|j| of(unit_strain(components, j))).collect();
+    map(|i, j| if i < components && j < components { columns[j][places(components)[i]] } else { 0.0 })
 }
 
 /// The modulus applied to a strain.
@@ -132,14 +126,22 @@ pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
         rates.push(("∂S/∂E on the reference", material(&spatial, f, components).unwrap_or(nowhere)));
     } else {
         rates.push(("σ⊗I with the wrong sign", sum(truth, &by_volume, -1.0)));
-        rates.push(("the terms of the stress added to a rate law's, with σ⊗I", sum(&sum(truth, &terms, 1.0), &by_volume, 1.0)));
+        rates.push((
+            "the terms of the stress added to a rate law's, with σ⊗I",
+            sum(&sum(truth, &terms, 1.0), &by_volume, 1.0),
+        ));
     }
     for (text, modulus) in &rates {
         add(&["another rate"], text, *modulus, Factor::One);
     }
     add(&["1/J"], "1/J is missing: the Kirchhoff stress's", times(truth, volume), Factor::One);
     add(&["1/J"], "1/J twice", times(truth, 1.0 / volume), Factor::One);
-    add(&["1/J"], "1/J is missing but in the terms of the stress", sum(&times(&spatial, volume), &terms, 1.0), Factor::One);
+    add(
+        &["1/J"],
+        "1/J is missing but in the terms of the stress",
+        sum(&times(&spatial, volume), &terms, 1.0),
+        Factor::One,
+    );
     add(&["1/J"], "1/J is missing in the terms of the stress", sum(&spatial, &terms, volume), Factor::One);
     for (text, modulus) in &rates {
         add(&["another rate", "1/J"], &format!("{text}; without 1/J"), times(modulus, volume), Factor::One);
@@ -153,7 +155,8 @@ pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
     let direct = if components == 3 { 2 } else { 3 };
     let shear = |i: usize| i >= direct;
     for (text, factor) in [("twice", 2.0), ("half", 0.5), ("four times", 4.0), ("a quarter of", 0.25)] {
-        let of = |scaled: &dyn Fn(usize, usize) -> bool| map(|i, j| truth[i][j] * if scaled(i, j) { factor } else { 1.0 });
+        let of =
+            |scaled: &dyn Fn(usize, usize) -> bool| map(|i, j| truth[i][j] * if scaled(i, j) { factor } else { 1.0 });
         add(&["tensor shears"], &format!("{text} the columns of shears"), of(&|_, j| shear(j)), Factor::One);
         add(&["tensor shears"], &format!("{text} the rows of shears"), of(&|i, _| shear(i)), Factor::One);
         add(&["tensor shears"], &format!("{text} the shears by shears"), of(&|i, j| shear(i) && shear(j)), Factor::One);

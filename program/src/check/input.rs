@@ -214,7 +214,7 @@ mod tests {
     fn keys_of_the_file_and_of_its_materials() {
         let input = of("statev = 3\ntraits = [\"isotropic\"]\n[allow]\ntangent = 0.05\n[[material]]\nname = \"A\"\n\
                         properties = [1.0]\n[[material]]\nname = \"B\"\nproperties = [2.0]\ninitial = [1.0, 2.0]\n")
-            .expect("valid");
+        .expect("valid");
         assert_eq!(input.materials.len(), 2);
         assert_eq!(input.materials[1].initial, [1.0, 2.0, 0.0]);
         assert!(input.materials[0].traits.isotropic && input.allowed["tangent"] == 0.05);

@@ -40,7 +40,9 @@ pub fn objectivity(session: &mut Session) -> Line {
         }
     };
     match compared(session, |f, q| q * f, rotations) {
-        Ok(worst) => judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone"),
+        Ok(worst) => {
+            judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone")
+        }
         Err(text) => Line::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"),
     }
 }
@@ -119,7 +121,7 @@ fn compared(
             let difference = (seen - q * stress * q.transpose()).norm();
             if largest > 0.0 {
                 worst.compared += 1;
-                if !(difference / largest <= worst.figure) {
+                if difference / largest > worst.figure {
                     worst = Worst { figure: difference / largest, text: text.clone(), ..worst };
                 }
             }
@@ -133,7 +135,12 @@ fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
         return Line::new(question, Verdict::NotSure, None, "there was no stress");
     }
     if worst.figure <= TOLERANCE {
-        return Line::new(question, Verdict::Right, Some(worst.figure), format!("{right}, {} increments", worst.compared));
+        return Line::new(
+            question,
+            Verdict::Right,
+            Some(worst.figure),
+            format!("{right}, {} increments", worst.compared),
+        );
     }
     let mut text = format!("the stress changes by {:.2e} of itself with {}", worst.figure, worst.text);
     if question == Question::Objectivity {

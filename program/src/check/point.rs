@@ -116,12 +116,7 @@ impl Point {
     ///
     /// # Errors
     /// As [`advance`](Self::advance).
-    pub fn advance_in(
-        &mut self,
-        session: &mut Session,
-        f1: &Matrix3<f64>,
-        time_step: f64,
-    ) -> Result<Answer, Failure> {
+    pub fn advance_in(&mut self, session: &mut Session, f1: &Matrix3<f64>, time_step: f64) -> Result<Answer, Failure> {
         self.advance_within(session, f1, time_step, HALVINGS)
     }
 

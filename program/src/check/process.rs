@@ -193,7 +193,8 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     });
     let wrong = found.iter().filter(|found| found.is_err()).count();
     if wrong > 0 {
-        let text = format!("{wrong} of eight threads get other answers than alone: variables are shared (SAVE, COMMON, DATA)");
+        let text =
+            format!("{wrong} of eight threads get other answers than alone: variables are shared (SAVE, COMMON, DATA)");
         return Line::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads");
     }
     let rounds: i32 = found.iter().flatten().sum();
@@ -233,10 +234,8 @@ pub fn outputs(session: &mut Session) -> Line {
     }
     let named = |entries: &[[bool; 6]; 6]| {
         let places = (0..components).flat_map(|i| (0..components).map(move |j| (i, j)));
-        let places: Vec<String> = places
-            .filter(|&(i, j)| entries[i][j])
-            .map(|(i, j)| format!("({}, {})", i + 1, j + 1))
-            .collect();
+        let places: Vec<String> =
+            places.filter(|&(i, j)| entries[i][j]).map(|(i, j)| format!("({}, {})", i + 1, j + 1)).collect();
         if places.len() > 6 {
             format!("{}, … {} entries", places[..4].join(", "), places.len())
         } else {
@@ -294,8 +293,12 @@ pub fn exceptions(session: &mut Session) -> Line {
             point = point.after(f1, &call, &answer);
         }
     }
-    let found: Vec<(i32, &str)> =
-        raised.iter().zip(EXCEPTIONS).filter(|(count, _)| **count > 0).map(|(count, (_, name))| (*count, name)).collect();
+    let found: Vec<(i32, &str)> = raised
+        .iter()
+        .zip(EXCEPTIONS)
+        .filter(|(count, _)| **count > 0)
+        .map(|(count, (_, name))| (*count, name))
+        .collect();
     if found.is_empty() {
         let text = format!("{asked} calls raise neither invalid, division by zero nor overflow");
         return Line::new(Question::Exceptions, Verdict::Right, None, text);
@@ -376,7 +379,8 @@ pub fn histories(session: &mut Session) -> Line {
                 }
                 Err(Failure::NotFinite(call)) => {
                     let answer = session.ask(&call);
-                    let text = format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
+                    let text =
+                        format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
                     return Line::new(Question::Histories, Verdict::Wrong, None, text).with("NaN");
                 }
             }
@@ -423,7 +427,10 @@ pub fn runtime(session: &mut Session) -> Line {
                 Err(Failure::Refused) => break,
                 Err(Failure::NotFinite(call)) => {
                     let answer = session.ask(&call);
-                    let text = format!("{} of the build that fills unset reals with NaN: a variable is used unset", not_finite(&answer, session));
+                    let text = format!(
+                        "{} of the build that fills unset reals with NaN: a variable is used unset",
+                        not_finite(&answer, session)
+                    );
                     return Line::new(Question::Runtime, Verdict::Wrong, None, text).with("runtime check");
                 }
             }

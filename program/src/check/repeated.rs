@@ -75,7 +75,7 @@ impl Repeated {
     pub fn run(&self, room: &Path) -> Result<(), Error> {
         let built = compile::compile(&self.file, room)?;
         let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
-        match child::ask(room, &built.library, &self.material, Task::Call(numbers), self.fence)? {
+        match child::ask(room, &built.library, &self.material, Task::Call(numbers), self.fence, child::LONGEST_CALL)? {
             Ok(Said::Answer(lines)) => {
                 for (name, numbers) in lines {
                     print(&format!("{name:<14}{numbers}\n"));

@@ -13,14 +13,16 @@ pub fn ask(session: &mut Session) -> Line {
     let point = Point::virgin(session, [1, 1]);
     let call = point.call(&Matrix3::identity(), session.material);
     let answer = session.ask(&call);
-    if answer.refused() {
-        return Line::new(Question::Rest, Verdict::Warning, None, "PNEWDT asks for a smaller increment at rest");
-    }
     if !answer.finite() {
         let text = "stress, state or DDSDDE is not finite at rest";
         return Line::new(Question::Rest, Verdict::Wrong, None, text).with("NaN");
     }
-    let largest = |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    if answer.refused() {
+        let text = "PNEWDT asks for a smaller increment at rest, where nothing is deformed";
+        return Line::new(Question::Rest, Verdict::Wrong, None, text).with("refused");
+    }
+    let largest =
+        |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let stiffness = largest(&mut answer.modulus.iter().flatten());
     let stress = largest(&mut answer.stress.iter());
     if stress == 0.0 {

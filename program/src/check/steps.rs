@@ -63,12 +63,18 @@ pub fn ask(session: &mut Session) -> Line {
         let text = format!("increments in two change the stress by up to {largest_change:.1e}; order {order:.1}");
         return Line::new(Question::Steps, Verdict::Right, Some(order), text);
     }
-    let text = format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
+    let text =
+        format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
     Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
 }
 
 /// The stress at the end of the path, each of its increments in so many parts.
-fn end(session: &mut Session, path: &[Matrix3<f64>], parts: usize, number: i32) -> Result<Option<Matrix3<f64>>, String> {
+fn end(
+    session: &mut Session,
+    path: &[Matrix3<f64>],
+    parts: usize,
+    number: i32,
+) -> Result<Option<Matrix3<f64>>, String> {
     let mut point = Point::virgin(session, [number + 1, parts as i32]);
     for f1 in path {
         let begin = point.f;

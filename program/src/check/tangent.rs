@@ -23,6 +23,9 @@ const HISTORIES: usize = 60;
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
 
+/// Relative difference from which the modulus of unloading is another than that of loading.
+const TWO_MODULI: f64 = 5e-2;
+
 /// What DDSDDE may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Convention {
@@ -94,7 +97,12 @@ pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
         Err(line) => return *line,
     };
     if broken && states.is_empty() {
-        return Line::new(Question::Tangent, Verdict::NotSure, None, "the law asks for smaller increments at every state");
+        return Line::new(
+            Question::Tangent,
+            Verdict::NotSure,
+            None,
+            "the law asks for smaller increments at every state",
+        );
     }
     let tolerance = allowed.unwrap_or(TOLERANCE);
     let judged = |convention: &Convention| {
@@ -165,6 +173,9 @@ fn convergence(factor: f64) -> String {
     }
     if factor < 1e-3 {
         return "it hardly slows Newton's method".to_string();
+    }
+    if factor > 0.98 {
+        return format!("Newton's method keeps {factor:.2} of an error and hardly converges");
     }
     let iterations = (1e-8_f64.ln() / factor.ln()).ceil();
     format!("Newton's method keeps {factor:.2} of an error: {iterations} iterations for eight digits")
@@ -247,13 +258,7 @@ fn refused(failure: Failure) -> Result<bool, Box<Line>> {
     }
 }
 
-fn state(
-    session: &mut Session,
-    before: &Point,
-    f1: &Matrix3<f64>,
-    reads: Reads,
-    name: &str,
-) -> Result<State, Failure> {
+fn state(session: &mut Session, before: &Point, f1: &Matrix3<f64>, reads: Reads, name: &str) -> Result<State, Failure> {
     let call = before.call(f1, session.material);
     let answer = session.ask(&call);
     if answer.refused() {
@@ -307,7 +312,7 @@ fn in_what_way(
     let spread = wrong.len().div_ceil(TRIED).max(1);
     let wrong: Vec<usize> = wrong.into_iter().step_by(spread).collect();
     let right: Vec<usize> = right.iter().copied().step_by(right.len().div_ceil(TRIED).max(1)).collect();
-    let mut names: Vec<(Vec<&'static str>, String, bool)> = Vec::new();
+    let mut names: Vec<(Vec<&'static str>, String, Factor, bool)> = Vec::new();
     for &convention in conventions {
         let tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = wrong
             .iter()
@@ -330,6 +335,14 @@ fn in_what_way(
                 let error = error_at(found, k);
                 if error <= TOLERANCE { mistaken <= near } else { mistaken <= near.max(0.1 * error).min(0.3 * error) }
             };
+            // What unloads as it loads has no modulus of its own for that, and any factor of each state explains too much.
+            let kept = tried.iter().all(|(k, all)| {
+                let truth = states[*k].truth(convention, components);
+                truth.is_none_or(|(sure, truth)| compare(&all[h].modulus, &truth, sure, components).worst < TWO_MODULI)
+            });
+            if kept && tried[0].1[h].kinds.contains(&"intact") {
+                continue;
+            }
             if common.is_nan() || (tried[0].1[h].factor == Factor::OfAllStates && (common - 1.0).abs() < 1e-3) {
                 continue;
             }
@@ -342,7 +355,7 @@ fn in_what_way(
                 if tried[0].1[h].factor == Factor::OfAllStates {
                     text = format!("{text} times {common:.4}");
                 }
-                names.push((tried[0].1[h].kinds.clone(), text, explains(&right)));
+                names.push((tried[0].1[h].kinds.clone(), text, tried[0].1[h].factor, explains(&right)));
             }
         }
     }
@@ -351,6 +364,10 @@ fn in_what_way(
     names.retain(|(.., holds)| *holds || !everywhere);
     let fewest = names.iter().map(|(kinds, ..)| kinds.len()).min().unwrap_or(0);
     names.retain(|(kinds, ..)| kinds.len() == fewest);
+    // A mistake that needs no factor explains more than the same with one.
+    let plain: Vec<Vec<&'static str>> =
+        names.iter().filter(|named| named.2 == Factor::One).map(|(kinds, ..)| kinds.clone()).collect();
+    names.retain(|(kinds, _, factor, _)| *factor == Factor::One || !plain.contains(kinds));
     let mut kinds: Vec<String> = Vec::new();
     for kind in names.iter().flat_map(|(kinds, ..)| kinds) {
         if !kinds.iter().any(|known| known == kind) {
@@ -360,13 +377,21 @@ fn in_what_way(
     if kinds.is_empty() {
         return (vec!["unknown".to_string()], "none of the usual mistakes".to_string());
     }
-    let mut texts: Vec<String> = Vec::new();
-    for (kinds, text, _) in &names {
-        let said = format!("{}: {text}", kinds.join(" and "));
-        if !texts.contains(&said) {
-            texts.push(said);
-        }
-    }
+    let texts: Vec<String> = kinds
+        .iter()
+        .map(|kind| {
+            let of_kind = names.iter().filter(|(kinds, ..)| kinds[0] == kind);
+            let mut texts: Vec<&str> = of_kind.map(|(_, text, ..)| text.as_str()).collect();
+            texts.dedup();
+            match texts[..] {
+                [] => kind.clone(),
+                [ref said @ .., last] if texts.len() <= 2 => {
+                    format!("{kind}: {}", [said, &[last]].concat().join(" or "))
+                }
+                [first, ..] => format!("{kind}: {first}, or {} others like it", texts.len() - 1),
+            }
+        })
+        .collect();
     let branch = if everywhere { "" } else { ", in one branch" };
     (kinds, format!("{}{branch}", texts.join(", or ")))
 }
@@ -377,7 +402,8 @@ fn error_at(found: &[Option<Difference>], k: usize) -> f64 {
 
 /// The factor of one modulus that makes it most like the other.
 fn fitted(modulus: &Modulus, like: &Modulus) -> f64 {
-    let product = |a: &Modulus, b: &Modulus| a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum::<f64>();
+    let product =
+        |a: &Modulus, b: &Modulus| a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum::<f64>();
     product(modulus, like) / product(like, like)
 }
 

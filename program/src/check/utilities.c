@@ -56,7 +56,9 @@ static void eigen(double a[3][3], double values[3], double axes[3][3]) {
             for (int q = p + 1; q < 3; q++) {
                 if (a[p][q] == 0.0) continue;
                 double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                double t = (theta >= 0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
+                /* Its square must not overflow. */
+                double root = fabs(theta) > 1e100 ? fabs(theta) : sqrt(theta * theta + 1.0);
+                double t = (theta >= 0 ? 1.0 : -1.0) / (fabs(theta) + root);
                 double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
                 for (int k = 0; k < 3; k++) {
                     double x = a[k][p], y = a[k][q];
