@@ -106,7 +106,7 @@ fn compared(
         path.truncate(INCREMENTS);
         let (text, rotations) = rotations(&mut rng, session.material, number, path.len());
         let mut plain = Point::virgin(session, [1, 1]);
-        let mut other = Point::virgin(session, [2, 1]);
+        let mut other = Point::virgin(session, [1, 2]);
         let mut largest = 0.0_f64;
         for (f, q) in path.iter().zip(&rotations) {
             match (plain.advance(session, f), other.advance(session, &turned(f, q))) {

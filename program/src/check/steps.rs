@@ -24,12 +24,12 @@ pub fn ask(session: &mut Session) -> Line {
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine) = (0.0, 0.0);
     let mut compared = 0;
-    for number in 0..HISTORIES {
+    for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
         let mut ends = Vec::new();
         for parts in PARTS {
-            match end(session, &path, parts, number as i32) {
+            match end(session, &path, parts) {
                 Ok(Some(stress)) => ends.push(stress),
                 Ok(None) => {}
                 Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with("NaN"),
@@ -69,13 +69,8 @@ pub fn ask(session: &mut Session) -> Line {
 }
 
 /// The stress at the end of the path, each of its increments in so many parts.
-fn end(
-    session: &mut Session,
-    path: &[Matrix3<f64>],
-    parts: usize,
-    number: i32,
-) -> Result<Option<Matrix3<f64>>, String> {
-    let mut point = Point::virgin(session, [number + 1, parts as i32]);
+fn end(session: &mut Session, path: &[Matrix3<f64>], parts: usize) -> Result<Option<Matrix3<f64>>, String> {
+    let mut point = Point::virgin(session, [1, 1]);
     for f1 in path {
         let begin = point.f;
         let increment = Increment::between(&begin, f1);
