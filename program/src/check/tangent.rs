@@ -6,10 +6,10 @@ use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::{Call, Session};
-use super::differences::{Derivative, of_deformation, of_strain_increment};
+use super::differences::{Derivative, TOLERANCE, of_deformation, of_strain_increment};
 use super::histories::history;
 use super::hypotheses::{self, Factor, Sight, stress_by_volume};
-use super::judgement::{Difference, TOLERANCE, compare, contraction};
+use super::judgement::{Difference, compare, contraction};
 use super::kinematics::{Components, Increment, Modulus, name, of_stress, rotation_of};
 use super::line::{Line, Question, Verdict};
 use super::material::Reads;
@@ -25,6 +25,9 @@ const TRIED: usize = 24;
 
 /// Relative difference from which the modulus of unloading is another than that of loading.
 const TWO_MODULI: f64 = 5e-2;
+
+/// The kind of a law that is written for another order.
+pub const EXCHANGED: &str = "13 and 23 exchanged";
 
 /// What DDSDDE may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,8 +92,24 @@ impl State {
     }
 }
 
-/// The states of the answer.
+/// The states of the answer. A law whose mistake has no name is asked again with 13 and 23 for each other.
 pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
+    let mut line = ask_in_order(session, reads, allowed);
+    if session.material.components == 6 && line.kinds == ["unknown"] {
+        session.exchange(true);
+        let exchanged = ask_in_order(session, reads, allowed);
+        session.exchange(false);
+        if exchanged.kinds != line.kinds {
+            line.kinds = vec![EXCHANGED.to_string()];
+            line.kinds.extend(exchanged.kinds);
+            let text = if exchanged.verdict == Verdict::Right { line.text } else { exchanged.text };
+            line.text = format!("{EXCHANGED} in STRESS and DDSDDE (the order is 11 22 33 12 13 23): {text}");
+        }
+    }
+    line
+}
+
+fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
     let components = session.material.components;
     let (states, broken) = match gather(session, reads) {
         Ok(gathered) => gathered,
@@ -127,7 +146,7 @@ pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
     let unsure = found.iter().filter(|found| found.is_none_or(|found| found.unsure > 0)).count();
     let kinks = states.iter().filter(|state| {
         let differences = state.jaumann.iter().chain(&state.plain);
-        differences.into_iter().any(|differences| differences.kinks.contains(&true))
+        differences.into_iter().any(|differences| differences.kinks.iter().flatten().any(|kink| *kink))
     });
     let kinks = kinks.count();
     let aside = match (unsure, kinks) {
