@@ -182,8 +182,9 @@ impl Fault {
             complaint.kinds.contains(&self.kind) && self.line.as_ref().is_none_or(|line| *line == complaint.line)
         });
         // A warning does not fail the check.
-        let row = named.filter(|complaint| code == i32::from(complaint.verdict == "wrong") || code == 1);
-        row.map(|complaint| [&self.law, &self.what, &complaint.line, &complaint.kinds.join(", ")].map(String::clone))
+        let named = named.filter(|complaint| complaint.verdict == "warning" || code == 1);
+        named
+            .map(|complaint| [&self.law, &self.what, &complaint.line, &complaint.kinds.join(", ")].map(String::clone))
             .ok_or_else(|| {
                 format!("{number}: {} in {} ({}): exit {code}{}\n", self.kind, self.law, self.what, listed(&found))
             })
