@@ -233,7 +233,11 @@ pub struct Session<'a> {
     properties: Guarded,
     shared: Option<Shared>,
     records: bool,
+    exchanged: bool,
 }
+
+/// The places of 13 and 23.
+const PLACES: (usize, usize) = (4, 5);
 
 impl<'a> Session<'a> {
     /// # Errors
@@ -250,6 +254,7 @@ impl<'a> Session<'a> {
             properties: Guarded::new(material.properties.len(), fence)?,
             shared,
             records: true,
+            exchanged: false,
         };
         for (place, letter) in session.name.iter_mut().zip(material.name.to_uppercase().bytes()) {
             *place = letter as c_char;
@@ -302,8 +307,31 @@ impl<'a> Session<'a> {
         self.state.numbers().to_vec()
     }
 
+    /// Takes 13 and 23 for each other from now on, as a law does that was written for VUMAT's order; or no longer.
+    pub fn exchange(&mut self, exchanged: bool) {
+        self.exchanged = exchanged && self.material.components == 6;
+    }
+
     /// Calls the UMAT.
     pub fn ask(&mut self, call: &Call) -> Answer {
+        if !self.exchanged {
+            return self.ask_in_order(call);
+        }
+        let (first, second) = PLACES;
+        let mut call = call.clone();
+        for values in [&mut call.stress, &mut call.strain, &mut call.strain_increment] {
+            values.swap(first, second);
+        }
+        let mut answer = self.ask_in_order(&call);
+        answer.stress.swap(first, second);
+        answer.modulus.swap(first, second);
+        for row in &mut answer.modulus {
+            row.swap(first, second);
+        }
+        answer
+    }
+
+    fn ask_in_order(&mut self, call: &Call) -> Answer {
         if let Some(shared) = self.shared {
             if self.records { shared.record(&call.numbers()) } else { shared.count() }
         }
@@ -413,6 +441,7 @@ mod tests {
             unset: 0.0,
         };
         assert_eq!(Call::from_numbers(&call.numbers()), Some(call.clone()));
-        assert_eq!(Call::from_numbers(&call.numbers()[1..]), None);
+        let numbers = call.numbers();
+        assert_eq!(Call::from_numbers(&numbers[..numbers.len() - 1]), None);
     }
 }

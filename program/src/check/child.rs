@@ -12,7 +12,7 @@ use super::guarded::Fence;
 use super::line::{Line, Question};
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, steps, tangent};
+use super::{energy, objectivity, process, rest, room, steps, tangent};
 use crate::common::bound_child;
 use crate::common::error::Error;
 
@@ -185,7 +185,7 @@ pub fn ask(
     }
     let program = std::env::current_exe().map_err(io_error)?;
     let mut command = Command::new(program);
-    command.arg("check-child").arg(&request).current_dir(folder);
+    command.arg("check-child").arg(&request).current_dir(room::running(folder));
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     bound_child::bind(&mut command);
     let mut child = command.spawn().map_err(io_error)?;

@@ -136,7 +136,9 @@ impl Check<'_> {
         let mut fence = Fence::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
         for question in asked {
-            let mut line = self.question(material, question, reads.unwrap_or(Reads::Mixed), fence, &mut ended)?;
+            // Of a law that ends before it says what it reads, an inverted F is not asked for.
+            let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
+            let mut line = self.question(material, question, reads.unwrap_or(unknown), fence, &mut ended)?;
             if question == Question::Memory && line.verdict != Verdict::Right {
                 fence = Fence::Room;
             }

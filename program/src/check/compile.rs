@@ -4,6 +4,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::room;
 use crate::common::error::Error;
 
 /// The routines of Abaqus that subroutines call.
@@ -44,6 +45,7 @@ pub struct Built {
 pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let language = language(file)?;
     let file = file.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
+    room::furnish(folder, &file)?;
     if language == Language::Library {
         return Ok(Built { library: file, checked: None, by: "loaded as it is".to_string() });
     }

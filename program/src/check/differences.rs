@@ -4,6 +4,24 @@ use super::call::{Answer, Call, Session};
 use super::kinematics::{Components, Modulus, exp, of_stress, rotation_of, unit_strain};
 use super::point::{Point, global};
 
+/// Largest relative error of a modulus that is right.
+pub const TOLERANCE: f64 = 1e-4;
+/// A soft direction counts against this part of the stiffest one.
+const SOFTEST: f64 = 1e-4;
+
+/// What each entry is measured by: the stiffness of its row and column.
+pub fn scale(truth: &Modulus, components: usize) -> Modulus {
+    let largest = truth.iter().flatten().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    let mut scale = [[f64::INFINITY; 6]; 6];
+    for i in 0..components {
+        for j in 0..components {
+            let of_both = (truth[i][i] * truth[j][j]).abs().sqrt();
+            scale[i][j] = of_both.max(truth[i][j].abs()).max(SOFTEST * largest).max(f64::MIN_POSITIVE);
+        }
+    }
+    scale
+}
+
 /// The largest step of strain, and how many halvings follow.
 const LARGEST: f64 = 2e-3;
 const HALVINGS: usize = 10;
@@ -15,8 +33,8 @@ const ORDERS: usize = 4;
 pub struct Derivative {
     pub value: Modulus,
     pub error: Modulus,
-    /// Columns in which forward and backward differences do not meet.
-    pub kinks: [bool; 6],
+    /// Where forward and backward differences do not meet.
+    pub kinks: [[bool; 6]; 6],
     pub forward: Modulus,
     pub backward: Modulus,
 }
@@ -26,9 +44,14 @@ type Stress<'a> = dyn FnMut(usize, f64) -> Option<Components> + 'a;
 
 fn differences(components: usize, stress: &mut Stress) -> Option<Derivative> {
     let zero = [[0.0; 6]; 6];
-    let mut all =
-        Derivative { value: zero, error: [[f64::INFINITY; 6]; 6], kinks: [false; 6], forward: zero, backward: zero };
-    let mut jumps = [[0.0_f64; 2]; 6];
+    let mut all = Derivative {
+        value: zero,
+        error: [[f64::INFINITY; 6]; 6],
+        kinks: [[false; 6]; 6],
+        forward: zero,
+        backward: zero,
+    };
+    let mut jumps = [[[0.0_f64; 2]; 6]; 6];
     for (column, jumps) in jumps.iter_mut().enumerate().take(components) {
         let centre = stress(column, 0.0)?;
         let mut above: Vec<Components> = Vec::new();
@@ -44,7 +67,8 @@ fn differences(components: usize, stress: &mut Stress) -> Option<Derivative> {
                 let (coarse, fine): (&Components, &Components) = (&above[order - 1], &row[order - 1]);
                 let next: Components = std::array::from_fn(|i| (factor * fine[i] - coarse[i]) / (factor - 1.0));
                 for i in 0..components {
-                    let error = (next[i] - fine[i]).abs().max((next[i] - coarse[i]).abs());
+                    let rounding = f64::EPSILON * (plus[i].abs() + minus[i].abs()) / size;
+                    let error = (next[i] - fine[i]).abs().max((next[i] - coarse[i]).abs()) + rounding;
                     if error < all.error[i][column] {
                         all.error[i][column] = error;
                         all.value[i][column] = next[i];
@@ -58,16 +82,18 @@ fn differences(components: usize, stress: &mut Stress) -> Option<Derivative> {
                 for i in 0..components {
                     all.forward[i][column] = (plus[i] - centre[i]) / size;
                     all.backward[i][column] = (centre[i] - minus[i]) / size;
-                    let jump = &mut jumps[usize::from(k + 1 == HALVINGS)];
-                    *jump = jump.max((all.forward[i][column] - all.backward[i][column]).abs());
+                    let jump = (all.forward[i][column] - all.backward[i][column]).abs();
+                    jumps[i][usize::from(k + 1 == HALVINGS)] = jump;
                 }
             }
         }
     }
-    let largest = all.value.iter().flatten().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-    for (kink, [coarse, fine]) in all.kinks.iter_mut().zip(jumps) {
-        // What is smooth leaves a quarter of the jump at a quarter of the step, noise four times as much, a kink the same.
-        *kink = fine > 1e-5 * largest && fine > 0.6 * coarse && fine < 1.6 * coarse;
+    let scale = scale(&all.value, components);
+    for (j, of_column) in jumps.iter().enumerate().take(components) {
+        for (i, &[coarse, fine]) in of_column.iter().enumerate().take(components) {
+            // What is smooth leaves a quarter of the jump at a quarter of the step, noise four times as much, a kink the same.
+            all.kinks[i][j] = fine > 0.1 * TOLERANCE * scale[i][j] && fine > 0.6 * coarse && fine < 1.6 * coarse;
+        }
     }
     all.value.iter().flatten().all(|entry| entry.is_finite()).then_some(all)
 }
@@ -128,10 +154,10 @@ mod tests {
                 assert!(error < 10.0 * smooth.error[i][column] + 1e-12 * exact);
             }
         }
-        assert_eq!(smooth.kinks, [false; 6]);
+        assert_eq!(smooth.kinks, [[false; 6]; 6]);
 
         let kinked = differences(3, &mut |_, h| Some([if h > 0.0 { 2.0 * h } else { h }; 6])).expect("finite");
-        assert!(kinked.kinks[..3].iter().all(|kink| *kink));
+        assert!(kinked.kinks[..3].iter().all(|row| row[..3] == [true; 3]));
         assert!((kinked.forward[0][0] - 2.0).abs() < 1e-9 && (kinked.backward[0][0] - 1.0).abs() < 1e-9);
 
         let noisy = differences(3, &mut |_, h| Some([h + 1e-4 * (1e9 * h).sin(); 6])).expect("finite");

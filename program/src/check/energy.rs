@@ -40,11 +40,11 @@ fn size(material: &Material) -> f64 {
 
 /// F = 1 + A sin t + B (1 - cos t), once round from the virgin state. The sum over equal parts is exact to all orders for what is
 /// smooth.
-fn cycle(session: &mut Session, rng: &mut Rng, parts: usize, number: i32) -> Result<Option<Cycle>, String> {
+fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cycle>, String> {
     let size = 0.7 * size(session.material);
     let a = gradient(rng, session.material) * size;
     let b = gradient(rng, session.material) * (0.5 * size);
-    let mut point = Point::virgin(session, [number + 1, 1]);
+    let mut point = Point::virgin(session, [1, 1]);
     let (mut work, mut way, mut every_second) = (0.0, 0.0, 0.0);
     for k in 1..=parts {
         let t = TAU * k as f64 / parts as f64;
@@ -89,8 +89,8 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
     }
     let mut rng = Rng::with_seed(material.seed ^ 0xc1);
     let (mut worst, mut unsure, mut gained, mut asked) = (0.0_f64, 0.0_f64, f64::INFINITY, 0);
-    for number in 0..CYCLES {
-        let found = match cycle(session, &mut rng, INCREMENTS, number as i32) {
+    for _ in 0..CYCLES {
+        let found = match cycle(session, &mut rng, INCREMENTS) {
             Ok(Some(found)) if found.way > 0.0 => found,
             Ok(_) => continue,
             Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with("NaN"),
@@ -144,9 +144,9 @@ fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
         regained: 0.0,
     };
     let mut asked = 0;
-    for number in 0..8 {
+    for _ in 0..8 {
         let strain = direction(&mut rng, session.material) * size(session.material);
-        let mut point = Point::virgin(session, [number + 1, 1]);
+        let mut point = Point::virgin(session, [1, 1]);
         let (mut work, mut largest, mut power_before) = (0.0, 0.0_f64, 0.0);
         let mut differences = Vec::new();
         for k in 1..=STRAIGHT {

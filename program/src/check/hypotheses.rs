@@ -163,6 +163,12 @@ pub fn all(sight: &Sight, components: usize) -> Vec<Hypothesis> {
         add(&["tensor shears"], &format!("{text} the shears' diagonal"), of(&|i, j| shear(i) && i == j), Factor::One);
         add(&["tensor shears"], &format!("{text} shears by normals"), of(&|i, j| shear(i) != shear(j)), Factor::One);
     }
+    for (text, factor) in
+        [("each shear twice, in rows and in columns", 2.0_f64), ("half of each shear, in rows and in columns", 0.5)]
+    {
+        let scaled = |i: usize, j: usize| factor.powi(i32::from(shear(i)) + i32::from(shear(j)));
+        add(&["tensor shears"], text, map(|i, j| truth[i][j] * scaled(i, j)), Factor::One);
+    }
     if components == 6 {
         let exchanged = |i: usize| if i >= 4 { 9 - i } else { i };
         let name = "13 and 23 exchanged";

@@ -35,7 +35,7 @@ pub enum Failure {
 const HALVINGS: u32 = 6;
 
 impl Point {
-    /// A point that has not been deformed, of this element and number.
+    /// A point that has not been deformed, of this element and number. The element is 1 everywhere: laws may have tables by it.
     pub fn virgin(session: &mut Session, place: [i32; 2]) -> Point {
         let state = session.initial_state(place);
         let nothing = [0.0; 6];

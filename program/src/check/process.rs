@@ -18,8 +18,8 @@ use super::point::{Failure, Point};
 pub fn reads(session: &mut Session) -> Reads {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x4e);
     let (mut by_deformation, mut by_strain) = (false, false);
-    for number in 0..6 {
-        let mut point = Point::virgin(session, [number + 1, 1]);
+    for _ in 0..6 {
+        let mut point = Point::virgin(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(20);
         for f1 in &path {
@@ -63,8 +63,8 @@ pub fn reads(session: &mut Session) -> Reads {
 pub fn touch(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6d);
     let mut calls = 0;
-    for number in 0..10 {
-        let mut point = Point::virgin(session, [number + 1, 1]);
+    for _ in 0..10 {
+        let mut point = Point::virgin(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(60);
         for f1 in &path {
@@ -98,11 +98,11 @@ fn paths(material: &Material, seed: u64, count: usize, longest: usize) -> Vec<Ve
 pub fn repeat(session: &mut Session) -> Line {
     let paths = paths(session.material, 0x2e, 8, 30);
     let alone: Vec<Vec<Answer>> =
-        paths.iter().enumerate().map(|(k, path)| answers(session, path, [k as i32 + 1, 1])).collect();
+        paths.iter().enumerate().map(|(k, path)| answers(session, path, [1, k as i32 + 1])).collect();
     let wrong = |text: String| Line::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order");
     // Each increment asked twice, as Newton's iterations do, with another strain between.
     for (k, path) in paths.iter().enumerate() {
-        let mut point = Point::virgin(session, [k as i32 + 1, 1]);
+        let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for (increment, f1) in path.iter().enumerate().take(alone[k].len()) {
             let call = point.call(f1, session.material);
             let first = session.ask(&call);
@@ -127,7 +127,7 @@ pub fn repeat(session: &mut Session) -> Line {
         }
     }
     // All points side by side, increment by increment.
-    let mut points: Vec<Point> = (0..paths.len()).map(|k| Point::virgin(session, [k as i32 + 1, 1])).collect();
+    let mut points: Vec<Point> = (0..paths.len()).map(|k| Point::virgin(session, [1, k as i32 + 1])).collect();
     let longest = paths.iter().map(Vec::len).max().unwrap_or(0);
     for increment in 0..longest {
         for k in (0..paths.len()).rev() {
@@ -169,12 +169,12 @@ const THREADS: usize = 8;
 pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     let paths = paths(material, 0x7e, THREADS, 60);
     let alone: Vec<Vec<Answer>> =
-        paths.iter().enumerate().map(|(k, path)| answers(session, path, [k as i32 + 1, 1])).collect();
+        paths.iter().enumerate().map(|(k, path)| answers(session, path, [1, k as i32 + 1])).collect();
     let started = Instant::now();
     let run = |k: usize, mut session: Session| {
         let mut rounds = 0;
         while rounds < 200 && started.elapsed() < Duration::from_secs(3) {
-            let found = answers(&mut session, &paths[k], [k as i32 + 1, 1]);
+            let found = answers(&mut session, &paths[k], [1, k as i32 + 1]);
             if found.len() != alone[k].len() || !found.iter().zip(&alone[k]).all(|(a, b)| a.same(b)) {
                 return Err(());
             }
@@ -212,7 +212,7 @@ pub fn outputs(session: &mut Session) -> Line {
     let mut used = [[false; 6]; 6];
     let mut asked = 0;
     for (k, path) in paths(session.material, 0x0f, 8, 30).into_iter().enumerate() {
-        let mut point = Point::virgin(session, [k as i32 + 1, 1]);
+        let mut point = Point::virgin(session, [1, k as i32 + 1]);
         for f1 in &path {
             let mut call = point.call(f1, session.material);
             let zero = session.ask(&call);
@@ -273,7 +273,7 @@ pub fn exceptions(session: &mut Session) -> Line {
     let mut raised = [0; 3];
     let mut asked = 0;
     for (k, path) in paths(session.material, 0xf9, 12, 30).into_iter().enumerate() {
-        let mut point = Point::virgin(session, [k as i32 + 1, 1]);
+        let mut point = Point::virgin(session, [1, k as i32 + 1]);
         let rest = [Matrix3::identity()];
         for f1 in rest.iter().chain(&path) {
             let call = point.call(f1, session.material);
@@ -363,7 +363,7 @@ pub fn histories(session: &mut Session) -> Line {
         if number % 64 == 0 && started.elapsed() > TIME {
             break;
         }
-        let mut point = Point::virgin(session, [(number % 1000) as i32 + 1, 1]);
+        let mut point = Point::virgin(session, [1, 1]);
         let target = state(&mut rng, session.material);
         let count = rng.usize(1..5);
         let whole = super::kinematics::Increment::between(&point.f, &target);
@@ -419,8 +419,8 @@ fn rows(f: &Matrix3<f64>) -> String {
 pub fn runtime(session: &mut Session) -> Line {
     let line = touch(session);
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6e);
-    for number in 0..6 {
-        let mut point = Point::virgin(session, [number + 1, 1]);
+    for _ in 0..6 {
+        let mut point = Point::virgin(session, [1, 1]);
         for f1 in history(&mut rng, session.material, 2).iter().take(30) {
             match point.advance(session, f1) {
                 Ok(_) => {}

@@ -1,6 +1,6 @@
 //! A folder for what is built and asked, which goes with its owner.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::common::error::Error;
 
@@ -18,9 +18,35 @@ impl Room {
         if path.exists() {
             std::fs::remove_dir_all(&path).map_err(error)?;
         }
-        std::fs::create_dir(&path).map_err(error)?;
+        std::fs::create_dir_all(running(&path)).map_err(error)?;
         Ok(Room { path })
     }
+}
+
+/// Where in the room the law runs.
+pub fn running(room: &Path) -> PathBuf {
+    room.join("run")
+}
+
+/// Files that a law may read, beside it: so many, and no longer ones.
+const FILES: usize = 200;
+const LONGEST: u64 = 1 << 20;
+
+/// Copies the files beside a law to where it runs: it may read some, and must not write to them.
+///
+/// # Errors
+/// They cannot be read or written.
+pub fn furnish(room: &Path, law: &Path) -> Result<(), Error> {
+    let Some(beside) = law.parent() else { return Ok(()) };
+    let error = |error: std::io::Error| Error::Input(format!("{}: {error}", beside.display()));
+    for entry in std::fs::read_dir(beside).map_err(error)?.take(FILES) {
+        let entry = entry.map_err(error)?;
+        let data = entry.metadata().map_err(error)?;
+        if data.is_file() && data.len() <= LONGEST {
+            std::fs::copy(entry.path(), running(room).join(entry.file_name())).map_err(error)?;
+        }
+    }
+    Ok(())
 }
 
 impl Drop for Room {

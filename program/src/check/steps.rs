@@ -24,19 +24,23 @@ pub fn ask(session: &mut Session) -> Line {
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine) = (0.0, 0.0);
     let mut compared = 0;
-    for number in 0..HISTORIES {
+    for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
         let mut ends = Vec::new();
+        // Of all that is on the way: a path may end where there is next to no stress.
+        let mut size = 0.0_f64;
         for parts in PARTS {
-            match end(session, &path, parts, number as i32) {
-                Ok(Some(stress)) => ends.push(stress),
+            match end(session, &path, parts) {
+                Ok(Some((stress, largest))) => {
+                    ends.push(stress);
+                    size = size.max(largest);
+                }
                 Ok(None) => {}
                 Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with("NaN"),
             }
         }
         let [one, two, four, eight, sixteen] = ends[..] else { continue };
-        let size = [one, two, four, eight, sixteen].iter().fold(0.0_f64, |size, stress| size.max(stress.norm()));
         if size == 0.0 {
             continue;
         }
@@ -68,25 +72,21 @@ pub fn ask(session: &mut Session) -> Line {
     Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
 }
 
-/// The stress at the end of the path, each of its increments in so many parts.
-fn end(
-    session: &mut Session,
-    path: &[Matrix3<f64>],
-    parts: usize,
-    number: i32,
-) -> Result<Option<Matrix3<f64>>, String> {
-    let mut point = Point::virgin(session, [number + 1, parts as i32]);
+/// The stress at the end of the path and the largest on the way, each of its increments in so many parts.
+fn end(session: &mut Session, path: &[Matrix3<f64>], parts: usize) -> Result<Option<(Matrix3<f64>, f64)>, String> {
+    let mut point = Point::virgin(session, [1, 1]);
+    let mut largest = 0.0_f64;
     for f1 in path {
         let begin = point.f;
         let increment = Increment::between(&begin, f1);
         for part in 1..=parts {
             let f = increment.at(part as f64 / parts as f64, &begin);
             match point.advance_in(session, &f, session.material.time_step / parts as f64) {
-                Ok(_) => {}
+                Ok(_) => largest = largest.max(point.global_stress(session.material).norm()),
                 Err(Failure::Refused) => return Ok(None),
                 Err(Failure::NotFinite(_)) => return Err("not finite in divided increments".to_string()),
             }
         }
     }
-    Ok(Some(point.global_stress(session.material)))
+    Ok(Some((point.global_stress(session.material), largest)))
 }

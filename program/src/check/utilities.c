@@ -125,8 +125,12 @@ static void text(const char *value, char *out, int *length, size_t room) {
     memcpy(out, value, n < room ? n : room);
     *length = (int)(n < room ? n : room);
 }
-WEAK void getoutdir_(char *name, int *length, size_t room) { text(".", name, length, room); }
-WEAK void vgetoutdir_(char *name, int *length, size_t room) { text(".", name, length, room); }
+/* Where the process runs; the files beside the subroutine have been copied there. */
+WEAK void getoutdir_(char *name, int *length, size_t room) {
+    char here[4096];
+    text(getcwd(here, sizeof here) ? here : ".", name, length, room);
+}
+WEAK void vgetoutdir_(char *name, int *length, size_t room) { getoutdir_(name, length, room); }
 WEAK void getjobname_(char *name, int *length, size_t room) { text("check", name, length, room); }
 WEAK void vgetjobname_(char *name, int *length, size_t room) { text("check", name, length, room); }
 WEAK void getpartinfo_(const int *number, const int *type, char *name, int *local, int *error, size_t room) {
