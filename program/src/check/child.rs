@@ -43,6 +43,8 @@ pub enum Task {
         reads: Reads,
         allowed: Option<f64>,
     },
+    /// Objectivity where turns are larger than solvers have them.
+    LargeTurns,
     /// One call, as the bits of its numbers: they need not be finite.
     Call(Vec<u64>),
 }
@@ -100,6 +102,7 @@ pub fn answer(request: &Path) -> Result<(), Error> {
         Task::Question { question, reads, allowed } => {
             Said::Line(line(question, &law, &material, &mut session, reads, allowed))
         }
+        Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
             let numbers: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
             let call = Call::from_numbers(&numbers).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
@@ -124,7 +127,7 @@ fn line(
         Question::Build | Question::Memory => process::touch(session),
         Question::Rest => rest::ask(session),
         Question::Tangent => tangent::ask(session, reads, allowed),
-        Question::Objectivity => objectivity::objectivity(session),
+        Question::Objectivity => objectivity::objectivity(session, reads),
         Question::Isotropy => objectivity::isotropy(session),
         Question::Steps => steps::ask(session),
         Question::Energy => energy::energy(session),
@@ -301,7 +304,7 @@ fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
             ("crash".to_string(), format!("a floating-point or whole-number exception ends it {after}"))
         }
         (None, libc::SIGILL) => ("crash".to_string(), format!("an illegal instruction (a trap) {after}")),
-        (None, _) => ("crash".to_string(), format!("an address that is nowhere {after}")),
+        (None, _) => ("crash".to_string(), format!("a segmentation fault {after}")),
     };
     Ending { kind, text, call }
 }
@@ -324,8 +327,11 @@ fn runtime_error(messages: &str) -> Option<String> {
     let place = before.lines().rev().find_map(|line| line.trim().strip_prefix("At line "));
     let named = place.map(|place| match place.split_once(" of file ") {
         Some((line, file)) => {
+            // Errors of files have the unit and its file behind.
+            let (file, unit) =
+                file.split_once(" (").map_or((file, String::new()), |(file, unit)| (file, format!(" ({unit}")));
             let file = Path::new(file.trim()).file_name().map_or(file.into(), |name| name.to_string_lossy());
-            format!("{file}:{line}: {error}")
+            format!("{file}:{line}: {error}{unit}")
         }
         None => error.to_string(),
     });
@@ -344,6 +350,8 @@ mod tests {
                        above upper bound of 3\n";
         let expected = "umat.f:12: Index '4' of dimension 1 of array 'statev' above upper bound of 3";
         assert_eq!(runtime_error(fortran).as_deref(), Some(expected));
+        let unit = "At line 7 of file /x/a.f (unit = 16, file = 'fibres.inp')\nFortran runtime error: End of file\n";
+        assert_eq!(runtime_error(unit).as_deref(), Some("a.f:7: End of file (unit = 16, file = 'fibres.inp')"));
         assert_eq!(runtime_error("STOP 1"), None);
     }
 }

@@ -142,6 +142,12 @@ impl Check<'_> {
             if question == Question::Memory && line.verdict != Verdict::Right {
                 fence = Fence::Room;
             }
+            if fence == Fence::Room
+                && matches!(question, Question::Repeat | Question::Threads)
+                && line.verdict == Verdict::Wrong
+            {
+                line.text.push_str("; it may follow from what memory says");
+            }
             let allowed = self.allowed.get(question.name()).copied();
             if let (Verdict::Wrong, Some(allowed), Some(figure)) = (line.verdict, allowed, line.figure)
                 && figure <= allowed
@@ -196,7 +202,29 @@ impl Check<'_> {
                 Err(ending) => return self.ended(material, question, ending, fence, ended),
             }
         }
-        Ok(answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer")))
+        let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
+        if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
+            return self.at_large_turns(material, line, fence, longest_call);
+        }
+        Ok(line)
+    }
+
+    /// Turns of 90° in one increment: no solver has them, and a law that is right for small ones is only warned of.
+    fn at_large_turns(
+        &self,
+        material: &Material,
+        right: Line,
+        fence: Fence,
+        longest_call: Duration,
+    ) -> Result<Line, Error> {
+        let text = match self.ask(material, Task::LargeTurns, fence, false, longest_call)? {
+            Ok(Said::Line(line)) if line.verdict == Verdict::Right => return Ok(line),
+            Ok(Said::Line(line)) => line.text,
+            Ok(_) => return Ok(right),
+            Err(ending) => ending.text,
+        };
+        let text = format!("right at turns of 5° an increment, not at larger ones: {text}");
+        Ok(Line::new(Question::Objectivity, Verdict::Warning, right.figure, text))
     }
 
     /// The process has ended: that is the answer. The same end in another line says nothing new.

@@ -55,10 +55,15 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let mut command = Command::new("gcc");
     command.args(["-c", "-O1", "-fPIC", "-w"]).arg(folder.join("utilities.c")).arg("-o").arg(&utilities);
     run(&mut command, "utilities.c")?;
-    let library = build(&file, language, compiler, folder, &utilities, false)?;
+    let build = |checked, dialect| build(&file, language, compiler, folder, &utilities, checked, dialect);
+    let fortran = compiler == "gfortran";
+    // What ifort takes and gfortran does not, in the dialect that both have from DEC.
+    let (library, dialect) = match build(false, false) {
+        Err(error) if fortran => (build(false, true).map_err(|_| error)?, true),
+        library => (library?, false),
+    };
     // Where the checks do not compile there is no second build, which is said.
-    let checked =
-        (compiler == "gfortran").then(|| build(&file, language, compiler, folder, &utilities, true).ok()).flatten();
+    let checked = fortran.then(|| build(true, dialect).ok()).flatten();
     Ok(Built { library, checked, by: compiler.to_string() })
 }
 
@@ -134,6 +139,7 @@ fn build(
     folder: &Path,
     utilities: &Path,
     checked: bool,
+    dialect: bool,
 ) -> Result<PathBuf, Error> {
     let library = folder.join(if checked { "checked.so" } else { "law.so" });
     let mut command = Command::new(compiler);
@@ -141,6 +147,7 @@ fn build(
     if let Some(beside) = file.parent() {
         command.arg("-I").arg(beside);
     }
+    command.arg("-I").arg(room::in_either_case(folder));
     match (language, compiler) {
         (Language::C, _) => {
             command.args(["-O2", "-w"]);
@@ -151,8 +158,12 @@ fn build(
         (_, "gfortran") => {
             // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
             command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
+            if dialect {
+                command.arg("-fdec");
+            }
             command.args(if checked {
-                &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-fno-backtrace"][..]
+                &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777", "-fno-backtrace"]
+                    [..]
             } else {
                 &["-O2"][..]
             });

@@ -79,7 +79,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
     if material.components == 3 {
         return Line::new(Question::Cycles, Verdict::NotAsked, None, "plane stress: the work across it is not known");
     }
-    if !declared.hyperelastic && !declared.dissipative && reads != Reads::Total {
+    if !declared.hyperelastic && !declared.dissipative {
         return Line::new(
             Question::Cycles,
             Verdict::NotAsked,
@@ -115,8 +115,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
     }
     if gained < -(if reads == Reads::Total { GAINED } else { GAINED_BY_RATE }) {
         let text = format!("a closed cycle from the virgin state gives {:.1e} of the work on its way", -gained);
-        let verdict = if declared.dissipative { Verdict::Wrong } else { Verdict::Warning };
-        return Line::new(Question::Cycles, verdict, Some(-gained), text).with("energy gained");
+        return Line::new(Question::Cycles, Verdict::Wrong, Some(-gained), text).with("energy gained");
     }
     let text = format!("{asked} closed cycles from the virgin state give no work");
     Line::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
@@ -226,7 +225,15 @@ pub fn energy(session: &mut Session) -> Line {
 
 /// Whether SPD + SCD ever decrease.
 pub fn dissipation(session: &mut Session) -> Line {
-    if !session.material.traits.dissipative || session.material.components == 3 {
+    if session.material.components == 3 {
+        return Line::new(
+            Question::Dissipation,
+            Verdict::NotAsked,
+            None,
+            "plane stress: the work across it is not known",
+        );
+    }
+    if !session.material.traits.dissipative {
         return Line::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
     }
     match reported(session) {

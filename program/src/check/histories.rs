@@ -9,6 +9,9 @@ use super::material::Material;
 /// Increments of a leg, at most.
 const LONGEST: f64 = 150.0;
 
+/// The largest turn of one increment, 5°: many rate laws integrate the spin as solvers do, for small turns alone.
+pub const LARGEST_TURN: f64 = 0.0873;
+
 /// Legs between random states: the sequence of F after each increment. Increments of a leg are equal; those of different legs
 /// differ by up to a factor of thirty.
 pub fn history(rng: &mut Rng, material: &Material, legs: usize) -> Vec<Matrix3<f64>> {
@@ -26,7 +29,7 @@ pub fn history(rng: &mut Rng, material: &Material, legs: usize) -> Vec<Matrix3<f
         let size = material.increment * 10f64.powf(-1.0 + 1.3 * rng.f64());
         before = f;
         let increment = Increment::between(&f, &target);
-        let count = (increment.strain.norm() / size).ceil().clamp(1.0, LONGEST);
+        let count = (increment.strain.norm() / size).max(increment.angle() / LARGEST_TURN).ceil().clamp(1.0, LONGEST);
         // A short leg of small increments, so that little strains are seen too.
         let taken = if rng.f64() < 0.3 { count.min(5.0) } else { count };
         history.extend((1..=taken as usize).map(|k| increment.at(k as f64 / count, &before)));

@@ -21,6 +21,20 @@ impl Increment {
         Increment { strain: of(|x| 0.5 * x.ln()), rotation: of(|x| 1.0 / x.sqrt()) * change }
     }
 
+    /// The angle of R.
+    pub fn angle(&self) -> f64 {
+        Rotation3::from_matrix_unchecked(self.rotation).angle()
+    }
+
+    /// The same with a turn of this angle, if it is larger.
+    pub fn turning_at_most(mut self, angle: f64) -> Self {
+        let rotation = Rotation3::from_matrix_unchecked(self.rotation);
+        if rotation.angle() > angle {
+            self.rotation = *rotation.powf(angle / rotation.angle()).matrix();
+        }
+        self
+    }
+
     /// The deformation from F0 at this part of the increment, along constant rates of stretch and spin.
     pub fn at(&self, part: f64, f0: &Matrix3<f64>) -> Matrix3<f64> {
         let spin = Rotation3::from_matrix_unchecked(self.rotation).scaled_axis() * part;

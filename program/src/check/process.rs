@@ -8,8 +8,8 @@ use nalgebra::Matrix3;
 
 use super::call::{Answer, Call, Law, Session};
 use super::guarded::Fence;
-use super::histories::{history, state};
-use super::kinematics::name;
+use super::histories::{LARGEST_TURN, history, state};
+use super::kinematics::{Increment, name};
 use super::line::{Line, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
@@ -366,7 +366,7 @@ pub fn histories(session: &mut Session) -> Line {
         let mut point = Point::virgin(session, [1, 1]);
         let target = state(&mut rng, session.material);
         let count = rng.usize(1..5);
-        let whole = super::kinematics::Increment::between(&point.f, &target);
+        let whole = Increment::between(&point.f, &target).turning_at_most(LARGEST_TURN * count as f64);
         // Small ones too: from a millionth of the way to all of it.
         let part = if rng.bool() { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
         for k in 1..=count {

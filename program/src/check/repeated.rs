@@ -80,6 +80,10 @@ impl Repeated {
                 for (name, numbers) in lines {
                     print(&format!("{name:<14}{numbers}\n"));
                 }
+                print(
+                    "\nAlone the call ends well: if it did not before, that depends on the calls before it (a variable that is not \
+                     set, SAVE, COMMON).\n",
+                );
                 Ok(())
             }
             Ok(_) => Err(Error::Evaluation("the call has no answer".to_string())),

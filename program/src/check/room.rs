@@ -19,6 +19,7 @@ impl Room {
             std::fs::remove_dir_all(&path).map_err(error)?;
         }
         std::fs::create_dir_all(running(&path)).map_err(error)?;
+        std::fs::create_dir(in_either_case(&path)).map_err(error)?;
         Ok(Room { path })
     }
 }
@@ -26,6 +27,11 @@ impl Room {
 /// Where in the room the law runs.
 pub fn running(room: &Path) -> PathBuf {
     room.join("run")
+}
+
+/// Where the names of the files beside a law are in small letters and in capitals: Windows does not tell them apart.
+pub fn in_either_case(room: &Path) -> PathBuf {
+    room.join("names")
 }
 
 /// Files that a law may read, beside it: so many, and no longer ones.
@@ -44,6 +50,10 @@ pub fn furnish(room: &Path, law: &Path) -> Result<(), Error> {
         let data = entry.metadata().map_err(error)?;
         if data.is_file() && data.len() <= LONGEST {
             std::fs::copy(entry.path(), running(room).join(entry.file_name())).map_err(error)?;
+            let name = entry.file_name().to_string_lossy().to_string();
+            for name in [name.to_lowercase(), name.to_uppercase()] {
+                std::fs::copy(entry.path(), in_either_case(room).join(name)).map_err(error)?;
+            }
         }
     }
     Ok(())
