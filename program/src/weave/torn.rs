@@ -29,6 +29,15 @@ fn ends_are_apart(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> 
     !starts.iter().any(|group| ends.binary_search(group).is_ok())
 }
 
+/// Into how many pieces that share no nodes so many nodes fall.
+pub fn pieces(nodes: usize, elements: &[[u32; 8]]) -> usize {
+    let mut groups = Groups::new(nodes);
+    for element in elements {
+        element.iter().for_each(|&node| groups.join(element[0], node));
+    }
+    (0..nodes as u32).filter(|&node| groups.of(node) == node).count()
+}
+
 /// Nodes that are joined have one number.
 struct Groups(Vec<u32>);
 

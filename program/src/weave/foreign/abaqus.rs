@@ -90,7 +90,12 @@ impl Reader {
     fn keyword(&mut self, line: &Line<'_>, keyword: &Keyword<'_>, depth: usize) -> Result<Block, Error> {
         let set = |key: &str| keyword.value(key).map(str::to_uppercase);
         let block = match keyword.name.as_str() {
-            "NODE" => Block::Nodes,
+            "NODE" => match set("SYSTEM") {
+                Some(system) if system != "R" => {
+                    return Err(line.error(&format!("*NODE, SYSTEM={system}; allowed: R, rectangular coordinates")));
+                }
+                _ => Block::Nodes,
+            },
             "ELEMENT" => {
                 let kind = keyword.value("TYPE").unwrap_or_default().to_uppercase();
                 let nodes = match kind.get(..4) {
@@ -117,6 +122,9 @@ impl Reader {
                 Block::None
             }
             "DISTRIBUTION" if set("LOCATION").is_none_or(|location| location == "ELEMENT") => Block::Directions,
+            "ELGEN" | "ELCOPY" | "NGEN" | "NCOPY" | "NFILL" => {
+                return Err(line.error(&format!("*{}; allowed: nodes and elements one by one", keyword.name)));
+            }
             "INSTANCE" => return Err(line.error("*INSTANCE; allowed: a flat input, as of a mesh alone")),
             _ => Block::None,
         };
@@ -224,6 +232,16 @@ impl Reader {
             match member {
                 Member::Element(number) => found.push(*number),
                 Member::Set(name) => self.members(name, &mut found, 0),
+            }
+            let unknown = found.iter().find(|number| !self.mesh.element.contains_key(number));
+            let unknown = match (member, unknown) {
+                (_, Some(number)) => Some(format!("element {number}")),
+                (Member::Set(name), None) if found.is_empty() => Some(format!("set {name}")),
+                _ => None,
+            };
+            if let Some(unknown) = unknown {
+                let message = format!("*DISTRIBUTION has a direction of {unknown}, which the file does not have");
+                return Err(Error::Input(format!("{file}: {message}")));
             }
             directions.extend(found.into_iter().map(|number| (number, *direction)));
         }

@@ -10,9 +10,12 @@ use crate::explicit::mutual_contact::outer_faces;
 use crate::weave::geometry::Family;
 use crate::weave::model::{Crossing, END, Face, Grid, LEFT, LOWER, Model, RIGHT, START, Side, UPPER, Yarn};
 use crate::weave::panel::Part;
+use crate::weave::torn;
 
 /// Lengths smaller than this part of a yarn's width are rounding in the file.
 const ROUNDING: f64 = 1e-4;
+/// Yarns run along x and y, but for so many degrees.
+const OBLIQUE: f64 = 10.0;
 /// A direction whose square is 1 but for this is taken as it is.
 const UNIT: f64 = 1e-12;
 
@@ -88,6 +91,12 @@ impl<'a> Thread<'a> {
         let sense = |axis: &Vector3<f64>| if axis.dot(&fibre[0]) < 0.0 { -axis } else { *axis };
         let sum: Vector3<f64> = fibre.iter().map(sense).sum();
         let family = if sum.x.abs() >= sum.y.abs() { Family::Warp } else { Family::Weft };
+        let off = sum.x.abs().min(sum.y.abs()).atan2(sum.x.abs().max(sum.y.abs())).to_degrees();
+        if off > OBLIQUE {
+            return Err(format!(
+                "{name} runs {off:.0}° off x and y; allowed: up to {OBLIQUE}°, warp along x, weft along y"
+            ));
+        }
         for axis in &mut fibre {
             if axis[family as usize] < 0.0 {
                 *axis = -*axis;
@@ -165,6 +174,17 @@ impl Model {
         }
         let nodes = first_node..self.nodes.len();
         let elements = first_element..self.elements.len();
+        let local: Vec<[u32; 8]> = self.elements[elements.clone()]
+            .iter()
+            .map(|element| element.map(|node| node - first_node as u32))
+            .collect();
+        let pieces = torn::pieces(nodes.len(), &local);
+        if pieces > 1 {
+            return Err(format!(
+                "{} is in {pieces} pieces; allowed: one, of elements that share their nodes",
+                thread.name
+            ));
+        }
         let [low, high] = extent(self.nodes[nodes.clone()].iter().map(|node| node[1 - family as usize]));
         let rounding = ROUNDING * (high - low);
         let mut yarn = Yarn {
@@ -182,7 +202,14 @@ impl Model {
         if part == Part::Quarter {
             self.settle_on_planes(&mut yarn, rounding).map_err(|message| format!("{} {message}", thread.name))?;
         }
-        self.add_surface(&mut yarn, part);
+        let gap = self.add_surface(&mut yarn, part);
+        if let Some(element) = gap {
+            let (name, number) = (thread.name, thread.elements[element].number);
+            let axis = if family == Family::Warp { "x" } else { "y" };
+            return Err(format!(
+                "{name} has a gap along {axis} beside element {number}; allowed: none but at its ends"
+            ));
+        }
         self.yarns.push(yarn);
         Ok(())
     }
@@ -212,8 +239,13 @@ impl Model {
         Ok(())
     }
 
-    /// The faces that can touch something, and the ends.
-    fn add_surface(&mut self, yarn: &mut Yarn, part: Part) {
+    /// The faces that can touch something, and the ends. Returns the place of an element that is beside a gap in the yarn, if there is
+    /// one: an end of its own that is farther from the yarn's than the element is long or the yarn wide.
+    fn add_surface(&mut self, yarn: &mut Yarn, part: Part) -> Option<usize> {
+        let along = yarn.family as usize;
+        let [low, high] = self.extent(yarn, along);
+        let [left, right] = self.extent(yarn, 1 - along);
+        let mut gap = None;
         let on_plane = |nodes: &[u32; 4], axis: usize| nodes.iter().all(|&node| self.nodes[node as usize][axis] == 0.0);
         let sides = [(UPPER, Side::Upper), (LOWER, Side::Lower), (LEFT, Side::Left), (RIGHT, Side::Right)];
         let mut faces: Vec<(u32, u8, Face)> = Vec::new();
@@ -224,6 +256,12 @@ impl Model {
             let [a, b, c, d] = nodes;
             let line = a == b && c == d || b == c && a == d;
             if is(START) || is(END) {
+                let places = |nodes: &[u32]| extent(nodes.iter().map(|&node| self.nodes[node as usize][along]));
+                let ([from, to], [at, until]) = (places(corners), places(&nodes));
+                let beyond = if is(START) { at - low } else { high - until };
+                if beyond > (to - from).max(right - left) {
+                    gap = gap.or(Some(place as usize));
+                }
                 yarn.ends[usize::from(is(END))].extend(nodes);
             } else if !line && (part == Part::Whole || !(0..2).any(|axis| on_plane(&nodes, axis))) {
                 let found = sides.into_iter().find(|(side, _)| is(*side));
@@ -237,10 +275,10 @@ impl Model {
             nodes.sort_unstable();
             nodes.dedup();
         }
-        let along = yarn.family as usize;
         let held = |node: &&u32| part == Part::Whole || self.nodes[**node as usize][along] != 0.0;
         let [start, end] = &yarn.ends;
         self.rim.extend(end.iter().chain(start).filter(held));
+        gap
     }
 
     /// Numbers the yarns of each family by their places; that nearest to the origin is 0.

@@ -267,6 +267,15 @@ fn a_wrong_file_is_refused_by_name() {
     );
     inp(&abaqus.replace("3, -1.5,", "3, x,"), "cross.inp:6: x is \"x\"; allowed: a finite number");
     inp(&cross.abaqus("*Distribution, Input=none.ori\n"), "none.ori");
+    inp(
+        &abaqus.replacen("*Element", "*Elgen, Elset=All\n1, 2, 1, 1\n*Element", 1),
+        "*ELGEN; allowed: nodes and elements",
+    );
+    inp(&abaqus.replacen("*Node", "*Node, System=C", 1), "*NODE, SYSTEM=C; allowed: R");
+    let of_none = "*Distribution, Location=Element\n, 1., 0., 0.\n999999, 0., 1., 0.\n";
+    inp(&cross.abaqus(of_none), "has a direction of element 999999, which the file does not have");
+    let of_none = "*Distribution, Location=Element\n, 1., 0., 0.\nYarn99, 0., 1., 0.\n";
+    inp(&cross.abaqus(of_none), "has a direction of set YARN99, which the file does not have");
     refused(&[("cross.inp", &abaqus)], "units = \"m\"", "allowed: 0.003000 to 30.00, in mesh.units = \"m\"");
     refused(&[("cross.inp", &abaqus)], "units = \"kg\"", "mesh.units is \"kg\"; allowed: a unit of length");
     refused(&[("cross.inp", &abaqus)], "part = \"quarter\"", "YARN0 has a node at x = -1.5; allowed: 0 and more");
@@ -282,6 +291,38 @@ fn a_wrong_file_is_refused_by_name() {
     model.fibre.iter_mut().for_each(|fibre| fibre.swap(0, 1));
     let turned = vtu::unstructured_grid(&model);
     refused(&[("turned.vtu", &turned)], "", "are 90° off its length; allowed: up to 45°, directions along the yarn");
+    let oblique = "units = \"mm-tonne-s\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\n[weave.panel]\nshape = \"circle\"\n\
+                   radius = 3.0\n[[ply]]\nangle = 30\n";
+    let oblique = Scene::parse("weave.toml", oblique).expect("a weave").cloth.model();
+    refused(&[("oblique.vtu", &vtu::unstructured_grid(&oblique))], "", "runs 30° off x and y; allowed: up to 10°");
+    // A yarn without a layer of its middle, one without an element of its middle, and one whose elements share no nodes.
+    let model = Scene::parse("weave.toml", weave).expect("a weave").cloth.model();
+    let without = |lost: &dyn Fn(usize) -> bool| {
+        let mut model = model.clone();
+        let mut place = 0;
+        let kept: Vec<bool> = (0..model.elements.len()).map(|element| !lost(element)).collect();
+        let mut keep = |element: usize| {
+            place += usize::from(kept[element]);
+            place
+        };
+        let ends: Vec<usize> = (0..model.elements.len()).map(&mut keep).collect();
+        let before = |element: usize| if element == 0 { 0 } else { ends[element - 1] };
+        for yarn in &mut model.yarns {
+            yarn.elements = before(yarn.elements.start)..before(yarn.elements.end);
+        }
+        let mut number = kept.iter();
+        model.elements.retain(|_| *number.next().expect("one each"));
+        let mut number = kept.iter();
+        model.fibre.retain(|_| *number.next().expect("one each"));
+        vtu::unstructured_grid(&model)
+    };
+    let first = &model.yarns[3];
+    let grid = first.grid.as_ref().expect("a grid");
+    let middle = first.elements.start + grid.layer(grid.layers / 2).start;
+    let layer = without(&|element| (middle..middle + grid.elements_per_layer()).contains(&element));
+    refused(&[("gap.vtu", &layer)], "", "is in 2 pieces; allowed: one, of elements that share their nodes");
+    let one = without(&|element| element == middle + 1);
+    refused(&[("gap.vtu", &one)], "", "has a gap along x beside element");
     let k = |text: &str, message: &str| refused(&[("cross.k", text)], "", message);
     k(&ls_dyna.replace("*END", "*PART\nempty\n        99\n*END"), "part 99, empty, has no elements");
     k(&ls_dyna.replace("*KEYWORD", "*KEYWORD LONG=Y"), "cross.k:1: LONG=Y; allowed: the standard format");

@@ -13,6 +13,10 @@ const WEDGE: u8 = 13;
 /// What in the file is wrong, by line.
 pub fn read(file: &str, text: &str) -> Result<Raw, Error> {
     let document = Document::parse(text).map_err(|error| Error::Input(format!("{file}: {error}")))?;
+    if let Some(piece) = document.descendants().filter(|node| node.has_tag_name("Piece")).nth(1) {
+        let row = document.text_pos_at(piece.range().start).row;
+        return Err(Error::Input(format!("{file}:{row}: a second Piece; allowed: one")));
+    }
     let reader = Reader { file, document: &document };
     let [points, connectivity, offsets, types] = [
         reader.array("Points", None)?,
