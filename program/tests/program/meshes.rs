@@ -46,13 +46,15 @@ fn texgen_s_weave_is_read_checked_and_drawn() {
     let answer = toron(&output, "weave", &format!("{MESH}{MATERIAL}"));
     let report = String::from_utf8(answer.stdout).expect("text");
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
-    assert!(report.contains("4 warp, 4 weft") && !report.contains("warning"), "{report}");
+    assert!(report.contains("4 warp, 4 weft"), "{report}");
     // An ellipse's polygon of 12 points has 0.955 of its area, π/4 of 0.5337 by 0.115, over the pitch, twice.
     let straight = 2.0 * 0.955 * std::f64::consts::PI / 4.0 * 0.5337 * 0.115 / 0.747;
     let crimp = figure(&report, "crimp of warp and weft");
     assert!((1.2..1.6).contains(&crimp), "{report}");
     assert!((figure(&report, "volume over area") / (straight * (1.0 + 0.01 * crimp)) - 1.0).abs() < 0.01, "{report}");
     assert!((figure(&report, "thickness") - 0.23).abs() < 1e-3 && figure(&report, "fibres off their elements") < 1.0);
+    // Its yarns lie on each other, and chords of the mesh go into them a little.
+    assert!(report.contains("nodes are in another yarn, and 0 % of the yarns' volume"), "{report}");
     let elements = figure(&report, "elements, nodes");
     assert!((figure(&report, "wedges among the elements") / elements - 1.0 / 3.0).abs() < 0.01, "{report}");
     let picture = Picture::read(&output.join("weave.png"));
@@ -96,7 +98,9 @@ fn wedges_are_struck() {
     let (speed, deflection) = (column(&history, "speed"), column(&history, "deflection"));
     let last = speed.len() - 1;
     assert!(speed[last] < 141.9 && deflection[last] > 0.3, "{speed:?} {deflection:?}");
-    assert!(column(&history, "least_scaled_jacobian").iter().all(|least| (0.0..=1.0).contains(least)), "{history}");
+    let whole = column(&history, "deleted").iter().take_while(|&&deleted| deleted == 0.0).count();
+    let jacobians = column(&history, "least_scaled_jacobian");
+    assert!(whole > 2 && jacobians[..whole].iter().all(|least| (0.0..=1.0).contains(least)), "{jacobians:?}");
     // A deck needs a gap, which yarns that meet do not leave.
     let deck = |mesh: &str| {
         std::fs::write(output.join("scene.toml"), format!("{mesh}{SCENE}")).expect("the scene");
@@ -121,10 +125,12 @@ fn a_woven_panel_read_back_has_the_same_history() {
     };
     let woven = history(weave);
     assert!(toron(&output, "weave", &format!("units = \"mm-g-ms\"\n{weave}")).status.success());
-    assert!(woven == history("[mesh]\nfile = \"weave.vtu\"\npart = \"quarter\"\n"), "the histories differ");
-    // A case may have a mesh of its own.
-    let cases =
-        "[[case]]\nname = \"woven\"\n[[case]]\nname = \"read\"\nmesh = { file = \"weave.vtu\", part = \"quarter\" }\n";
+    assert!(
+        woven == history("[mesh]\nfile = \"weave.vtu\"\npart = \"quarter\"\nheight = 0.115\n"),
+        "the histories differ"
+    );
+    // The contact's search is set to the height, which is given: a measured one differs by rounding. A case may have a mesh of its own.
+    let cases = "[[case]]\nname = \"woven\"\n[[case]]\nname = \"read\"\nmesh = { file = \"weave.vtu\", part = \"quarter\", height = 0.115 }\n";
     let answer = toron(&output, "fabric", &format!("units = \"mm-g-ms\"\n{weave}{SCENE}{cases}"));
     assert!(answer.status.success(), "{}", String::from_utf8_lossy(&answer.stderr));
     let [one, other] =
