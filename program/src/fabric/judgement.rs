@@ -11,7 +11,6 @@ use super::scene::Case;
 use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
-use crate::weave::figures::Figures as WeaveFigures;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::report::areal_density_warning;
@@ -68,12 +67,14 @@ impl Measures {
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
-    let figures = WeaveFigures::of(panel, &case.woven.geometry);
-    let density = |family: Family| case.material(family).density.unwrap_or_default();
-    let mass: f64 = Family::BOTH.map(|family| figures.volumes_by_area[family as usize] * density(family)).iter().sum();
-    let volume = figures.volume_by_area();
-    let areal_density = areal_density_warning(volume, mass / volume, units);
-    findings.extend(areal_density.map(|text| Finding::new("units", text)));
+    for (number, figures) in case.cloth.figures(panel).into_iter().enumerate() {
+        let density = |family: Family| case.material(number, family).density.unwrap_or_default();
+        let mass = |family: Family| figures.volumes_by_area[family as usize] * density(family);
+        let volume = figures.volume_by_area();
+        let mass: f64 = Family::BOTH.map(mass).iter().sum();
+        let areal_density = areal_density_warning(volume, mass / volume, units);
+        findings.extend(areal_density.map(|text| Finding::new("units", text)));
+    }
     findings.extend(coarse(units, case, panel));
     findings
 }
@@ -188,7 +189,7 @@ fn collapsed(case: &Case, measures: &Measures) -> Option<Finding> {
 
 /// A sphere that goes into the yarns instead of taking them along.
 fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
-    let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+    let [_, height] = case.cloth.yarn_heights();
     let exceeds = measures.ahead.is_nan() || measures.ahead > DEEPEST * height;
     exceeds.then(|| {
         let (ahead, unit) = (number(measures.ahead), unit(units, LENGTH));
@@ -230,7 +231,7 @@ mod tests {
              hyperelastic.density = {density}\n"
         );
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
-        let (case, panel) = (&scene.cases[0], scene.cases[0].woven.model());
+        let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
         let mut balance = Balance::default();
         for projectile in [1.0, 1.0 - off] {
             balance.add(&Energies { projectile, ..Energies::default() });

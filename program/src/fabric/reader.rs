@@ -10,16 +10,20 @@ use toml::Spanned;
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
+use crate::common::toml_file::{self, Source, over};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
+use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
-use crate::weave::file::{ThreadFile, WeaveFile};
-use crate::weave::reader::Woven;
+use crate::weave::cloth::Cloth;
+use crate::weave::file::{PlyFile, WeaveFile};
+use crate::weave::foreign::file::MeshFile;
+use crate::weave::geometry::Family;
+use crate::weave::layup::Ply;
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -52,9 +56,15 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let woven = Arc::new(source.woven(&file.weave, &units)?);
-        if let Some(weave) = &file.scene.get_ref().weave {
-            return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
+        let cloth = Arc::new(source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
+        let CaseFile { weave, ply, mesh, .. } = file.scene.get_ref();
+        let tables = [
+            weave.as_ref().map(|table| (table.span(), "weave in [scene]; allowed: [weave], or in a [[case]]")),
+            ply.as_ref().map(|_| (file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]")),
+            mesh.as_ref().map(|table| (table.span(), "mesh in [scene]; allowed: [mesh], or in a [[case]]")),
+        ];
+        if let Some((span, message)) = tables.into_iter().flatten().next() {
+            return Err(source.error(span, message));
         }
         let cases = keys::cases(
             (&source, &units),
@@ -62,31 +72,62 @@ impl Scene {
             (&["summary"], PICTURES),
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
-                let weave = file.weave.get_ref();
-                let (woven, weave) = match &file_of_case.weave {
-                    Some(own) => (Arc::new(source.woven_of_case(own, weave, &units)?), own.get_ref().over(weave)),
-                    None => (woven.clone(), weave.clone()),
-                };
-                reader.panel_case(file_of_case, &weave, woven, name)
+                let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;
+                reader.panel_case(file_of_case, cloth, threads, name)
             },
         )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
 }
 
+/// Materials of warp and weft of each ply.
+type Threads = Vec<[Option<Box<Material>>; 2]>;
+
 impl Reader<'_> {
-    fn panel_case(&self, file: &CaseFile, weave: &WeaveFile, woven: Arc<Woven>, name: String) -> Result<Case, Error> {
+    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own yarns.
+    fn cloth_of_case(
+        &self,
+        scene: &SceneFile,
+        case: &CaseFile,
+        cloth: &Arc<Cloth>,
+    ) -> Result<(Arc<Cloth>, Threads), Error> {
+        if let Some(mesh) = &case.mesh {
+            let mesh = over(&Some(mesh.clone()), &scene.mesh, MeshFile::over);
+            let plies = case.ply.as_deref().unwrap_or_default();
+            let foreign = self.source.cloth(case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
+            return Ok((Arc::new(foreign), vec![[None, None]]));
+        }
+        let plies = case.ply.as_ref().unwrap_or(&scene.ply);
+        let weave = over(&case.weave, &scene.weave, WeaveFile::over);
+        // The scene's is a mesh.
+        let Some(weave) = weave.filter(|_| case.weave.is_some() || scene.mesh.is_none()) else {
+            return match case.ply.as_ref().and_then(|plies| plies.first()) {
+                Some(ply) => Err(self.source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
+                None => Ok((cloth.clone(), vec![[None, None]])),
+            };
+        };
+        let cloth = if case.weave.is_none() && case.ply.is_none() {
+            cloth.clone()
+        } else {
+            let own = case.weave.as_ref().map(Spanned::span);
+            Arc::new(Cloth::Woven(self.source.layup(&weave, plies, self.units, own)?))
+        };
+        let threads = self.threads(weave.get_ref(), plies, &cloth)?;
+        Ok((cloth, threads))
+    }
+
+    fn panel_case(&self, file: &CaseFile, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
-        let height = woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(0.0, f64::max);
+        let [_, height] = cloth.yarn_heights();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            woven,
+            cloth,
             speed: self.speed(zones.inner())?,
             zones,
-            threads: [self.thread_material(&weave.warp)?, self.thread_material(&weave.weft)?],
+            threads,
             sphere: Rigid {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
@@ -108,19 +149,30 @@ impl Reader<'_> {
         })
     }
 
-    /// What the yarns of a family are made of, if their table says it: a material of the case's law.
-    fn thread_material(&self, table: &Option<Spanned<ThreadFile>>) -> Result<Option<Box<Material>>, Error> {
-        let Some(file) = table.as_ref().and_then(|table| table.get_ref().material.as_ref()) else { return Ok(None) };
+    /// What the yarns of each ply are made of, warp and weft, where the tables say it.
+    fn threads(&self, weave: &WeaveFile, plies: &[Spanned<PlyFile>], cloth: &Cloth) -> Result<Threads, Error> {
+        let none = PlyFile::default();
+        let plies = plies.iter().map(Spanned::get_ref).chain(plies.is_empty().then_some(&none));
+        let of_ply = |(file, laid): (&PlyFile, &Ply)| {
+            let [warp, weft] = Family::BOTH.map(|family| self.thread_material(file.material(weave, family)));
+            let [warp, weft] = [warp?, weft?];
+            Ok(if laid.woven.exchanged { [weft, warp] } else { [warp, weft] })
+        };
+        plies.zip(cloth.plies()).map(of_ply).collect()
+    }
+
+    /// What the yarns of a family are made of, if a table says it: a material of the case's law.
+    fn thread_material(&self, file: Option<Spanned<MaterialFile>>) -> Result<Option<Box<Material>>, Error> {
+        let Some(file) = file else { return Ok(None) };
         let law = match self.keys.law() {
             LawName::Hyperelastic => HYPERELASTIC,
             LawName::LinearElastic => LINEAR_ELASTIC,
             LawName::Hybrid => {
-                let message =
-                    "material of a family of yarns with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
+                let message = "material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
                 return Err(self.source.error(file.span(), message));
             }
         };
-        self.material(law, &Some(file.clone())).map(|material| Some(Box::new(material)))
+        self.material(law, &Some(file)).map(|material| Some(Box::new(material)))
     }
 
     /// The mass of what strikes: the file's, which must be one that its volume can have, or its volume's.

@@ -8,8 +8,8 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
 use crate::struck::plan::Plan;
 pub use crate::struck::zones::Zones;
+use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
-use crate::weave::reader::Woven;
 use toron::host::units::UnitSystem;
 
 /// The cases of a file.
@@ -25,10 +25,10 @@ pub struct Scene {
 pub struct Case {
     pub name: String,
     /// The panel; cases without keys of their own for it have the same one.
-    pub woven: Arc<Woven>,
+    pub cloth: Arc<Cloth>,
     pub zones: Zones,
-    /// What the yarns of warp and weft are made of, where they have materials of their own.
-    pub threads: [Option<Box<Material>>; 2],
+    /// What the yarns of warp and weft of each ply are made of, where they have materials of their own.
+    pub threads: Vec<[Option<Box<Material>>; 2]>,
     /// The sphere, and the whole of its mass.
     pub sphere: Rigid,
     pub mass: f64,
@@ -45,26 +45,38 @@ pub struct Case {
 impl Case {
     /// Those of the zones, then those of warp and weft.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
-        self.zones.materials().iter().chain(self.threads.iter().flatten().map(|material| &**material))
+        self.zones.materials().iter().chain(self.threads.iter().flatten().flatten().map(|material| &**material))
     }
 
-    /// The place among the materials of what a yarn of this family is made of, if it is not that of the zones.
-    pub fn own_material(&self, family: Family) -> Option<usize> {
-        let of_weft = self.zones.materials().len() + usize::from(self.threads[0].is_some());
-        let place = if family == Family::Warp { self.zones.materials().len() } else { of_weft };
-        self.threads[family as usize].as_ref().map(|_| place)
+    /// The place among the materials of what the yarns of a ply's family are made of, if it is not that of the zones.
+    pub fn own_material(&self, ply: usize, family: Family) -> Option<usize> {
+        let before = self.threads.iter().flatten().take(2 * ply + family as usize).flatten().count();
+        self.threads[ply][family as usize].as_ref().map(|_| self.zones.materials().len() + before)
     }
 
-    /// What the yarns of a family are made of in the middle.
-    pub fn material(&self, family: Family) -> &Material {
-        self.threads[family as usize].as_deref().unwrap_or(self.zones.inner())
+    /// The plies' families that have materials of their own, in the order of these.
+    pub fn families_with_materials(&self) -> impl Iterator<Item = (usize, Family)> {
+        let families = (0..self.threads.len()).flat_map(|ply| Family::BOTH.map(|family| (ply, family)));
+        families.filter(|&(ply, family)| self.threads[ply][family as usize].is_some())
     }
 
-    /// The names of the materials: of the zones from the centre outwards, or of warp and weft.
+    /// What the yarns of a ply's family are made of in the middle.
+    pub fn material(&self, ply: usize, family: Family) -> &Material {
+        self.threads[ply][family as usize].as_deref().unwrap_or(self.zones.inner())
+    }
+
+    /// The names of the materials: of the zones from the centre outwards, or of the plies' warp and weft.
     pub fn material_names(&self) -> String {
-        if self.threads.iter().all(Option::is_none) {
+        if self.families_with_materials().next().is_none() {
             return self.zones.names();
         }
-        Family::BOTH.map(|family| format!("{} {}", family.name(), self.material(family).name())).join("; ")
+        let families = (0..self.threads.len()).flat_map(|ply| Family::BOTH.map(|family| (ply, family)));
+        let name = |(ply, family)| format!("{} {}", self.family_name(ply, family), self.material(ply, family).name());
+        families.map(name).collect::<Vec<_>>().join("; ")
+    }
+
+    /// As `warp`, or `ply-2-warp` where there are several.
+    pub fn family_name(&self, ply: usize, family: Family) -> String {
+        if self.threads.len() == 1 { family.name().to_string() } else { format!("ply-{}-{}", ply + 1, family.name()) }
     }
 }

@@ -65,9 +65,7 @@ impl Figures {
 
 /// How far the yarns next to the axes, along which the front is measured, reach from the centre.
 fn rim(panel: &Model) -> f64 {
-    let nearest = panel.yarns.iter().map(|yarn| yarn.coordinate.abs()).fold(f64::INFINITY, f64::min);
-    let yarns = panel.yarns.iter().filter(|yarn| yarn.coordinate.abs() <= 1.001 * nearest);
-    let nodes = yarns.flat_map(|yarn| &panel.nodes[yarn.nodes.clone()]);
+    let nodes = panel.central().flat_map(|(_, yarn)| &panel.nodes[yarn.nodes.clone()]);
     nodes.map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
 }
 

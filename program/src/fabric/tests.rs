@@ -6,6 +6,8 @@ use super::model;
 use super::scene::{Case, Scene};
 use crate::explicit::body::{Body, Support};
 use crate::explicit::solver::{Ramp, Solver};
+use crate::material::model::Law;
+use crate::weave::geometry::Family;
 use crate::weave::model::Yarn;
 
 /// A warp yarn and the five weft yarns that it crosses, which do not move.
@@ -17,7 +19,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
          yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
-    let panel = scene.cases[0].woven.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
     solver.projectile = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
@@ -26,7 +28,8 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
 
 /// The directions of a yarn's middle line from section to section, as angles over the panel.
 fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
-    let per = yarn.nodes_per_section();
+    let grid = yarn.grid.expect("a grid");
+    let per = grid.nodes_per_section();
     let middle = |section: usize| -> Vector3<f64> {
         let nodes = section * per..(section + 1) * per;
         nodes.map(|node| Vector3::from(body.position(node))).sum::<Vector3<f64>>() / per as f64
@@ -35,7 +38,7 @@ fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
         let along = middle(layer + 1) - middle(layer);
         along.z.atan2(along.x)
     };
-    (0..yarn.layers).map(slope).collect()
+    (0..grid.layers).map(slope).collect()
 }
 
 /// What acts on a body's nodes.
@@ -59,7 +62,7 @@ struct Pull {
 fn pull(friction: f64) -> Pull {
     let (yarns, mut solver) = patch(friction);
     let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
-    let (warp, per) = (&yarns[0], yarns[0].nodes_per_section());
+    let (warp, per) = (&yarns[0], yarns[0].grid.expect("a grid").nodes_per_section());
     let last = solver.bodies[0].mesh.nodes.len() - per;
     for node in 0..per {
         solver.bodies[0].support(node, held([0.0; 3]));
@@ -134,7 +137,7 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
          [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
          [scene]\nspeed = 1.0\nmass = 2e-6\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
     let scene = Scene::parse("patch.toml", text).expect("a scene");
-    let panel = scene.cases[0].woven.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
     let sphere = solver.projectile.as_mut().expect("it is there");
     // The heights of the nodes on the axis, three of each of the two yarns that cross there.
@@ -151,4 +154,85 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
         let expected = 1e5 * area * 0.03;
         assert!((sphere.force / expected - 1.0).abs() < 0.2, "{height}: {} {expected}", sphere.force);
     }
+}
+
+/// A small quarter under a small sphere, with these plies.
+fn plies(tables: &str, law: &str) -> Result<Scene, String> {
+    let text = format!(
+        "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\nclearance = 0.005\n\
+         [weave.panel]\nshape = \"rectangle\"\nhalf = [2.3, 2.3]\npart = \"quarter\"\n{tables}\
+         [scene]\nspeed = 100.0\nmass = 0.02\nradius = 1.0\ncontact-stiffness = 1e5\nend = 1.0\n{law}"
+    );
+    Scene::parse("plies.toml", &text).map_err(|error| error.to_string())
+}
+
+/// The sphere's speed at these times, in µs.
+fn speeds(tables: &str, times: &[f64]) -> Vec<f64> {
+    let scene = plies(tables, "hyperelastic.properties = { k_ld = 126.0 }\n").expect("a scene");
+    let case = &scene.cases[0];
+    let panel = case.cloth.model();
+    model::check(case, &panel).expect("a scene that can run");
+    let mut solver: Solver<f64> = model::solver(case, &panel).expect("a panel");
+    let mut speeds = Vec::new();
+    for time in times {
+        while solver.state.time < 1e-3 * time {
+            solver.accelerate(false, 1.0).expect("stable");
+            solver.displace();
+        }
+        speeds.push(-solver.projectile.as_ref().expect("a sphere").velocity);
+    }
+    speeds
+}
+
+/// A ply that is not reached yet changes nothing; one that lies close below takes its part.
+#[test]
+fn a_ply_counts_from_when_it_is_touched() {
+    let times = [1.5, 8.0];
+    let [one, far, near] =
+        ["", "[[ply]]\n[[ply]]\ndistance = 0.3\n", "[[ply]]\n[[ply]]\ndistance = 0.005\nangle = 90\n"]
+            .map(|tables| speeds(tables, &times));
+    assert!((one[0] / far[0] - 1.0).abs() < 1e-9, "{one:?} {far:?}");
+    assert!((one[1] / far[1] - 1.0).abs() > 1e-3, "{one:?} {far:?}");
+    let [of_one, of_both] = [100.0 - one[1], 100.0 - near[1]];
+    assert!(of_both > 1.3 * of_one && of_both < 2.1 * of_one, "{one:?} {near:?}");
+}
+
+/// The yarns of a ply are of the ply's material, which its own families' go before, and those before the weave's.
+#[test]
+fn plies_have_materials_of_their_own() {
+    let tables = "[weave.weft]\nmaterial.properties.k_el = 3e4\n[[ply]]\n[[ply]]\nmaterial.properties.k_el = 2e4\n\
+                  weave.warp.material.properties.k_el = 1e4\n[[ply]]\nmaterial.properties.k_el = 4e4\nangle = 90\n\
+                  weave.weft.material.properties.k_el = 5e4\n";
+    let scene = plies(tables, "").expect("three plies");
+    let case = &scene.cases[0];
+    let stiffness = |ply: usize, family: Family| match &case.material(ply, family).law {
+        Law::Hyperelastic { properties, .. } => properties.k_el,
+        law => panic!("{law:?}"),
+    };
+    let found: Vec<[f64; 2]> = (0..3).map(|ply| Family::BOTH.map(|family| stiffness(ply, family))).collect();
+    assert_eq!(found, [[82341.0, 3e4], [1e4, 2e4], [5e4, 4e4]]);
+    let own: Vec<Option<usize>> =
+        (0..3).flat_map(|ply| Family::BOTH.map(|family| case.own_material(ply, family))).collect();
+    assert_eq!(own, [None, Some(1), Some(2), Some(3), Some(4), Some(5)]);
+    let materials: Vec<_> = case.materials().collect();
+    for (ply, family) in case.families_with_materials() {
+        let place = case.own_material(ply, family).expect("one of its own");
+        assert!(std::ptr::eq(materials[place], case.material(ply, family)));
+    }
+    assert!(case.material_names().contains("ply-2-weft"), "{}", case.material_names());
+    for (tables, law, message) in [
+        ("[[ply]]\nmaterial.preset = \"kevlar\"\n", "", "plies.toml:"),
+        (
+            "[[ply]]\nmaterial = {}\n",
+            "law = \"hybrid\"\nhyperelastic-radius = 1.0\n",
+            "or of a ply, with law = \"hybrid\"",
+        ),
+        ("", "[[scene.ply]]\n", "ply in [scene]; allowed: [[ply]], or in a [[case]]"),
+    ] {
+        let error = plies(tables, law).map(|_| ()).expect_err(message);
+        assert!(error.contains(message), "{message}: {error}");
+    }
+    let cases =
+        plies("", "[[case]]\nname = \"one\"\n[[case]]\nname = \"two\"\nply = [{}, { angle = 90 }]\n").expect("cases");
+    assert_eq!(cases.cases.iter().map(|case| case.cloth.plies().len()).collect::<Vec<_>>(), [1, 2]);
 }

@@ -10,7 +10,7 @@ use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
-use crate::weave::geometry::Family;
+use crate::weave::cloth::Cloth;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 
@@ -22,16 +22,22 @@ pub const WATCHED: usize = 100;
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    let panel = case.woven.model();
+    let panel = case.cloth.model();
     check(case, &panel)?;
+    let clearance = case.cloth.clearance();
+    if clearance <= 0.0 {
+        let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";
+        return Err(Error::Input(format!("case {}: {message}", case.name)));
+    }
     let Conversion { from, to } = conversion;
     let used = used(case);
     let of_case: Vec<_> = case.materials().collect();
     let material = |&i: &usize| {
         let mut material = Material::of_scene(of_case[i], &from, &to)?;
         // Those of warp and weft may have one name.
-        if let Some(family) = Family::BOTH.into_iter().find(|&family| case.own_material(family) == Some(i)) {
-            material.name = format!("{}-{}", family.name(), material.name);
+        let mut own = case.families_with_materials();
+        if let Some((ply, family)) = own.find(|&(ply, family)| case.own_material(ply, family) == Some(i)) {
+            material.name = format!("{}-{}", case.family_name(ply, family), material.name);
         }
         Ok(material)
     };
@@ -40,16 +46,17 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     let names: Vec<&str> = of_zones.zip(&materials).map(|(_, material)| material.name.as_str()).collect();
     let corners = |element: usize| panel.elements[element].map(|node| panel.nodes[node as usize]);
     let place = |i: usize| used.iter().position(|&other| other == i).unwrap_or_default();
-    let of_element =
-        |family, element| place(case.own_material(family).unwrap_or_else(|| zone(&case.zones, corners(element))));
+    let of_element = |yarn: &Yarn, element| {
+        place(case.own_material(yarn.ply, yarn.family).unwrap_or_else(|| zone(&case.zones, corners(element))))
+    };
     let parts = parts(&panel, &names, of_element);
     let mesh = mesh(&panel, conversion);
-    let mut supports = symmetry(&panel);
+    let mut supports = symmetry(&panel, &case.cloth);
     if case.held {
         supports.push(rim(&panel));
     }
     let length = |value| conversion.of(value, LENGTH);
-    let height = case.woven.geometry.weave.threads.iter().map(|thread| thread.height).fold(f64::INFINITY, f64::min);
+    let [height, _] = case.cloth.yarn_heights();
     let end = conversion.of(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
@@ -64,10 +71,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         },
         part: share(case),
         height: length(height),
-        contact: Some(Contact {
-            friction: case.mutual.friction,
-            clearance: length(case.woven.geometry.weave.clearance),
-        }),
+        contact: Some(Contact { friction: case.mutual.friction, clearance: length(clearance) }),
         control: case.control,
         end,
         sample: conversion.of(case.plan.sample, TIME),
@@ -102,13 +106,14 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
 /// # Errors
 /// The deck's units cannot have the material.
 pub fn of_panel(
-    panel: &woven::Model,
+    cloth: &Cloth,
     material: &crate::material::model::Material,
     conversion: Conversion,
 ) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;
     let material = Material::of_scene(material, &from, &to)?;
-    let mut supports = symmetry(panel);
+    let panel = &cloth.model();
+    let mut supports = symmetry(panel, cloth);
     supports.push(Support { fixed: [false; 3], ..rim(panel) });
     Ok(Model {
         title: String::new(),
@@ -135,18 +140,21 @@ fn mesh(panel: &woven::Model, conversion: Conversion) -> Mesh {
 
 /// The places in the case's materials of those that some yarn is made of.
 fn used(case: &Case) -> Vec<usize> {
-    let own = Family::BOTH.map(|family| case.own_material(family));
-    let of_zones = if own.contains(&None) { case.zones.materials().len() } else { 0 };
-    (0..of_zones).chain(own.into_iter().flatten()).collect()
+    let own: Vec<usize> =
+        case.families_with_materials().filter_map(|(ply, family)| case.own_material(ply, family)).collect();
+    let families = 2 * case.threads.len();
+    let of_zones = if own.len() < families { case.zones.materials().len() } else { 0 };
+    (0..of_zones).chain(own).collect()
 }
 
 /// A part for each yarn, or for each of its materials; named by both where `zones` are several, the names of the first materials.
-fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(Family, usize) -> usize) -> Vec<Part> {
+fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(&Yarn, usize) -> usize) -> Vec<Part> {
     let mut parts = Vec::new();
+    let name = |yarn| name(yarn, panel.plies() > 1);
     for yarn in &panel.yarns {
         let mut of_yarn: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
         for element in yarn.elements.clone() {
-            of_yarn.entry(material(yarn.family, element)).or_default().push(element as u32);
+            of_yarn.entry(material(yarn, element)).or_default().push(element as u32);
         }
         for (material, elements) in of_yarn {
             let zone = zones.get(material).filter(|_| zones.len() > 1);
@@ -157,14 +165,18 @@ fn parts(panel: &woven::Model, zones: &[&str], material: impl Fn(Family, usize) 
     parts
 }
 
-/// As `warp-3`, `weft-m2`: a name may have no sign.
-fn name(yarn: &Yarn) -> String {
+/// As `warp-3`, `weft-m2`, `ply-2-warp-3`: a name may have no sign.
+fn name(yarn: &Yarn, of_several_plies: bool) -> String {
+    let ply = if of_several_plies { format!("ply-{}-", yarn.ply + 1) } else { String::new() };
     let sign = if yarn.number < 0 { "m" } else { "" };
-    format!("{}-{sign}{}", yarn.family.name(), yarn.number.abs())
+    format!("{ply}{}-{sign}{}", yarn.family.name(), yarn.number.abs())
 }
 
-fn symmetry(panel: &woven::Model) -> Vec<Support> {
-    let key = "[weave.panel] part = \"quarter\"";
+fn symmetry(panel: &woven::Model, cloth: &Cloth) -> Vec<Support> {
+    let key = match cloth {
+        Cloth::Woven(_) => "[weave.panel] part = \"quarter\"",
+        Cloth::Foreign(_) => "[mesh] part = \"quarter\"",
+    };
     let planes = [("on-x-0", &panel.on_x, [true, false, false]), ("on-y-0", &panel.on_y, [false, true, false])];
     let planes = planes.into_iter().filter(|(_, nodes, _)| !nodes.is_empty());
     planes.map(|(name, nodes, fixed)| Support { name, key, nodes: nodes.clone(), fixed }).collect()

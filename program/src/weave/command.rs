@@ -3,7 +3,6 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::figures::Figures;
 use super::reader::Scene;
 use super::{picture, report, vtu};
 use crate::common::console::print;
@@ -16,11 +15,11 @@ use crate::common::folder;
 /// The input, or a file that cannot be written.
 pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
-    let model = scene.woven.model();
+    let model = scene.cloth.model();
     let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     folder::check(output)?;
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;
-    let mut text = report::report(&scene, &Figures::of(&model, &scene.woven.geometry));
+    let mut text = report::report(&scene, &model);
     let [mesh, svg, png] = ["vtu", "svg", "png"].map(|ending| output.join(format!("weave.{ending}")));
     std::fs::write(&mesh, vtu::unstructured_grid(&model)).map_err(|error| file_error(&mesh, &error))?;
     picture::write(&svg, &png, &scene, &model)?;

@@ -6,6 +6,8 @@ use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use super::foreign::file::MeshFile;
+use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
 use crate::common::toml_file::{Numbers, over};
@@ -16,7 +18,10 @@ use crate::material::file::MaterialFile;
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Spanned<WeaveFile>,
+    pub weave: Option<Spanned<WeaveFile>>,
+    #[serde(default)]
+    pub ply: Vec<Spanned<PlyFile>>,
+    pub mesh: Option<Spanned<MeshFile>>,
     pub material: Option<Spanned<MaterialFile>>,
     /// How the panel is struck, which is nothing to its mesh.
     #[serde(rename = "scene")]
@@ -26,7 +31,7 @@ pub struct SceneFile {
 }
 
 /// The table `[weave]`, and what a case has otherwise.
-#[derive(Clone, Deserialize)]
+#[derive(Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WeaveFile {
     pub preset: Option<Spanned<String>>,
@@ -41,6 +46,12 @@ pub struct WeaveFile {
 }
 
 impl WeaveFile {
+    /// What the yarns of a family are made of, other than the rest.
+    pub fn material(&self, family: Family) -> Option<Spanned<MaterialFile>> {
+        let thread = if family == Family::Warp { &self.warp } else { &self.weft };
+        thread.as_ref()?.get_ref().material.clone()
+    }
+
     /// This table, with the keys of `base` where it has none. One with a preset of its own has its yarns from there.
     pub fn over(&self, base: &WeaveFile) -> WeaveFile {
         let (own, mut base) = (self.clone(), base.clone());
@@ -58,6 +69,29 @@ impl WeaveFile {
             rows: own.rows.or(base.rows),
             panel: over(&own.panel, &base.panel, PanelFile::over),
         }
+    }
+}
+
+/// A table `[[ply]]`.
+#[derive(Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlyFile {
+    /// What it has otherwise than `[weave]`.
+    pub weave: Option<Spanned<WeaveFile>>,
+    /// By which it is turned, in degrees.
+    pub angle: Option<Spanned<f64>>,
+    /// From the ply above it.
+    pub distance: Option<Spanned<f64>>,
+    /// For who strikes the panel: what its yarns are made of, other than the rest.
+    pub material: Option<Spanned<MaterialFile>>,
+}
+
+impl PlyFile {
+    /// The material of a family in this ply, where `weave` is the table `[weave]`: the ply's own key goes before the weave's.
+    pub fn material(&self, weave: &WeaveFile, family: Family) -> Option<Spanned<MaterialFile>> {
+        let own = self.weave.as_ref().and_then(|own| own.get_ref().material(family));
+        let own = over(&own, &self.material, MaterialFile::over);
+        over(&own, &weave.material(family), MaterialFile::over)
     }
 }
 

@@ -22,6 +22,11 @@ impl Family {
     pub fn name(self) -> &'static str {
         if self == Family::Warp { "warp" } else { "weft" }
     }
+
+    /// x and y of what is `along` its yarns from the origin and `across` them.
+    pub fn placed(self, along: f64, across: f64) -> [f64; 2] {
+        if self == Family::Warp { [along, across] } else { [across, along] }
+    }
 }
 
 /// What a weave is, and how fine its mesh.
@@ -46,6 +51,12 @@ impl Weave {
     /// The length of an element along x or y: yarns of the other family are crossed at its pitch.
     pub fn step(&self, family: Family) -> f64 {
         self.thread(family.other()).pitch / self.along as f64
+    }
+
+    /// The same weave turned by a right angle, where its pattern is its own mirror image by planes normal to x and to y.
+    pub fn exchanged(&self) -> Weave {
+        let [warp, weft] = self.threads;
+        Weave { pattern: self.pattern.exchanged(), threads: [weft, warp], ..self.clone() }
     }
 
     /// Says what cannot be meshed.

@@ -37,6 +37,35 @@ pub struct Panel {
     pub outline: Outline,
     pub part: Part,
     pub centre: Centre,
+    /// By which the weave, not the outline, is turned about z: from x to y.
+    pub turn: Turn,
+}
+
+/// A turn about z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    cos: f64,
+    sin: f64,
+}
+
+impl Turn {
+    pub const NONE: Turn = Turn { cos: 1.0, sin: 0.0 };
+
+    /// By this angle in degrees; exact for quarters of a turn.
+    pub fn degrees(angle: f64) -> Turn {
+        let [cos, sin] = match angle.rem_euclid(360.0) {
+            0.0 => [1.0, 0.0],
+            90.0 => [0.0, 1.0],
+            180.0 => [-1.0, 0.0],
+            270.0 => [0.0, -1.0],
+            angle => [angle.to_radians().cos(), angle.to_radians().sin()],
+        };
+        Turn { cos, sin }
+    }
+
+    pub fn of(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.cos * x - self.sin * y, self.sin * x + self.cos * y]
+    }
 }
 
 /// A yarn of a panel.
@@ -47,10 +76,16 @@ pub struct Place {
     pub number: i64,
     /// y of a warp yarn, x of a weft yarn.
     pub coordinate: f64,
-    /// The layers from the plane through the origin to the end; a whole panel has them on both sides.
-    pub layers: usize,
+    /// Where it begins and ends, in layers from the origin.
+    pub stations: [i64; 2],
     /// Cut along its axis by a plane of symmetry.
     pub halved: bool,
+}
+
+impl Place {
+    pub fn layers(&self) -> usize {
+        (self.stations[1] - self.stations[0]) as usize
+    }
 }
 
 /// Lengths closer than this part of an element are the same.
@@ -65,10 +100,7 @@ impl Panel {
     /// What is wrong with the panel, and what is allowed.
     pub fn places(&self, weave: &Weave) -> Result<Vec<Place>, String> {
         self.check_mirror_planes(weave)?;
-        let bounds = match self.outline {
-            Outline::Rectangle(half) => half,
-            Outline::Circle(radius) => [radius; 2],
-        };
+        let bounds = self.bounds();
         let area = 4.0 * bounds[0] * bounds[1];
         let layers = Family::BOTH.map(|family| area / (weave.thread(family).pitch * weave.step(family)));
         let elements = (layers[0] + layers[1]) * (weave.columns * weave.rows) as f64;
@@ -80,17 +112,46 @@ impl Panel {
         if Family::BOTH.iter().any(|family| !places.iter().any(|place| place.family == *family)) {
             return Err("the panel is so small that it has no yarns of one family; allowed: some pitches".to_string());
         }
-        let sections: usize =
-            places.iter().map(|place| place.layers * self.halves() / (1 + usize::from(place.halved))).sum();
+        let sections: usize = places.iter().map(|place| place.layers() / (1 + usize::from(place.halved))).sum();
         if (sections * weave.columns * weave.rows) as f64 > MOST_ELEMENTS {
             return Err(format!("the panel has more than {MOST_ELEMENTS:.0e} elements; allowed: up to so many"));
         }
         Ok(places)
     }
 
-    /// How often a yarn's layers from the origin to its end are there.
-    pub fn halves(&self) -> usize {
-        if self.part == Part::Whole { 2 } else { 1 }
+    /// How far the outline goes along the weave's x and y.
+    fn bounds(&self) -> [f64; 2] {
+        match self.outline {
+            Outline::Circle(radius) => [radius; 2],
+            Outline::Rectangle([x, y]) => {
+                let Turn { cos, sin } = self.turn;
+                [x * cos.abs() + y * sin.abs(), x * sin.abs() + y * cos.abs()]
+            }
+        }
+    }
+
+    /// From where to where the outline has a line along a family's yarns, at this coordinate across them.
+    fn interval(&self, family: Family, coordinate: f64) -> [f64; 2] {
+        match self.outline {
+            Outline::Circle(radius) => {
+                let half = (radius * radius - coordinate * coordinate).max(0.0).sqrt();
+                [-half, half]
+            }
+            Outline::Rectangle(half) => {
+                let ahead = family.placed(1.0, 0.0);
+                let beside = family.placed(0.0, coordinate);
+                let [ahead, beside] = [ahead, beside].map(|place| self.turn.of(place));
+                let mut interval = [f64::NEG_INFINITY, f64::INFINITY];
+                for axis in 0..2 {
+                    if ahead[axis] == 0.0 {
+                        continue;
+                    }
+                    let ends = [-half[axis], half[axis]].map(|end| (end - beside[axis]) / ahead[axis]);
+                    interval = [interval[0].max(ends[0].min(ends[1])), interval[1].min(ends[0].max(ends[1]))];
+                }
+                interval
+            }
+        }
     }
 
     /// Refuses a quarter of a weave that is not its own mirror image.
@@ -125,7 +186,7 @@ impl Panel {
 
     fn family(&self, weave: &Weave, family: Family, bounds: [f64; 2]) -> Vec<Place> {
         let (pitch, step) = (weave.thread(family).pitch, weave.step(family));
-        let [bound_along, bound_across] = if family == Family::Warp { bounds } else { [bounds[1], bounds[0]] };
+        let bound_across = if family == Family::Warp { bounds[1] } else { bounds[0] };
         let shift = if self.centre == Centre::Gap { 0.5 } else { 0.0 };
         let last = (bound_across / pitch - shift + ROUNDING).floor() as i64;
         // The mirror image of a number: that of 0 in a gap is -1.
@@ -136,15 +197,13 @@ impl Panel {
         };
         let place = |number: i64| {
             let coordinate = pitch * (number as f64 + shift);
-            let length = match self.outline {
-                Outline::Rectangle(_) => bound_along,
-                Outline::Circle(radius) => (radius * radius - coordinate * coordinate).max(0.0).sqrt(),
-            };
-            // The last layer's middle is half an element before its end.
-            let layers = (length / step + 0.5 + ROUNDING).floor() as usize;
+            // The middle of the layer at an end is half an element before it.
+            let layers = |length: f64| (length / step + 0.5 + ROUNDING).floor() as i64;
+            let [start, end] = self.interval(family, coordinate);
+            let first = if self.part == Part::Whole { -layers(-start) } else { 0 };
             let halved = self.part == Part::Quarter && self.centre == Centre::Crossing && number == 0;
-            Place { family, number, coordinate, layers, halved }
+            Place { family, number, coordinate, stations: [first, layers(end)], halved }
         };
-        (first..=last).map(place).filter(|place| place.layers > 0).collect()
+        (first..=last).map(place).filter(|place| place.stations[1] > place.stations[0]).collect()
     }
 }

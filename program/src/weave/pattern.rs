@@ -67,6 +67,12 @@ impl Pattern {
         row[weft.rem_euclid(row.len() as i64) as usize]
     }
 
+    /// With warp and weft exchanged, seen from the same side: what was over is over.
+    pub fn exchanged(&self) -> Pattern {
+        let [warps, wefts] = self.repeat();
+        Pattern { rows: (0..wefts).map(|weft| (0..warps).map(|warp| !self.rows[warp][weft]).collect()).collect() }
+    }
+
     /// Whether the pattern is its own mirror image by planes normal to x and to y: through the crossing of the yarns
     /// numbered 0, or through the gap before it.
     pub fn mirror_planes(&self, through_gap: bool) -> [bool; 2] {

@@ -5,10 +5,12 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{PanelFile, PatternFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
+use super::cloth::Cloth;
+use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
+use super::layup::{Laid, Layup};
 use super::model::Model;
-use super::panel::{Outline, Panel, Part, Place};
+use super::panel::{MOST_ELEMENTS, Outline, Panel, Part, Place, Turn};
 use super::pattern::Pattern;
 use super::preset::{ALONG, CLEARANCE, COLUMNS, PRESETS, Preset, ROWS};
 use super::section::{Section, Thread};
@@ -30,11 +32,18 @@ pub struct Woven {
     pub geometry: Geometry,
     pub panel: Panel,
     pub places: Vec<Place>,
+    /// Turned by a right angle by exchanging warp and weft, as in a quarter.
+    pub exchanged: bool,
 }
 
 impl Woven {
     pub fn model(&self) -> Model {
         Model::of(&self.geometry, &self.panel, &self.places)
+    }
+
+    pub fn elements(&self) -> usize {
+        let Weave { columns, rows, .. } = self.geometry.weave;
+        self.places.iter().map(|place| place.layers() * rows * columns / (1 + usize::from(place.halved))).sum()
     }
 }
 
@@ -43,7 +52,7 @@ impl Woven {
 pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
-    pub woven: Woven,
+    pub cloth: Cloth,
     /// Of the yarns, where the scene names one.
     pub material: Option<Material>,
 }
@@ -71,7 +80,7 @@ impl Scene {
             material.map(|table| source.material(Laws::Toron, table.get_ref(), &units, table.span())).transpose()?;
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
-            woven: source.woven(&file.weave, &units)?,
+            cloth: source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?,
             material,
             units,
         })
@@ -79,27 +88,71 @@ impl Scene {
 }
 
 impl Source<'_> {
-    /// The table `[weave]`.
-    pub fn woven(&self, table: &Spanned<WeaveFile>, units: &UnitSystem) -> Result<Woven, Error> {
-        self.woven_blaming(table, units, |place| place)
-    }
-
-    /// The same with what a case has otherwise: what does not go together is the case's mistake.
-    pub fn woven_of_case(
-        &self,
-        own: &Spanned<WeaveFile>,
-        base: &WeaveFile,
-        units: &UnitSystem,
-    ) -> Result<Woven, Error> {
-        let table = Spanned::new(own.span(), own.get_ref().over(base));
-        let blamed = |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
-        self.woven_blaming(&table, units, blamed)
-    }
-
-    /// `blamed` is the place that errors name for a key at some place which does not go together with others.
-    fn woven_blaming(
+    /// The table `[weave]` and the tables `[[ply]]`: none is one ply. `case` is the place of what a case has otherwise: what does not
+    /// go together is then its mistake.
+    pub fn layup(
         &self,
         table: &Spanned<WeaveFile>,
+        plies: &[Spanned<PlyFile>],
+        units: &UnitSystem,
+        case: Option<Range<usize>>,
+    ) -> Result<Layup, Error> {
+        let of_case = |place: Range<usize>| match &case {
+            Some(case) if !case.contains(&place.start) => case.clone(),
+            _ => place,
+        };
+        let Some((first, _)) = plies.split_first() else {
+            let woven = self.woven(table, None, units, of_case)?;
+            return Ok(Layup::new(vec![Laid { woven, angle: 0.0, distance: 0.0 }]));
+        };
+        if let Some(distance) = &first.get_ref().distance {
+            let message = "distance of the first [[ply]]; allowed: in those below it";
+            return Err(self.error(distance.span(), message));
+        }
+        let mut laid = Vec::with_capacity(plies.len());
+        for ply in plies {
+            let PlyFile { weave: own, angle, distance, .. } = ply.get_ref();
+            let woven = match own {
+                Some(own) => {
+                    self.check_panel_of_ply(own.get_ref().panel.as_ref())?;
+                    let table = Spanned::new(own.span(), own.get_ref().over(table.get_ref()));
+                    let blamed =
+                        |place: Range<usize>| if own.span().contains(&place.start) { place } else { own.span() };
+                    self.woven(&table, angle.as_ref(), units, blamed)?
+                }
+                None => self.woven(table, angle.as_ref(), units, of_case)?,
+            };
+            let distance = match distance {
+                Some(distance) => self.positive("distance", *distance.get_ref(), distance.span())?,
+                None => woven.geometry.weave.clearance,
+            };
+            laid.push(Laid { woven, angle: angle.as_ref().map_or(0.0, |angle| *angle.get_ref()), distance });
+        }
+        let elements: usize = laid.iter().map(|laid| laid.woven.elements()).sum();
+        if elements as f64 > MOST_ELEMENTS {
+            let message = format!("the plies have {elements} elements; allowed: up to {MOST_ELEMENTS:.0e}");
+            return Err(self.error(first.span(), &message));
+        }
+        Ok(Layup::new(laid))
+    }
+
+    /// All plies have one outline.
+    fn check_panel_of_ply(&self, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
+        let Some(file) = panel else { return Ok(()) };
+        let PanelFile { shape, radius, half, part, centre: _ } = file.get_ref();
+        if shape.is_none() && radius.is_none() && half.is_none() && part.is_none() {
+            return Ok(());
+        }
+        let message =
+            "weave.panel of a [[ply]] has other keys than centre; allowed: these in [weave.panel], for all plies";
+        Err(self.error(file.span(), message))
+    }
+
+    /// A ply. `blamed` is the place that errors name for a key at some place which does not go together with others.
+    fn woven(
+        &self,
+        table: &Spanned<WeaveFile>,
+        angle: Option<&Spanned<f64>>,
         units: &UnitSystem,
         blamed: impl Fn(Range<usize>) -> Range<usize>,
     ) -> Result<Woven, Error> {
@@ -113,7 +166,7 @@ impl Source<'_> {
             Some(value) => self.positive("clearance", *value.get_ref(), value.span())?,
             None => units.from_si(CLEARANCE, LENGTH),
         };
-        let weave = Weave {
+        let mut weave = Weave {
             pattern: self.pattern(file, base, table.span())?,
             threads: [warp, weft],
             along: self.number("along", &file.along, [2, MOST_ALONG], ALONG)?,
@@ -132,12 +185,33 @@ impl Source<'_> {
         }
         let wanted = "panel is missing; allowed: a table with shape and radius or half";
         let of_panel = file.panel.as_ref().ok_or_else(|| self.error(table.span(), wanted))?;
-        let panel = self.panel(of_panel)?;
+        let mut panel = self.panel(of_panel)?;
         let part = of_panel.get_ref().part.as_ref().map_or(of_panel.span(), Spanned::span);
         panel.check_mirror_planes(&weave).map_err(|message| self.error(blamed(part), &message))?;
+        let exchanged = match angle {
+            Some(angle) => self.turn(&mut panel, angle)?,
+            None => false,
+        };
+        if exchanged {
+            weave = weave.exchanged();
+        }
         let places = panel.places(&weave).map_err(|message| self.error(blamed(of_panel.span()), &message))?;
         let geometry = weave.solve().map_err(|message| self.error(table.span(), &message))?;
-        Ok(Woven { geometry, panel, places })
+        Ok(Woven { geometry, panel, places, exchanged })
+    }
+
+    /// Turns a ply; true where its warp and weft are to be exchanged for it.
+    fn turn(&self, panel: &mut Panel, angle: &Spanned<f64>) -> Result<bool, Error> {
+        let degrees = self.finite("angle", *angle.get_ref(), angle.span())?;
+        if panel.part == Part::Whole {
+            panel.turn = Turn::degrees(degrees);
+            return Ok(false);
+        }
+        if degrees.rem_euclid(90.0) != 0.0 {
+            let message = format!("angle is {degrees} in a quarter; allowed: multiples of 90, or part = \"whole\"");
+            return Err(self.error(angle.span(), &message));
+        }
+        Ok(degrees.rem_euclid(180.0) != 0.0)
     }
 
     fn weave_preset(&self, name: &Spanned<String>, units: &UnitSystem) -> Result<Weave, Error> {
@@ -217,7 +291,7 @@ impl Source<'_> {
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
-        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default() })
+        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE })
     }
 
     /// A whole number in this range, or the default.

@@ -5,12 +5,13 @@ use std::collections::HashSet;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::cloth::Cloth;
 use super::distance::{self, Quad};
 use super::figures::Figures;
 use super::file::WeaveFile;
 use super::geometry::{Family, Weave};
-use super::model::{Crossing, Model, Yarn};
-use super::panel::{Centre, Outline, Panel, Part};
+use super::model::{Crossing, Grid, Model, Yarn};
+use super::panel::{Centre, Outline, Panel, Part, Turn};
 use super::pattern::Pattern;
 use super::preset::Preset;
 use super::reader::Scene;
@@ -35,13 +36,17 @@ fn patterns() -> [Pattern; 3] {
 }
 
 fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
-    Panel { outline, part, centre }
+    Panel { outline, part, centre, turn: Turn::NONE }
 }
 
 /// A panel of some crossings of each kind.
 fn small(weave: &Weave) -> Panel {
     let half = [1, 0].map(|family: usize| 2.0 * weave.threads[family].pitch);
     panel(Outline::Rectangle(half), Part::Whole, Centre::Crossing)
+}
+
+fn grid(yarn: &Yarn) -> Grid {
+    yarn.grid.expect("a woven yarn has a grid")
 }
 
 /// The least distance between the faces of two yarns within half a pitch of their crossing, up to a bound.
@@ -87,7 +92,7 @@ fn check_clearance(weave: &Weave) {
         }
     }
     assert!((least - weave.clearance).abs() < 1e-9, "{name}: {least}");
-    let figures = Figures::of(&model, &weave.solve().expect("an amplitude"));
+    let figures = Figures::of(&model, 0, &weave.solve().expect("an amplitude"));
     assert!(figures.least_jacobian > 0.0 && figures.least_scaled_jacobian > 0.3, "{name}: {figures:?}");
 }
 
@@ -122,7 +127,7 @@ fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
     let geometry = weave.solve().expect("an amplitude");
     let disc = panel(Outline::Circle(19.05), Part::Quarter, Centre::Crossing);
     let model = Model::new(&weave, &disc).expect("a mesh");
-    let figures = Figures::of(&model, &geometry);
+    let figures = Figures::of(&model, 0, &geometry);
     let density = 1.3514e-6; // kg/mm³
     let areal = 1e6 * density * figures.volume_by_area();
     let straight = 1e6 * density * 2.0 * weave.threads[0].area() / weave.threads[0].pitch;
@@ -132,7 +137,10 @@ fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
     assert!((0.232..0.235).contains(&figures.thickness), "{figures:?}");
     assert!(figures.least_scaled_jacobian > 0.9);
     assert_eq!(figures.elements, 98_136);
-    assert_eq!(figures.elements, model.yarns.iter().map(|yarn| yarn.layers * yarn.columns * 2).sum::<usize>());
+    assert_eq!(
+        figures.elements,
+        model.yarns.iter().map(|yarn| 2 * grid(yarn).layers * grid(yarn).columns).sum::<usize>()
+    );
 }
 
 /// Places to a picometre, to be found in a set.
@@ -160,7 +168,7 @@ fn a_quarter_is_the_whole_where_x_and_y_are_positive() {
             assert!(on == set.len() && on > 0 && set.iter().all(|&node| quarter.nodes[node as usize][axis] == 0.0));
         }
         // The rim is one section of each yarn of the quarter, two of the whole.
-        let ends = |model: &Model| model.yarns.iter().map(Yarn::nodes_per_section).sum::<usize>();
+        let ends = |model: &Model| model.yarns.iter().map(|yarn| grid(yarn).nodes_per_section()).sum::<usize>();
         assert_eq!([quarter.rim.len(), whole.rim.len()], [ends(&quarter), 2 * ends(&whole)]);
         // No face lies on a plane of symmetry.
         for face in &quarter.faces {
@@ -177,15 +185,16 @@ fn yarns_are_contiguous_and_fibres_unit_tangents_of_their_centre_lines() {
     for yarn in &model.yarns {
         assert_eq!([yarn.nodes.start, yarn.elements.start, yarn.faces.start], [node, element, face]);
         (node, element, face) = (yarn.nodes.end, yarn.elements.end, yarn.faces.end);
-        assert_eq!(yarn.section(yarn.layers).end, node);
-        assert_eq!(yarn.layer(yarn.layers - 1).end, element);
+        let grid = grid(yarn);
+        assert_eq!(yarn.nodes.start + grid.section(grid.layers).end, node);
+        assert_eq!(yarn.elements.start + grid.layer(grid.layers - 1).end, element);
         let centre = |section: usize| {
-            let nodes = yarn.section(section).map(|node| nalgebra::Vector3::from(model.nodes[node]));
-            nodes.sum::<nalgebra::Vector3<f64>>() / yarn.nodes_per_section() as f64
+            let nodes = grid.section(section).map(|node| nalgebra::Vector3::from(model.nodes[yarn.nodes.start + node]));
+            nodes.sum::<nalgebra::Vector3<f64>>() / grid.nodes_per_section() as f64
         };
-        for layer in 0..yarn.layers {
+        for layer in 0..grid.layers {
             let tangent = (centre(layer + 1) - centre(layer)).normalize();
-            for element in yarn.layer(layer) {
+            for element in grid.layer(layer).map(|element| yarn.elements.start + element) {
                 assert!((nalgebra::Vector3::from(model.fibre[element]) - tangent).norm() < 1e-12);
                 let corners = model.elements[element];
                 assert!(corners.iter().all(|&corner| yarn.nodes.contains(&(corner as usize))));
@@ -269,7 +278,8 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     );
     let own = format!("{own}warp = {{ pitch = 1, width = 0.6, height = 0.1 }}");
     let scene = Scene::parse("weave.toml", &own).expect("the weft is as the warp");
-    let threads = scene.woven.geometry.weave.threads;
+    let Cloth::Woven(layup) = scene.cloth else { panic!("a weave") };
+    let threads = layup.plies[0].woven.geometry.weave.threads;
     assert_eq!(threads[0], threads[1]);
 }
 
@@ -307,10 +317,11 @@ fn a_case_s_weave_goes_over_the_scene_s() {
         let text = format!("[base]\n{}\n[own]\n{}\n", base.join("\n"), own.join("\n"));
         let source = Source { name: "both.toml", text: &text };
         let both: Both = source.parse().unwrap_or_else(|error| panic!("{error}"));
-        let woven = source.woven_of_case(&both.own, both.base.get_ref(), &units);
-        woven
-            .map(|woven| format!("{:?} {:?}", woven.geometry.weave, woven.panel))
-            .unwrap_or_else(|error| error.to_string())
+        let table = Spanned::new(both.own.span(), both.own.get_ref().over(both.base.get_ref()));
+        match source.layup(&table, &[], &units, Some(both.own.span())) {
+            Ok(layup) => format!("{:?} {:?}", layup.plies[0].woven.geometry.weave, layup.plies[0].woven.panel),
+            Err(error) => error.to_string(),
+        }
     };
     let all = [&KEYS[..], &[SHAPE]].concat();
     let expected = woven(&all, &[]);
@@ -335,4 +346,132 @@ fn a_case_s_weave_goes_over_the_scene_s() {
     assert!(woven(&["panel.shape = \"circle\""], &all).contains("panel.radius is missing"));
     assert!(woven(&KEYS, &[]).contains("panel.shape is missing; allowed: circle, rectangle"));
     assert!(woven(&KEYS[..9], &[]).contains("panel is missing; allowed: a table with shape and radius or half"));
+}
+
+/// Two unlike families, so that a turn shows.
+const PLIES: &str = "units = \"mm-g-ms\"\n[weave]\npattern = \"plain\"\nalong = 4\ncolumns = 4\n\
+    warp = { pitch = 1.0, width = 0.6, height = 0.1 }\nweft = { pitch = 0.8, width = 0.5, height = 0.12 }\n";
+
+fn plies(panel: &str, tables: &str) -> Result<Scene, String> {
+    let text = format!("{PLIES}panel = {{ {panel} }}\n{tables}");
+    Scene::parse("plies.toml", &text).map_err(|error| error.to_string())
+}
+
+fn sorted(mut nodes: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    let rounded = |node: &[f64; 3]| node.map(|x| (1e9 * x).round() as i64);
+    nodes.sort_by_key(rounded);
+    nodes
+}
+
+/// The plies lie one below another, each as far from the one above as it should be, turned by its angle.
+#[test]
+fn plies_lie_below_one_another_and_are_turned() {
+    let tables = "[[ply]]\n[[ply]]\nangle = 30\ndistance = 0.25\n[[ply]]\nangle = -45\nweave.warp.height = 0.2\n";
+    let scene = plies("shape = \"circle\", radius = 5.0", tables).expect("three plies");
+    let model = scene.cloth.model();
+    assert_eq!(model.plies(), 3);
+    let of_ply = |ply: usize| model.yarns.iter().filter(move |yarn| yarn.ply == ply);
+    let heights: Vec<[f64; 2]> = (0..3)
+        .map(|ply| {
+            let nodes = || of_ply(ply).flat_map(|yarn| &model.nodes[yarn.nodes.clone()]).map(|node| node[2]);
+            [nodes().fold(f64::INFINITY, f64::min), nodes().fold(f64::NEG_INFINITY, f64::max)]
+        })
+        .collect();
+    assert!((heights[0][0] - heights[1][1] - 0.25).abs() < 1e-12, "{heights:?}");
+    assert!((heights[1][0] - heights[2][1] - 1e-3).abs() < 1e-12, "{heights:?}");
+    assert_eq!(scene.cloth.clearance(), 1e-3);
+    for (ply, angle) in [0.0_f64, 30.0, -45.0].into_iter().enumerate() {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        for yarn in of_ply(ply) {
+            let [along, across] =
+                if yarn.family == Family::Warp { [[cos, sin], [-sin, cos]] } else { [[-sin, cos], [cos, sin]] };
+            for element in yarn.elements.clone() {
+                let [x, y, z] = model.fibre[element];
+                assert!((x * across[0] + y * across[1]).abs() < 1e-12 && x * along[0] + y * along[1] > 0.5);
+                assert!((x * x + y * y + z * z - 1.0).abs() < 1e-12);
+            }
+            let middle = |node: &[f64; 3]| node[0] * across[0] + node[1] * across[1] - yarn.coordinate;
+            assert!(model.nodes[yarn.nodes.clone()].iter().all(|node| middle(node).abs() < 0.31));
+        }
+    }
+    // A ply turned alone has the mesh of its own; the faces and the elements are its yarns'.
+    for (number, yarn) in model.yarns.iter().enumerate() {
+        let faces = &model.faces[yarn.faces.clone()];
+        assert!(faces.iter().all(|face| yarn.elements.contains(&(face.element as usize))), "{number}");
+        let nodes = faces
+            .iter()
+            .flat_map(|face| face.nodes)
+            .chain(model.elements[yarn.elements.clone()].iter().flatten().copied());
+        assert!(nodes.into_iter().all(|node| yarn.nodes.contains(&(node as usize))), "{number}");
+    }
+    for crossing in &model.crossings {
+        let [warp, weft] = [&model.yarns[crossing.warp], &model.yarns[crossing.weft]];
+        assert!(warp.ply == weft.ply && warp.family == Family::Warp && weft.family == Family::Weft);
+    }
+}
+
+/// A quarter of plies at 0 and 90 degrees is the quarter of the whole ones.
+#[test]
+fn a_quarter_of_crossed_plies_is_one_of_the_whole() {
+    let tables = "[[ply]]\n[[ply]]\nangle = 90\n[[ply]]\nangle = 180\n";
+    for outline in ["shape = \"circle\", radius = 4.3", "shape = \"rectangle\", half = [3.0, 4.5]"] {
+        let model =
+            |part: &str| plies(&format!("{outline}, part = \"{part}\""), tables).expect("three plies").cloth.model();
+        let [whole, quarter] = ["whole", "quarter"].map(model);
+        let inside = |node: &&[f64; 3]| node[0] > -1e-9 && node[1] > -1e-9;
+        let cut = sorted(whole.nodes.iter().filter(inside).copied().collect());
+        let quarter = sorted(quarter.nodes);
+        assert_eq!(cut.len(), quarter.len());
+        let apart = cut.iter().zip(&quarter).flat_map(|(a, b)| [0, 1, 2].map(|i| (a[i] - b[i]).abs()));
+        assert!(apart.fold(0.0, f64::max) < 1e-12);
+    }
+}
+
+/// Yarns of a turned ply end where the rectangle does, within half an element.
+#[test]
+fn a_turned_ply_ends_at_the_outline_of_all() {
+    let (half, step) = ([6.0, 4.0], 0.25);
+    let scene = plies("shape = \"rectangle\", half = [6.0, 4.0]", "[[ply]]\nangle = 35\n").expect("a ply");
+    let model = scene.cloth.model();
+    // Across a yarn its ends are cut at right angles to it.
+    let slack = 0.5 * step + 0.3;
+    let beyond = |node: &[f64; 3]| (node[0].abs() - half[0]).max(node[1].abs() - half[1]);
+    assert!(model.nodes.iter().all(|node| beyond(node) < slack));
+    assert!(model.rim.iter().all(|&node| beyond(&model.nodes[node as usize]) > -slack - 0.1));
+    let figures = scene.cloth.figures(&model)[0];
+    let length = |family: Family| {
+        let of = model.yarns.iter().filter(|yarn| yarn.family == family);
+        of.map(|yarn| grid(yarn).layers as f64).sum::<f64>() * if family == Family::Warp { 0.2 } else { 0.25 }
+    };
+    let covered = [length(Family::Warp) * 1.0, length(Family::Weft) * 0.8];
+    assert!(
+        covered.iter().all(|area| (area / (4.0 * half[0] * half[1]) - 1.0).abs() < 0.05),
+        "{covered:?} {figures:?}"
+    );
+}
+
+#[test]
+fn what_is_wrong_with_a_ply_is_named() {
+    let circle = "shape = \"circle\", radius = 5.0";
+    let quarter = "shape = \"circle\", radius = 5.0, part = \"quarter\"";
+    for (panel, tables, message) in [
+        (
+            circle,
+            "[[ply]]\ndistance = 0.1\n",
+            "plies.toml:10: distance of the first [[ply]]; allowed: in those below it",
+        ),
+        (
+            circle,
+            "[[ply]]\n[[ply]]\ndistance = -0.1\n",
+            "plies.toml:11: distance is -0.1; allowed: a finite number > 0",
+        ),
+        (circle, "[[ply]]\nangle = nan\n", "plies.toml:10: angle is NaN; allowed: a finite number"),
+        (quarter, "[[ply]]\nangle = 45\n", "angle is 45 in a quarter; allowed: multiples of 90, or part = \"whole\""),
+        (circle, "[[ply]]\nweave.panel.radius = 3.0\n", "allowed: these in [weave.panel], for all plies"),
+        (circle, "[[ply]]\nweave.warp.width = 2.0\n", "plies.toml:10: warp.width is 2; allowed: up to"),
+        (circle, "[[ply]]\nangel = 45\n", "unknown field `angel`"),
+    ] {
+        let error = plies(panel, tables).map(|_| ()).expect_err(message);
+        assert!(error.contains(message), "{message}: {error}");
+    }
 }

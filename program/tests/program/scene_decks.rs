@@ -369,3 +369,178 @@ fn a_deck_and_a_restart_exclude_each_other() {
         assert!(output.status.code() == Some(2) && said.contains("cannot be used with"), "{said}");
     }
 }
+
+/// What a deck says besides its mesh.
+#[derive(Debug, PartialEq)]
+struct Said {
+    /// The nodes that are held, by the axes along which they are.
+    held: Vec<(BTreeSet<usize>, [bool; 3])>,
+    /// The constants of each material of the yarns, and its density.
+    constants: Vec<(Vec<f64>, f64)>,
+    /// Friction of the striker and of the yarns.
+    friction: [f64; 2],
+    speed: f64,
+    end: f64,
+}
+
+fn whole(text: &str) -> usize {
+    text.trim().parse().unwrap_or_else(|_| panic!("{text:?} is a number"))
+}
+
+fn of_openradioss(folder: &Path) -> Said {
+    let mut sets = BTreeMap::new();
+    for (keyword, lines) in blocks(&folder.join("scene_mesh.inc"), "#", '/') {
+        if let Some(number) = keyword.strip_prefix("/GRNOD/NODE/") {
+            sets.insert(whole(number), lines[1..].iter().flat_map(|line| fields(line, 10)).map(whole).collect());
+        }
+    }
+    let mut said = Said { held: Vec::new(), constants: Vec::new(), friction: [0.0; 2], speed: 0.0, end: 0.0 };
+    let mut contacts = Vec::new();
+    for (keyword, lines) in blocks(&folder.join("scene_0000.rad"), "#", '/') {
+        let row = |line: usize| numbers(&fields(&lines[line], 20));
+        if keyword.starts_with("/BCS/") && lines[0] != "striker" {
+            let fields = fields(&lines[1], 10);
+            let axis = |i: usize| fields[0].as_bytes()[i] == b'1';
+            said.held.push((BTreeSet::clone(&sets[&whole(fields[2])]), [axis(0), axis(1), axis(2)]));
+        } else if keyword.starts_with("/MAT/USER01/") {
+            let constants = [row(2), row(3), row(4)[..1].to_vec()].concat();
+            said.constants.push((constants, row(1)[0]));
+        } else if keyword.starts_with("/INTER/TYPE7/") {
+            contacts.push((
+                lines[0].clone(),
+                fields(&lines[1], 10)[..2].iter().map(|x| whole(x)).collect::<Vec<_>>(),
+                row(4),
+            ));
+        } else if keyword.starts_with("/INIVEL/TRA/") {
+            let velocity = numbers(&[&lines[1][..20], &lines[1][20..40], &lines[1][40..60]].map(str::trim));
+            assert_eq!(velocity[..2], [0.0; 2]);
+            said.speed = -velocity[2];
+        }
+    }
+    let [striker, yarns] = &contacts[..] else { panic!("{contacts:?}") };
+    // The yarns' nodes on the striker, and the same nodes on the yarns' faces, with the clearance for a gap.
+    assert_eq!((striker.0.as_str(), yarns.0.as_str()), ("striker", "yarns"));
+    assert!(striker.1[0] == yarns.1[0] && striker.1[1] != yarns.1[1], "{contacts:?}");
+    assert_eq!(yarns.2[2], 1e-3);
+    said.friction = [striker.2[1], yarns.2[1]];
+    let engine = blocks(&folder.join("scene_0001.rad"), "#", '/');
+    let run = engine.iter().find(|(keyword, _)| keyword.starts_with("/RUN/")).expect("an end");
+    said.end = run.1[0].trim().parse().expect("a time");
+    said
+}
+
+fn of_ls_dyna(folder: &Path) -> Said {
+    let mut sets = BTreeMap::new();
+    for (keyword, lines) in blocks(&folder.join("scene-mesh.k"), "$", '*') {
+        if keyword == "*SET_NODE_LIST_TITLE" {
+            let nodes = lines[2..].iter().flat_map(|line| fields(line, 10)).map(whole).filter(|&node| node > 0);
+            sets.insert(whole(fields(&lines[1], 10)[0]), nodes.collect());
+        }
+    }
+    let mut said = Said { held: Vec::new(), constants: Vec::new(), friction: [0.0; 2], speed: 0.0, end: 0.0 };
+    for (keyword, lines) in blocks(&folder.join("scene.k"), "$", '*') {
+        let row = |line: usize| numbers(&fields(&lines[line], 10));
+        match keyword.as_str() {
+            "*BOUNDARY_SPC_SET" => {
+                let values = row(0);
+                said.held.push((BTreeSet::clone(&sets[&(values[0] as usize)]), [2, 3, 4].map(|i| values[i] == 1.0)));
+            }
+            "*MAT_USER_DEFINED_MATERIAL_MODELS_TITLE" => {
+                said.constants.push(([row(5), row(6)[..3].to_vec()].concat(), row(1)[1]));
+            }
+            "*CONTACT_ERODING_NODES_TO_SURFACE_ID" => said.friction[0] = row(2)[0],
+            "*CONTACT_ERODING_SINGLE_SURFACE_ID" => said.friction[1] = row(2)[0],
+            "*INITIAL_VELOCITY_RIGID_BODY" => said.speed = -row(0)[3],
+            "*CONTROL_TERMINATION" => said.end = row(0)[0],
+            _ => {}
+        }
+    }
+    said
+}
+
+fn of_abaqus(folder: &Path) -> Said {
+    let values = |line: &String| -> Vec<String> {
+        line.split(',').map(|value| value.trim().to_string()).filter(|value| !value.is_empty()).collect()
+    };
+    let reals = |lines: &[String]| -> Vec<f64> {
+        lines.iter().flat_map(values).map(|value| value.parse().expect("a number")).collect()
+    };
+    let mut sets: BTreeMap<String, BTreeSet<usize>> = BTreeMap::new();
+    for (keyword, lines) in blocks(&folder.join("scene-mesh.inp"), "**", '*') {
+        if let Some(name) = keyword.strip_prefix("*NSET, NSET=") {
+            sets.insert(name.to_string(), lines.iter().flat_map(values).map(|node| whole(&node)).collect());
+        }
+    }
+    let mut said = Said { held: Vec::new(), constants: Vec::new(), friction: [0.0; 2], speed: 0.0, end: 0.0 };
+    let (mut interaction, mut density) = (String::new(), 0.0);
+    let mut held: BTreeMap<String, [bool; 3]> = BTreeMap::new();
+    for (keyword, lines) in blocks(&folder.join("scene.inp"), "**", '*') {
+        if keyword == "*BOUNDARY" {
+            for line in lines.iter().map(values).filter(|line| line[0] != "STRIKER") {
+                let axes = held.entry(line[0].clone()).or_default();
+                (whole(&line[1])..=whole(&line[2])).for_each(|axis| axes[axis - 1] = true);
+            }
+        } else if keyword == "*DENSITY" {
+            density = reals(&lines)[0];
+        } else if keyword.starts_with("*USER MATERIAL") {
+            said.constants.push((reals(&lines), density));
+        } else if let Some(name) = keyword.strip_prefix("*SURFACE INTERACTION, NAME=") {
+            interaction = name.to_string();
+        } else if keyword == "*FRICTION" {
+            said.friction[usize::from(interaction == "ON-YARNS")] = reals(&lines)[0];
+        } else if keyword.starts_with("*INITIAL CONDITIONS, TYPE=VELOCITY") {
+            said.speed = -values(&lines[0])[2].parse::<f64>().expect("a speed");
+        } else if keyword.starts_with("*DYNAMIC, EXPLICIT") {
+            said.end = reals(&lines)[0];
+        } else if keyword == "*CONTACT INCLUSIONS" || keyword == "*CONTACT PROPERTY ASSIGNMENT" {
+            let pairs: Vec<String> = lines.iter().map(|line| values(line)[..2].join(" ")).collect();
+            assert_eq!(pairs, ["YARN-FACES STRIKER-SURFACE", "YARN-FACES YARN-FACES"]);
+        }
+    }
+    said.held = held.into_iter().map(|(name, axes)| (sets[&name].clone(), axes)).collect();
+    said
+}
+
+/// Two plies, the lower one of another material: supports, constants, contact and motion in each deck.
+#[test]
+fn decks_of_plies_say_what_the_scene_says() {
+    let output = folder("scene-decks-plies");
+    let scene = output.join("scene.toml");
+    let plies = "failure = \"uniaxial\"\nfriction = 0.21\nyarn-friction = 0.17\n[[ply]]\n[[ply]]\nangle = 90\nmaterial = { properties = { k_el = 41170.5, k_ld = 5.0 } }\n";
+    std::fs::write(&scene, format!("{SCENE}{plies}")).expect("the scene can be written");
+    for host in ["openradioss", "ls-dyna", "abaqus-explicit"] {
+        let to = output.join(host);
+        let mut toron = Command::new(env!("CARGO_BIN_EXE_toron"));
+        run(toron.arg("fabric").arg(&scene).args(["--deck", host, "-o"]).arg(&to), "");
+        let (mesh, mut said) = match host {
+            "openradioss" => (openradioss(&to), of_openradioss(&to)),
+            "ls-dyna" => (ls_dyna(&to), of_ls_dyna(&to)),
+            _ => (abaqus(&to), of_abaqus(&to)),
+        };
+        let on = |axis: usize| -> BTreeSet<usize> {
+            mesh.elements.values().flatten().copied().filter(|node| mesh.nodes[node][axis] == 0.0).collect()
+        };
+        // Yarns end where an element's second section is no other's first.
+        let sections = |nodes: std::ops::Range<usize>| -> BTreeSet<usize> {
+            mesh.elements.values().flat_map(|element| element[nodes.clone()].to_vec()).collect()
+        };
+        let rim: BTreeSet<usize> = sections(4..8).difference(&sections(0..4)).copied().collect();
+        let mut held = vec![(on(0), [true, false, false]), (on(1), [false, true, false]), (rim, [true, true, true])];
+        held.sort();
+        said.held.sort();
+        let property = |k_el: f64, k_ld: f64| vec![k_el, 1055.0, 2.2, 649.74, k_ld, 0.0458, 0.0, 0.0, 1.0, 0.0, 0.0];
+        let constants =
+            [(property(82341.0, 0.0), DENSITY), (property(41170.5, 5.0), DENSITY), (property(41170.5, 5.0), DENSITY)];
+        let wanted = Said { held, constants: constants.to_vec(), friction: [0.21, 0.17], speed: 142.0, end: 0.02 };
+        assert!(wanted.held.iter().all(|(nodes, _)| nodes.len() > 20), "{:?}", wanted.held);
+        assert_eq!(said, wanted, "{host}");
+        let (_, parts) = striker_and_parts(host, &to, "scene");
+        for (name, material) in parts.iter().filter(|(name, _)| *name != "striker") {
+            let upper = parts.iter().find(|(name, _)| name.starts_with("ply-1")).expect("a yarn of the upper ply").1;
+            assert_eq!(name.starts_with("ply-1"), material == upper, "{host}: {name} {material}");
+        }
+        // The plies lie apart by the clearance.
+        let below = |element: &[usize; 8]| element.iter().map(|node| mesh.nodes[node].z).sum::<f64>() < -0.9;
+        assert_eq!(2 * mesh.elements.values().filter(|element| below(element)).count(), mesh.elements.len(), "{host}");
+    }
+}
