@@ -138,7 +138,7 @@ fn line(
         Question::Outputs => process::outputs(session),
         Question::Exceptions => process::exceptions(session),
         Question::Invalid => process::invalid(session, reads),
-        Question::Histories => process::histories(session),
+        Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
     }
 }

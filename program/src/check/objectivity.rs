@@ -43,12 +43,12 @@ fn at_small_turns(session: &mut Session) -> Line {
     let asked = |session: &mut Session, turn_of_one: f64| compared(session, |f, q| q * f, spin(turn_of_one));
     let mut line = objective(session, &|session| asked(session, LARGEST_TURN));
     let (Verdict::Wrong, Some(figure)) = (line.verdict, line.figure) else { return line };
-    if let Ok(half) = asked(session, 0.5 * LARGEST_TURN)
-        && half.figure < figure / SQUARE
-    {
+    let mut part = |part: f64| asked(session, part * LARGEST_TURN).map_or(f64::INFINITY, |worst| worst.figure);
+    let (half, quarter) = (part(0.5), part(0.25));
+    if half < figure && quarter < half / SQUARE {
         let text = format!(
-            "right for small turns alone: the stress changes by {figure:.1e} of itself at 5° an increment, by {:.1e} at 2.5°",
-            half.figure
+            "right for small turns alone: the stress changes by {figure:.1e} of itself at 5° an increment, by {half:.1e} at \
+             2.5°, by {quarter:.1e} at 1.25°"
         );
         line = Line::new(Question::Objectivity, Verdict::Warning, Some(figure), text);
     }
@@ -56,7 +56,7 @@ fn at_small_turns(session: &mut Session) -> Line {
 }
 
 /// By what factor an error of second order falls with half the turn, with some room.
-const SQUARE: f64 = 3.3;
+const SQUARE: f64 = 2.8;
 
 /// A quarter turn, half a turn and random ones in one increment.
 pub fn at_large_turns(session: &mut Session) -> Line {

@@ -355,7 +355,7 @@ const HISTORIES: usize = 100_000;
 const TIME: Duration = Duration::from_secs(12);
 
 /// Very many short random histories from the initial call.
-pub fn histories(session: &mut Session) -> Line {
+pub fn histories(session: &mut Session, reads: Reads) -> Line {
     let started = Instant::now();
     let mut rng = Rng::with_seed(session.material.seed ^ 0x10);
     let (mut done, mut refused) = (0, 0);
@@ -369,6 +369,9 @@ pub fn histories(session: &mut Session) -> Line {
         let whole = Increment::between(&point.f, &target).turning_at_most(LARGEST_TURN * count as f64);
         // Small ones too: from a millionth of the way to all of it.
         let part = if rng.bool() { 1.0 } else { 10f64.powf(-6.0 * rng.f64()) };
+        // A law of increments is for increments like those of the file.
+        let most = 2.0 * session.material.increment * count as f64 / whole.strain.norm();
+        let part = if reads == Reads::Total { part } else { part.min(most) };
         for k in 1..=count {
             let f = whole.at(part * k as f64 / count as f64, &Matrix3::identity());
             match point.advance(session, &f) {

@@ -356,7 +356,12 @@ fn in_what_way(
                 let (near, part) =
                     if hypothesis.kinds.contains(&"intact") { (2e-2, 0.1) } else { (5.0 * TOLERANCE, 1e-3) };
                 let error = error_at(found, k);
-                if error <= TOLERANCE { mistaken <= near } else { mistaken <= near.max(part * error).min(0.3 * error) }
+                // What is little wrong says nothing for what is found only nearly.
+                if error <= TOLERANCE.max(if part > 1e-2 { 5.0 * near } else { 0.0 }) {
+                    mistaken <= near
+                } else {
+                    mistaken <= near.max(part * error).min(0.3 * error)
+                }
             };
             // What unloads as it loads has no modulus of its own for that, and any factor of each state explains too much.
             let kept = tried.iter().all(|(k, all)| {
@@ -457,6 +462,8 @@ fn sight(session: &mut Session, state: &State, convention: Convention) -> Option
 
 /// Of the strain increment, what is taken back to unload.
 const TAKEN_BACK: f64 = 0.02;
+/// The strain that is taken back at least.
+const LEAST_BACK: f64 = 2e-5;
 /// Of the time step, what passes in no time.
 const NO_TIME: f64 = 1e-9;
 
@@ -465,7 +472,10 @@ fn intact(session: &mut Session, state: &State, convention: Convention) -> [Opti
     let answer = session.ask(&state.call);
     let after = state.before.after(&state.f1, &state.call, &answer);
     let components = session.material.components;
-    let back = Increment::between(&state.before.f, &state.f1).at(1.0 - TAKEN_BACK, &state.before.f);
+    let whole = Increment::between(&state.before.f, &state.f1);
+    // Differences need some room on this side of the kink.
+    let part = TAKEN_BACK.max(LEAST_BACK / whole.strain.norm().max(LEAST_BACK)).min(0.5);
+    let back = whole.at(1.0 - part, &state.before.f);
     let mut of = |f: &Matrix3<f64>, time: f64| {
         let mut call = after.call(f, session.material);
         call.time_step *= time;
