@@ -48,7 +48,7 @@ if ! command -v cargo >/dev/null 2>&1; then
 fi
 # CalculiX and the environments for Python, into the cache folder; the first time takes some minutes.
 ffi-tests/calculix/build.sh >/dev/null
-for requirements in python/tests ffi-tests/felupe ffi-tests/fedoo ffi-tests/akantu ffi-tests/lammps ffi-tests/meshio; do
+for requirements in python/tests ffi-tests/felupe ffi-tests/fedoo ffi-tests/akantu ffi-tests/lammps ffi-tests/meshio ffi-tests/pytexgen; do
     ffi-tests/python/environment.sh "$requirements/requirements.txt" >/dev/null
 done
 cargo test --locked --workspace "$@"

@@ -10,6 +10,7 @@
 //! - a material's card for a solver's deck (`toron deck`): [`deck`];
 //! - a scene as a solver's whole deck (`--deck` of `toron fabric`, `impact` and `weave`): [`scene_deck`];
 //! - histories of a scene from several hosts (`toron compare`): [`compare`];
+//! - what is wrong with anybody's UMAT (`toron check`): `check`, on Linux;
 //! - properties from measured data (`toron fit`): [`identify`];
 //! - energies of a yarn's fibres by finite elements, in CalculiX, from which they are found too (`toron cell`): [`cell`];
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
@@ -24,6 +25,8 @@
 
 pub mod bench;
 pub mod cell;
+#[cfg(target_os = "linux")]
+pub mod check;
 pub mod command_line;
 pub mod common;
 pub mod compare;

@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
+#[cfg(target_os = "linux")]
+use toron_program::check;
 use toron_program::common::console::print;
 use toron_program::common::error::Error;
 use toron_program::eval::command::Entry;
@@ -40,6 +42,13 @@ enum Command {
         #[arg(long)]
         tangent: bool,
     },
+    /// Check a UMAT of Abaqus, yours or anybody's: tangent, objectivity, energy, memory, threads.
+    #[cfg(target_os = "linux")]
+    Check(check::command::Arguments),
+    /// The process in which a law is asked.
+    #[cfg(target_os = "linux")]
+    #[command(hide = true)]
+    CheckChild { request: PathBuf },
     /// Compare histories of a strike from several hosts; write a table and a figure of them.
     Compare(compare::command::Arguments),
     /// Strike a woven panel by a sphere or a cylinder.
@@ -136,6 +145,10 @@ fn run(command: Command) -> Result<(), Error> {
         Command::Deck(arguments) => deck::command::run(Laws::Toron, &arguments),
         Command::Eval { via, tangent } => eval::command::lines(via, tangent),
         Command::Fit { data, output, scene } => identify::command::run(&data, &output, scene.as_deref()),
+        #[cfg(target_os = "linux")]
+        Command::Check(arguments) => check::command::run(&arguments),
+        #[cfg(target_os = "linux")]
+        Command::CheckChild { request } => check::child::answer(&request),
         Command::Compare(arguments) => compare::command::run(&arguments),
         Command::Fabric { scene, output, restart, deck } => match deck.host {
             Some(host) => scene_deck::command::fabric(&scene, &output, host, &deck),

@@ -17,17 +17,45 @@ pub fn unstructured_grid(
     point_data: &str,
     cell_data: &str,
 ) -> String {
+    let (nodes, mut places) = (points.len(), String::new());
+    vectors(&mut places, "position", points);
+    grid(nodes, &places, cells, point_data, cell_data)
+}
+
+/// The same with the points in double precision.
+pub fn unstructured_grid_of_doubles(
+    points: impl ExactSizeIterator<Item = [f64; 3]>,
+    cells: impl ExactSizeIterator<Item = [u32; 8]>,
+    point_data: &str,
+    cell_data: &str,
+) -> String {
+    let (nodes, mut places) = (points.len(), String::new());
+    doubles(&mut places, "position", points);
+    grid(nodes, &places, cells, point_data, cell_data)
+}
+
+fn grid(
+    nodes: usize,
+    places: &str,
+    cells: impl ExactSizeIterator<Item = [u32; 8]>,
+    point_data: &str,
+    cell_data: &str,
+) -> String {
     let mut text = String::from("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n");
-    let (nodes, count) = (points.len(), cells.len());
+    let count = cells.len();
     let _ = write!(text, "<UnstructuredGrid><Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{count}\">\n<Points>\n");
-    vectors(&mut text, "position", points);
-    let _ = write!(text, "</Points>\n<PointData>\n{point_data}</PointData>\n<Cells>\n");
+    let _ = write!(text, "{places}</Points>\n<PointData>\n{point_data}</PointData>\n<Cells>\n");
     let corners = cells.flat_map(|cell| CORNERS.map(|corner| cell[corner]));
     array(&mut text, "connectivity", "Int32", 1, corners);
     array(&mut text, "offsets", "Int32", 1, (1..=count).map(|i| 8 * i));
     array(&mut text, "types", "UInt8", 1, (0..count).map(|_| HEXAHEDRON));
     let _ = write!(text, "</Cells>\n<CellData>\n{cell_data}</CellData>\n</Piece></UnstructuredGrid>\n</VTKFile>\n");
     text
+}
+
+/// Vectors in double precision, with the digits that it takes to read the same ones.
+pub fn doubles(text: &mut String, name: &str, values: impl Iterator<Item = [f64; 3]>) {
+    array(text, name, "Float64", 3, values.flatten());
 }
 
 /// Vectors in single precision.

@@ -10,6 +10,20 @@ const BEGIN: [[usize; 4]; 3] = [[0, 2, 4, 6], [0, 1, 4, 5], [0, 1, 2, 3]];
 /// By the corner: the places of its three edges in the lists.
 const AT: [[usize; 3]; 8] = [[0, 0, 0], [0, 1, 1], [1, 0, 2], [1, 1, 3], [2, 2, 0], [2, 3, 1], [3, 2, 2], [3, 3, 3]];
 
+/// Which corners of an element have three edges: of a wedge, those whose node is no other corner's too.
+#[inline(always)]
+pub fn solid_corners(nodes: &[u32; 8]) -> [bool; 8] {
+    let mut solid = [true; 8];
+    for axis in 0..3 {
+        for place in 0..4 {
+            let (from, to) = (BEGIN[axis][place], BEGIN[axis][place] | 1 << axis);
+            let apart = nodes[from] != nodes[to];
+            (solid[from], solid[to]) = (solid[from] & apart, solid[to] & apart);
+        }
+    }
+    solid
+}
+
 /// The four edges along each axis, in its direction.
 pub struct Edges([[Vector; 4]; 3]);
 
@@ -51,13 +65,16 @@ impl Edges {
         jacobians
     }
 
-    /// The least Jacobian at a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside out, NaN where an edge
-    /// has no length.
+    /// The least Jacobian at such a corner over the lengths of its edges: 1 in a cuboid, negative where it is inside out, NaN where an
+    /// edge has no length.
     #[inline(always)]
-    pub fn least_scaled_jacobian(&self) -> f64 {
+    pub fn least_scaled_jacobian(&self, corners: [bool; 8]) -> f64 {
         let ([a, b, c], jacobians) = (self.lengths(), self.jacobians());
         let mut least: f64 = 1.0;
         for corner in 0..8 {
+            if !corners[corner] {
+                continue;
+            }
             let [i, j, k] = AT[corner];
             least = smallest(least, jacobians[corner] / (a[i] * b[j] * c[k]));
         }
@@ -91,15 +108,22 @@ mod tests {
     #[test]
     fn a_corner_that_is_pressed_in_is_seen() {
         let whole = Edges::of(&cube([1.0; 3]));
-        assert_eq!((whole.volume(), whole.least_scaled_jacobian(), whole.lengths()), (1.0, 1.0, [[1.0; 4]; 3]));
+        assert_eq!(
+            (whole.volume(), whole.least_scaled_jacobian([true; 8]), whole.lengths()),
+            (1.0, 1.0, [[1.0; 4]; 3])
+        );
         let flat = Edges::of(&cube([0.5, 0.5, 1.0]));
         // Its edges from (0, 1, 1), (1, 0, 1) and (1, 1, 0).
         let [a, b, c] = [[0.5, -0.5, 0.0], [-0.5, 0.5, 0.0], [-0.5, -0.5, 1.0]];
         let expected = dot(cross(a, b), c) / (dot(a, a) * dot(b, b) * dot(c, c)).sqrt();
         assert_eq!(flat.jacobians()[7], 0.0);
-        assert!((flat.least_scaled_jacobian() - expected).abs() < 1e-15, "{}", flat.least_scaled_jacobian());
+        assert!(
+            (flat.least_scaled_jacobian([true; 8]) - expected).abs() < 1e-15,
+            "{}",
+            flat.least_scaled_jacobian([true; 8])
+        );
         let inside_out = Edges::of(&cube([0.25, 0.25, 0.5]));
-        assert!(inside_out.least_scaled_jacobian() < 0.0 && inside_out.volume() > 0.0);
-        assert!(Edges::of(&cube([0.0, 1.0, 1.0])).least_scaled_jacobian().is_nan());
+        assert!(inside_out.least_scaled_jacobian([true; 8]) < 0.0 && inside_out.volume() > 0.0);
+        assert!(Edges::of(&cube([0.0, 1.0, 1.0])).least_scaled_jacobian([true; 8]).is_nan());
     }
 }

@@ -7,15 +7,17 @@ use crate::common::toml_file::Unused;
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
 use crate::weave::file::{PlyFile, WeaveFile};
+use crate::weave::foreign::file::MeshFile;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Spanned<WeaveFile>,
+    pub weave: Option<Spanned<WeaveFile>>,
     #[serde(default)]
     pub ply: Vec<Spanned<PlyFile>>,
+    pub mesh: Option<Spanned<MeshFile>>,
     pub scene: Spanned<CaseFile>,
     #[serde(default)]
     pub case: Vec<Spanned<CaseFile>>,
@@ -25,6 +27,7 @@ with_common_keys!(case_file! {
     {
         weave: Spanned<WeaveFile>,
         ply: Vec<Spanned<PlyFile>>,
+        mesh: Spanned<MeshFile>,
         shape: ShapeName,
         length: Spanned<f64>,
         striker_density: Spanned<f64>,

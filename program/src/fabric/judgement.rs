@@ -11,7 +11,6 @@ use super::scene::Case;
 use crate::common::units::{LENGTH, number, unit};
 use crate::explicit::judgement::{self, Finding};
 use crate::explicit::lanes::{largest, smallest};
-use crate::weave::figures::Figures as WeaveFigures;
 use crate::weave::geometry::Family;
 use crate::weave::model::Model;
 use crate::weave::report::areal_density_warning;
@@ -68,8 +67,7 @@ impl Measures {
 pub fn before(units: &UnitSystem, case: &Case, panel: &Model) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         case.materials().flat_map(|material| judgement::units(std::slice::from_ref(material), units)).collect();
-    for (number, ply) in case.layup.plies.iter().enumerate() {
-        let figures = WeaveFigures::of(panel, number, &ply.woven.geometry);
+    for (number, figures) in case.cloth.figures(panel).into_iter().enumerate() {
         let density = |family: Family| case.material(number, family).density.unwrap_or_default();
         let mass = |family: Family| figures.volumes_by_area[family as usize] * density(family);
         let volume = figures.volume_by_area();
@@ -191,7 +189,7 @@ fn collapsed(case: &Case, measures: &Measures) -> Option<Finding> {
 
 /// A sphere that goes into the yarns instead of taking them along.
 fn sunk(units: &UnitSystem, case: &Case, measures: &Measures) -> Option<Finding> {
-    let [_, height] = case.layup.yarn_heights();
+    let [_, height] = case.cloth.yarn_heights();
     let exceeds = measures.ahead.is_nan() || measures.ahead > DEEPEST * height;
     exceeds.then(|| {
         let (ahead, unit) = (number(measures.ahead), unit(units, LENGTH));
@@ -233,7 +231,7 @@ mod tests {
              hyperelastic.density = {density}\n"
         );
         let scene = Scene::parse("patch.toml", &text).expect("a scene");
-        let (case, panel) = (&scene.cases[0], scene.cases[0].layup.model());
+        let (case, panel) = (&scene.cases[0], scene.cases[0].cloth.model());
         let mut balance = Balance::default();
         for projectile in [1.0, 1.0 - off] {
             balance.add(&Energies { projectile, ..Energies::default() });

@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::explicit::body::Body;
-use crate::explicit::hexahedron::Edges;
+use crate::explicit::hexahedron::{Edges, solid_corners};
 use crate::explicit::lanes::{Number, largest, smallest};
 use crate::explicit::solver::Solver;
 use crate::struck;
-use crate::weave::model::{Model, Yarn};
+use crate::weave::model::{Grid, Model, Yarn};
+use crate::weave::torn;
 
 /// What a sample of a panel has besides the quantities of all scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,7 +25,7 @@ pub struct OfPanel {
     /// Yarns that are torn through.
     pub torn: usize,
     /// By how much, at most, a section whose elements are all there has tilted along its yarn since it was at rest, in degrees; and
-    /// how far its middle has slipped along it against its upper and lower side.
+    /// how far its middle has slipped along it against its upper and lower side. 0 where no yarn has a grid.
     pub tilt: f64,
     pub slip: f64,
 }
@@ -60,7 +61,7 @@ impl OfPanel {
 
     /// A yarn's part of what is summed, and its largest and smallest values.
     fn of_yarn<T: Number>(yarn: &Yarn, body: &Body<T>) -> OfPanel {
-        let torn = is_torn(yarn, body.mesh.elements.len(), |i| body.is_intact(i));
+        let torn = torn::is_torn(yarn, &body.mesh.elements, |i| body.is_intact(i));
         let mut sample = OfPanel { torn: usize::from(torn), ..OfPanel::default() };
         for i in (0..body.mesh.elements.len()).filter(|&i| body.is_intact(i)) {
             let nodes = body.mesh.elements[i].map(|node| node as usize);
@@ -74,21 +75,26 @@ impl OfPanel {
             }
             let (at_rest, now) = (Edges::of(&at_rest), Edges::of(&now));
             sample.least_volume_ratio = smallest(sample.least_volume_ratio, now.volume() / at_rest.volume());
-            sample.least_scaled_jacobian = smallest(sample.least_scaled_jacobian, now.least_scaled_jacobian());
+            sample.least_scaled_jacobian = smallest(
+                sample.least_scaled_jacobian,
+                now.least_scaled_jacobian(solid_corners(&body.mesh.elements[i])),
+            );
         }
-        sample.measure_sections(yarn, body);
+        if let Some(grid) = &yarn.grid {
+            sample.measure_sections(yarn, grid, body);
+        }
         sample
     }
 
     /// Of the sections whose elements are all there.
-    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, body: &Body<T>) {
-        let lines = yarn.elements_per_layer();
-        let whole_at = |layer: usize| (layer * lines..(layer + 1) * lines).all(|element| body.is_intact(element));
-        let at_rest = Sections::of(yarn, |node| Vector3::from(body.mesh.nodes[node]));
-        let now = Sections::of(yarn, |node| Vector3::from(body.position(node)));
-        for section in 0..=yarn.layers {
-            if (section.saturating_sub(1)..(section + 1).min(yarn.layers)).all(whole_at) {
-                let [at_rest, now] = [at_rest.tilt_and_slip(section), now.tilt_and_slip(section)];
+    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, grid: &Grid, body: &Body<T>) {
+        let whole_at = |layer: usize| grid.layer(layer).all(|element| body.is_intact(element));
+        let at_rest = Sections::of(grid, |node| Vector3::from(body.mesh.nodes[node]));
+        let now = Sections::of(grid, |node| Vector3::from(body.position(node)));
+        for section in 0..=grid.layers {
+            if (section.saturating_sub(1)..(section + 1).min(grid.layers)).all(whole_at) {
+                let at_rest = at_rest.tilt_and_slip(section, yarn.halved);
+                let now = now.tilt_and_slip(section, yarn.halved);
                 self.tilt = largest(self.tilt, (now.0 - at_rest.0).abs());
                 self.slip = largest(self.slip, (now.1 - at_rest.1).abs());
             }
@@ -109,12 +115,6 @@ impl OfPanel {
     }
 }
 
-/// Whether every line of elements along a yarn has lost one.
-fn is_torn(yarn: &Yarn, elements: usize, intact: impl Fn(usize) -> bool) -> bool {
-    let lines = yarn.elements_per_layer();
-    (0..lines).all(|line| (line..elements).step_by(lines).any(|element| !intact(element)))
-}
-
 /// The farthest place from the centre, along the yarns next to its axes, that has come down by more than a threshold.
 fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
     let mut farthest: f64 = 0.0;
@@ -130,26 +130,25 @@ fn front<T: Number>(panel: &Model, solver: &Solver<T>, threshold: f64) -> f64 {
 
 /// The sections of a yarn, in the places that `position` gives its nodes.
 struct Sections<'a, P> {
-    yarn: &'a Yarn,
+    grid: &'a Grid,
     position: P,
     means: Vec<Vector3<f64>>,
 }
 
 impl<'a, P: Fn(usize) -> Vector3<f64>> Sections<'a, P> {
-    fn of(yarn: &'a Yarn, position: P) -> Self {
-        let per = yarn.nodes_per_section();
-        let sum = |section: usize| (section * per..(section + 1) * per).map(&position).sum::<Vector3<f64>>();
-        let means = (0..=yarn.layers).map(|section| sum(section) / per as f64).collect();
-        Sections { yarn, position, means }
+    fn of(grid: &'a Grid, position: P) -> Self {
+        let sum = |section: usize| grid.section(section).map(&position).sum::<Vector3<f64>>();
+        let means = (0..=grid.layers).map(|section| sum(section) / grid.nodes_per_section() as f64).collect();
+        Sections { grid, position, means }
     }
 
     /// The angle by which a section's height leans along the yarn, in degrees, and how far its middle is ahead of its upper and lower
     /// side along the yarn.
-    fn tilt_and_slip(&self, section: usize) -> (f64, f64) {
-        let Yarn { rows, columns, layers, halved, .. } = *self.yarn;
+    fn tilt_and_slip(&self, section: usize, halved: bool) -> (f64, f64) {
+        let Grid { rows, columns, layers } = *self.grid;
         let (before, after) = (section.saturating_sub(1), (section + 1).min(layers));
         let along = (self.means[after] - self.means[before]).normalize();
-        let first = section * self.yarn.nodes_per_section();
+        let first = self.grid.section(section).start;
         let node = |column: usize, row: usize| (self.position)(first + column * (rows + 1) + row);
         let height = |column: usize| node(column, rows) - node(column, 0);
         // The axis of a yarn that a plane of symmetry halves is at the side where it is highest.

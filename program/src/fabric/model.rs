@@ -87,7 +87,7 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
 
 /// The part of the panel that is modelled.
 pub fn share(case: &Case) -> f64 {
-    match case.layup.part() {
+    match case.cloth.part() {
         Part::Whole => 1.0,
         Part::Quarter => 0.25,
     }
@@ -99,8 +99,9 @@ fn mesh_of(panel: &Model, yarn: &Yarn) -> Mesh {
         nodes: panel.nodes[yarn.nodes.clone()].to_vec(),
         elements: elements.iter().map(|element| element.map(|node| node - yarn.nodes.start as u32)).collect(),
         fibre: panel.fibre[yarn.elements.clone()].to_vec(),
-        elements_per_layer: yarn.elements_per_layer(),
-        nodes_per_section: yarn.nodes_per_section(),
+        // Of a straight yarn's layers, which no yarn of a panel is counted by.
+        elements_per_layer: 0,
+        nodes_per_section: 0,
         surface: Vec::new(),
     }
 }

@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source};
+use crate::common::toml_file::{self, Source, over};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
@@ -19,9 +19,11 @@ use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{HYPERELASTIC, LINEAR_ELASTIC, LawName};
 use crate::struck::keys::{self, Reader};
+use crate::weave::cloth::Cloth;
 use crate::weave::file::{PlyFile, WeaveFile};
+use crate::weave::foreign::file::MeshFile;
 use crate::weave::geometry::Family;
-use crate::weave::layup::{Layup, Ply};
+use crate::weave::layup::Ply;
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -54,12 +56,15 @@ impl Scene {
         let source = Source { name, text };
         let file: SceneFile = source.parse()?;
         let units = source.units(&file.units)?;
-        let layup = Arc::new(source.layup(&file.weave, &file.ply, &units, None)?);
-        if let Some(weave) = &file.scene.get_ref().weave {
-            return Err(source.error(weave.span(), "weave in [scene]; allowed: [weave], or in a [[case]]"));
-        }
-        if file.scene.get_ref().ply.is_some() {
-            return Err(source.error(file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]"));
+        let cloth = Arc::new(source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?);
+        let CaseFile { weave, ply, mesh, .. } = file.scene.get_ref();
+        let tables = [
+            weave.as_ref().map(|table| (table.span(), "weave in [scene]; allowed: [weave], or in a [[case]]")),
+            ply.as_ref().map(|_| (file.scene.span(), "ply in [scene]; allowed: [[ply]], or in a [[case]]")),
+            mesh.as_ref().map(|table| (table.span(), "mesh in [scene]; allowed: [mesh], or in a [[case]]")),
+        ];
+        if let Some((span, message)) = tables.into_iter().flatten().next() {
+            return Err(source.error(span, message));
         }
         let cases = keys::cases(
             (&source, &units),
@@ -67,39 +72,59 @@ impl Scene {
             (&["summary"], PICTURES),
             CaseFile::unused,
             |reader, [file_of_case, _], name| {
-                let (own, plies) = (&file_of_case.weave, file_of_case.ply.as_ref().unwrap_or(&file.ply));
-                let weave = own.as_ref().map(|own| Spanned::new(own.span(), own.get_ref().over(file.weave.get_ref())));
-                let layup = if own.is_none() && file_of_case.ply.is_none() {
-                    layup.clone()
-                } else {
-                    let case = own.as_ref().map(Spanned::span);
-                    Arc::new(source.layup(weave.as_ref().unwrap_or(&file.weave), plies, &units, case)?)
-                };
-                let weave = weave.as_ref().unwrap_or(&file.weave).get_ref();
-                let threads = reader.threads(weave, plies, &layup)?;
-                reader.panel_case(file_of_case, layup, threads, name)
+                let (cloth, threads) = reader.cloth_of_case(&file, file_of_case, &cloth)?;
+                reader.panel_case(file_of_case, cloth, threads, name)
             },
         )?;
         Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
     }
 }
 
+/// Materials of warp and weft of each ply.
+type Threads = Vec<[Option<Box<Material>>; 2]>;
+
 impl Reader<'_> {
-    fn panel_case(
+    /// What a case strikes: the scene's weave or mesh, with what the case has otherwise, and the materials of its own yarns.
+    fn cloth_of_case(
         &self,
-        file: &CaseFile,
-        layup: Arc<Layup>,
-        threads: Vec<[Option<Box<Material>>; 2]>,
-        name: String,
-    ) -> Result<Case, Error> {
+        scene: &SceneFile,
+        case: &CaseFile,
+        cloth: &Arc<Cloth>,
+    ) -> Result<(Arc<Cloth>, Threads), Error> {
+        if let Some(mesh) = &case.mesh {
+            let mesh = over(&Some(mesh.clone()), &scene.mesh, MeshFile::over);
+            let plies = case.ply.as_deref().unwrap_or_default();
+            let foreign = self.source.cloth(case.weave.as_ref(), plies, mesh.as_ref(), self.units)?;
+            return Ok((Arc::new(foreign), vec![[None, None]]));
+        }
+        let plies = case.ply.as_ref().unwrap_or(&scene.ply);
+        let weave = over(&case.weave, &scene.weave, WeaveFile::over);
+        // The scene's is a mesh.
+        let Some(weave) = weave.filter(|_| case.weave.is_some() || scene.mesh.is_none()) else {
+            return match case.ply.as_ref().and_then(|plies| plies.first()) {
+                Some(ply) => Err(self.source.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
+                None => Ok((cloth.clone(), vec![[None, None]])),
+            };
+        };
+        let cloth = if case.weave.is_none() && case.ply.is_none() {
+            cloth.clone()
+        } else {
+            let own = case.weave.as_ref().map(Spanned::span);
+            Arc::new(Cloth::Woven(self.source.layup(&weave, plies, self.units, own)?))
+        };
+        let threads = self.threads(weave.get_ref(), plies, &cloth)?;
+        Ok((cloth, threads))
+    }
+
+    fn panel_case(&self, file: &CaseFile, cloth: Arc<Cloth>, threads: Threads, name: String) -> Result<Case, Error> {
         let keys = self.keys;
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
-        let [_, height] = layup.yarn_heights();
+        let [_, height] = cloth.yarn_heights();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            layup,
+            cloth,
             speed: self.speed(zones.inner())?,
             zones,
             threads,
@@ -125,12 +150,7 @@ impl Reader<'_> {
     }
 
     /// What the yarns of each ply are made of, warp and weft, where the tables say it.
-    fn threads(
-        &self,
-        weave: &WeaveFile,
-        plies: &[Spanned<PlyFile>],
-        layup: &Layup,
-    ) -> Result<Vec<[Option<Box<Material>>; 2]>, Error> {
+    fn threads(&self, weave: &WeaveFile, plies: &[Spanned<PlyFile>], cloth: &Cloth) -> Result<Threads, Error> {
         let none = PlyFile::default();
         let plies = plies.iter().map(Spanned::get_ref).chain(plies.is_empty().then_some(&none));
         let of_ply = |(file, laid): (&PlyFile, &Ply)| {
@@ -138,7 +158,7 @@ impl Reader<'_> {
             let [warp, weft] = [warp?, weft?];
             Ok(if laid.woven.exchanged { [weft, warp] } else { [warp, weft] })
         };
-        plies.zip(&layup.plies).map(of_ply).collect()
+        plies.zip(cloth.plies()).map(of_ply).collect()
     }
 
     /// What the yarns of a family are made of, if a table says it: a material of the case's law.

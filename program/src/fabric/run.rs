@@ -24,7 +24,7 @@ impl<'a> StruckPanel<'a> {
     /// # Errors
     /// As for [`model::check`].
     pub fn new(case: &'a Case) -> Result<Self, Error> {
-        let panel = case.layup.model();
+        let panel = case.cloth.model();
         model::check(case, &panel)?;
         Ok(StruckPanel { case, panel })
     }
@@ -62,7 +62,7 @@ impl Struck for StruckPanel<'_> {
     }
 
     fn sample<T: Number>(&self, solver: &Solver<T>, start: f64) -> Sample {
-        let [_, height] = self.case.layup.yarn_heights();
+        let [_, height] = self.case.cloth.yarn_heights();
         let own = OfPanel::of(&self.panel, solver, height);
         Sample { own, ..Sample::of(solver, 1.0 / share(self.case), start) }
     }

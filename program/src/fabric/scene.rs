@@ -8,8 +8,8 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
 use crate::struck::plan::Plan;
 pub use crate::struck::zones::Zones;
+use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
-use crate::weave::layup::Layup;
 use toron::host::units::UnitSystem;
 
 /// The cases of a file.
@@ -25,7 +25,7 @@ pub struct Scene {
 pub struct Case {
     pub name: String,
     /// The panel; cases without keys of their own for it have the same one.
-    pub layup: Arc<Layup>,
+    pub cloth: Arc<Cloth>,
     pub zones: Zones,
     /// What the yarns of warp and weft of each ply are made of, where they have materials of their own.
     pub threads: Vec<[Option<Box<Material>>; 2]>,

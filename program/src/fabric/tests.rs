@@ -19,7 +19,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
          yarn-friction = {friction}\nhyperelastic.properties = {{ k_ld = 126.0 }}\n"
     );
     let scene = Scene::parse("patch.toml", &text).expect("a scene");
-    let panel = scene.cases[0].layup.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver(&scene.cases[0], &panel).expect("a panel");
     solver.projectile = None;
     assert_eq!((panel.crossings.len(), solver.bodies.len()), (5, 6));
@@ -28,7 +28,8 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
 
 /// The directions of a yarn's middle line from section to section, as angles over the panel.
 fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
-    let per = yarn.nodes_per_section();
+    let grid = yarn.grid.expect("a grid");
+    let per = grid.nodes_per_section();
     let middle = |section: usize| -> Vector3<f64> {
         let nodes = section * per..(section + 1) * per;
         nodes.map(|node| Vector3::from(body.position(node))).sum::<Vector3<f64>>() / per as f64
@@ -37,7 +38,7 @@ fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
         let along = middle(layer + 1) - middle(layer);
         along.z.atan2(along.x)
     };
-    (0..yarn.layers).map(slope).collect()
+    (0..grid.layers).map(slope).collect()
 }
 
 /// What acts on a body's nodes.
@@ -61,7 +62,7 @@ struct Pull {
 fn pull(friction: f64) -> Pull {
     let (yarns, mut solver) = patch(friction);
     let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
-    let (warp, per) = (&yarns[0], yarns[0].nodes_per_section());
+    let (warp, per) = (&yarns[0], yarns[0].grid.expect("a grid").nodes_per_section());
     let last = solver.bodies[0].mesh.nodes.len() - per;
     for node in 0..per {
         solver.bodies[0].support(node, held([0.0; 3]));
@@ -136,7 +137,7 @@ fn the_sphere_meets_what_stands_inside_a_yarn() {
          [weave.panel]\nshape = \"circle\"\nradius = 2.0\npart = \"quarter\"\n\
          [scene]\nspeed = 1.0\nmass = 2e-6\nradius = 0.04\ncontact-stiffness = 1e5\nend = 1.0\nfriction = 0.0\n";
     let scene = Scene::parse("patch.toml", text).expect("a scene");
-    let panel = scene.cases[0].layup.model();
+    let panel = scene.cases[0].cloth.model();
     let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
     let sphere = solver.projectile.as_mut().expect("it is there");
     // The heights of the nodes on the axis, three of each of the two yarns that cross there.
@@ -169,7 +170,7 @@ fn plies(tables: &str, law: &str) -> Result<Scene, String> {
 fn speeds(tables: &str, times: &[f64]) -> Vec<f64> {
     let scene = plies(tables, "hyperelastic.properties = { k_ld = 126.0 }\n").expect("a scene");
     let case = &scene.cases[0];
-    let panel = case.layup.model();
+    let panel = case.cloth.model();
     model::check(case, &panel).expect("a scene that can run");
     let mut solver: Solver<f64> = model::solver(case, &panel).expect("a panel");
     let mut speeds = Vec::new();
@@ -233,5 +234,5 @@ fn plies_have_materials_of_their_own() {
     }
     let cases =
         plies("", "[[case]]\nname = \"one\"\n[[case]]\nname = \"two\"\nply = [{}, { angle = 90 }]\n").expect("cases");
-    assert_eq!(cases.cases.iter().map(|case| case.layup.plies.len()).collect::<Vec<_>>(), [1, 2]);
+    assert_eq!(cases.cases.iter().map(|case| case.cloth.plies().len()).collect::<Vec<_>>(), [1, 2]);
 }

@@ -92,7 +92,7 @@ pub fn weave(path: &Path, output: &Path, host: Host, arguments: &Arguments) -> R
             path.display()
         ))
     })?;
-    let models = std::iter::once_with(|| of_fabric::of_panel(&scene.layup.model(), material, conversion));
+    let models = std::iter::once_with(|| of_fabric::of_panel(&scene.cloth, material, conversion));
     arguments.write(models, &scene.title, &format!("toron weave {}", path.display()), host, output)
 }
 

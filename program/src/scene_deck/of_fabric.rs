@@ -10,6 +10,7 @@ use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
 use crate::fabric::scene::Case;
+use crate::weave::cloth::Cloth;
 use crate::weave::model as woven;
 use crate::weave::model::Yarn;
 
@@ -21,8 +22,13 @@ pub const WATCHED: usize = 100;
 /// # Errors
 /// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
-    let panel = case.layup.model();
+    let panel = case.cloth.model();
     check(case, &panel)?;
+    let clearance = case.cloth.clearance();
+    if clearance <= 0.0 {
+        let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";
+        return Err(Error::Input(format!("case {}: {message}", case.name)));
+    }
     let Conversion { from, to } = conversion;
     let used = used(case);
     let of_case: Vec<_> = case.materials().collect();
@@ -45,12 +51,12 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     };
     let parts = parts(&panel, &names, of_element);
     let mesh = mesh(&panel, conversion);
-    let mut supports = symmetry(&panel);
+    let mut supports = symmetry(&panel, &case.cloth);
     if case.held {
         supports.push(rim(&panel));
     }
     let length = |value| conversion.of(value, LENGTH);
-    let [height, _] = case.layup.yarn_heights();
+    let [height, _] = case.cloth.yarn_heights();
     let end = conversion.of(case.plan.end, TIME);
     let strike = Strike {
         striker: Striker {
@@ -65,7 +71,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         },
         part: share(case),
         height: length(height),
-        contact: Some(Contact { friction: case.mutual.friction, clearance: length(case.layup.clearance) }),
+        contact: Some(Contact { friction: case.mutual.friction, clearance: length(clearance) }),
         control: case.control,
         end,
         sample: conversion.of(case.plan.sample, TIME),
@@ -100,13 +106,14 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
 /// # Errors
 /// The deck's units cannot have the material.
 pub fn of_panel(
-    panel: &woven::Model,
+    cloth: &Cloth,
     material: &crate::material::model::Material,
     conversion: Conversion,
 ) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;
     let material = Material::of_scene(material, &from, &to)?;
-    let mut supports = symmetry(panel);
+    let panel = &cloth.model();
+    let mut supports = symmetry(panel, cloth);
     supports.push(Support { fixed: [false; 3], ..rim(panel) });
     Ok(Model {
         title: String::new(),
@@ -165,8 +172,11 @@ fn name(yarn: &Yarn, of_several_plies: bool) -> String {
     format!("{ply}{}-{sign}{}", yarn.family.name(), yarn.number.abs())
 }
 
-fn symmetry(panel: &woven::Model) -> Vec<Support> {
-    let key = "[weave.panel] part = \"quarter\"";
+fn symmetry(panel: &woven::Model, cloth: &Cloth) -> Vec<Support> {
+    let key = match cloth {
+        Cloth::Woven(_) => "[weave.panel] part = \"quarter\"",
+        Cloth::Foreign(_) => "[mesh] part = \"quarter\"",
+    };
     let planes = [("on-x-0", &panel.on_x, [true, false, false]), ("on-y-0", &panel.on_y, [false, true, false])];
     let planes = planes.into_iter().filter(|(_, nodes, _)| !nodes.is_empty());
     planes.map(|(name, nodes, fixed)| Support { name, key, nodes: nodes.clone(), fixed }).collect()

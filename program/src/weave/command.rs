@@ -15,7 +15,7 @@ use crate::common::folder;
 /// The input, or a file that cannot be written.
 pub fn run(path: &Path, output: &Path) -> Result<(), Error> {
     let scene = Scene::read(path)?;
-    let model = scene.layup.model();
+    let model = scene.cloth.model();
     let file_error = |file: &Path, error: &dyn std::fmt::Display| Error::Input(format!("{}: {error}", file.display()));
     folder::check(output)?;
     std::fs::create_dir_all(output).map_err(|error| file_error(output, &error))?;

@@ -1,4 +1,4 @@
-//! A cut through the axis of the warp yarn that lies nearest to the plane y = 0, and the weft yarns that it crosses.
+//! Cuts of elements by planes x or y = a number.
 
 use plotters::prelude::*;
 
@@ -8,86 +8,114 @@ use crate::picture::page::{Area, Drawn};
 use crate::picture::style::fine;
 use crate::picture::view::View;
 
-/// The part of the cut that belongs to an element: its corners by x and z.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A plane goes by this part of a yarn's width beside where it is asked for, so that it meets no node.
+const BESIDE: f64 = 1e-5;
+/// The fibre of a yarn along an axis has less than this of the other one.
+const ALONG: f64 = 0.1;
+/// Planes that are tried for the one that meets the most of some elements.
+const TRIED: usize = 500;
+/// The edges of an element by their corners.
+const EDGES: [[usize; 2]; 12] =
+    [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+/// The part of the cut that belongs to an element: its corners, around it, by the other horizontal axis and z.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     pub element: usize,
-    pub family: Family,
-    pub corners: [[f64; 2]; 4],
+    pub corners: Vec<[f64; 2]>,
 }
 
-/// The elements that the plane cuts at rest, with the nodes at these positions: first the weft's, then the warp's.
-pub fn pieces(model: &Model, positions: &[[f64; 3]]) -> Vec<Piece> {
-    let warps = model.yarns.iter().enumerate().filter(|(_, yarn)| yarn.family == Family::Warp);
-    let Some((number, warp)) = warps.min_by(|a, b| a.1.coordinate.abs().total_cmp(&b.1.coordinate.abs())) else {
-        return Vec::new();
-    };
-    let mut pieces = Vec::new();
-    for crossing in model.crossings.iter().filter(|crossing| crossing.warp == number) {
-        let weft = &model.yarns[crossing.weft];
-        let sections = (0..=weft.layers).map(|section| (section, model.nodes[weft.section(section).start][1]));
-        let distance = |y: f64| (y - warp.coordinate).abs();
-        let Some((section, _)) = sections.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) else { continue };
-        let nodes: Vec<usize> = weft.section(section).collect();
-        let lines = nodes.chunks(weft.rows + 1);
-        let lines: Vec<Line> = lines.map(|line| line.iter().map(|&node| flat(positions[node])).collect()).collect();
-        let first = weft.layer(section.min(weft.layers - 1)).start;
-        add_grid(&mut pieces, Family::Weft, &lines, |column, row| first + column * weft.rows + row);
-    }
-    let nearest = nearest_lines(model, warp);
-    let lines: Vec<Line> = (0..=warp.layers).map(|section| axis_line(positions, warp, section, &nearest)).collect();
-    let column = nearest[0].min(warp.columns - 1);
-    add_grid(&mut pieces, Family::Warp, &lines, |layer, row| warp.layer(layer).start + column * warp.rows + row);
-    pieces
+/// The elements that the plane y = `plane` cuts: first the weft's, then the warp's.
+pub fn along_the_warp(model: &Model, plane: f64) -> Vec<Piece> {
+    let of = |family: Family| model.yarns.iter().filter(move |yarn| yarn.family == family);
+    let elements = of(Family::Weft).chain(of(Family::Warp)).flat_map(|yarn| yarn.elements.clone());
+    elements.filter_map(|element| piece(model, element, 1, plane)).collect()
 }
 
-/// Points one above another.
-type Line = Vec<[f64; 2]>;
-
-fn flat([x, _, z]: [f64; 3]) -> [f64; 2] {
-    [x, z]
+/// y of the axis of the warp yarn along x that is nearest to y = 0, but for a little by which the plane misses its nodes; none where
+/// all plies are turned.
+pub fn warp_axis(model: &Model) -> Option<f64> {
+    let warps = model.yarns.iter().filter(|yarn| yarn.family == Family::Warp && is_along(model, yarn, 0));
+    let nearest = warps.min_by(|a, b| a.coordinate.abs().total_cmp(&b.coordinate.abs()));
+    nearest.map(|warp| {
+        let [low, high] = model.extent(warp, 1);
+        // Turned by half a turn it is on the other side.
+        let axis = if (low..=high).contains(&warp.coordinate) { warp.coordinate } else { -warp.coordinate };
+        axis + BESIDE * (high - low)
+    })
 }
 
-/// The upright lines of nodes nearest to the yarn's axis: an odd number of columns has two beside it.
-fn nearest_lines(model: &Model, yarn: &Yarn) -> Vec<usize> {
-    let first = yarn.section(0).start;
-    let distance = |line: usize| (model.nodes[first + line * (yarn.rows + 1)][1] - yarn.coordinate).abs();
-    let least = (0..=yarn.columns).map(distance).fold(f64::INFINITY, f64::min);
-    let rounding = 1e-9 * (distance(0) + distance(yarn.columns));
-    (0..=yarn.columns).filter(|&line| distance(line) <= least + rounding).collect()
+/// Whether a yarn runs along x (0) or y (1).
+pub fn is_along(model: &Model, yarn: &Yarn, axis: usize) -> bool {
+    let middle = yarn.elements.start + yarn.elements.len() / 2;
+    model.fibre[middle][1 - axis].abs() < ALONG
 }
 
-/// The section's upright line through the yarn's axis, between the nearest lines of nodes.
-fn axis_line(positions: &[[f64; 3]], yarn: &Yarn, section: usize, nearest: &[usize]) -> Line {
-    let first = yarn.section(section).start;
-    let mean = |row: usize| {
-        let points = nearest.iter().map(|&line| flat(positions[first + line * (yarn.rows + 1) + row]));
-        let [x, z] = points.fold([0.0; 2], |sum, point| [sum[0] + point[0], sum[1] + point[1]]);
-        [x / nearest.len() as f64, z / nearest.len() as f64]
-    };
-    (0..=yarn.rows).map(mean).collect()
+/// y of the plane that meets the most of these elements.
+pub fn through_most(model: &Model, elements: &[usize]) -> f64 {
+    let extents: Vec<[f64; 2]> = elements
+        .iter()
+        .map(|&element| {
+            let places = model.corners(&model.elements[element]).map(|corner| corner[1]);
+            places.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+        })
+        .collect();
+    let met = |plane: f64| extents.iter().filter(|[low, high]| (low..=high).contains(&&plane)).count();
+    let middles = extents.iter().map(|[low, high]| 0.5 * (low + high));
+    let step = (extents.len() / TRIED).max(1);
+    middles.step_by(step).max_by_key(|&plane| met(plane)).unwrap_or_default()
 }
 
-/// The elements between neighbouring lines of points.
-fn add_grid(pieces: &mut Vec<Piece>, family: Family, lines: &[Line], element: impl Fn(usize, usize) -> usize) {
-    for (i, pair) in lines.windows(2).enumerate() {
-        for row in 0..pair[0].len() - 1 {
-            let corners = [pair[0][row], pair[1][row], pair[1][row + 1], pair[0][row + 1]];
-            pieces.push(Piece { element: element(i, row), family, corners });
+/// What a plane across an axis, 0 or 1, cuts out of an element.
+pub fn piece(model: &Model, element: usize, axis: usize, plane: f64) -> Option<Piece> {
+    let places = model.corners(&model.elements[element]);
+    let mut corners: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in EDGES.map(|edge| edge.map(|corner| places[corner])) {
+        let [below, above] = [from, to].map(|place| place[axis] - plane);
+        if (below < 0.0) != (above < 0.0) {
+            let share = below / (below - above);
+            let point = [1 - axis, 2].map(|i| from[i] + share * (to[i] - from[i]));
+            if !corners.contains(&point) {
+                corners.push(point);
+            }
         }
     }
+    if corners.len() < 3 {
+        return None;
+    }
+    let middle = [0, 1].map(|i| corners.iter().map(|corner| corner[i]).sum::<f64>() / corners.len() as f64);
+    let angle = |corner: &[f64; 2]| (corner[1] - middle[1]).atan2(corner[0] - middle[0]);
+    corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    Some(Piece { element, corners })
 }
 
-/// Draws the pieces that are all in the view, those that have a colour.
-pub fn draw(area: &Area, view: &View, pieces: &[Piece], colour: impl Fn(&Piece) -> Option<RGBColor>) -> Drawn<()> {
+/// Draws the pieces that are all in the view.
+pub fn draw(area: &Area, view: &View, pieces: &[Piece], colour: impl Fn(&Piece) -> RGBColor) -> Drawn<()> {
     let margin = 1e-9 * (view.high[0] - view.low[0]);
     let seen = |x: f64| x >= view.low[0] - margin && x <= view.high[0] + margin;
     for piece in pieces.iter().filter(|piece| piece.corners.iter().all(|corner| seen(corner[0]))) {
-        let Some(colour) = colour(piece) else { continue };
-        let mut points = piece.corners.map(|corner| view.place(corner)).to_vec();
-        area.draw(&Polygon::new(points.clone(), colour.filled()))?;
+        let mut points: Vec<_> = piece.corners.iter().map(|&corner| view.place(corner)).collect();
+        area.draw(&Polygon::new(points.clone(), colour(piece).filled()))?;
         points.push(points[0]);
         area.draw(&PathElement::new(points, WHITE.stroke_width(fine(1) as u32 / 2)))?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_brick_and_a_wedge_are_cut_across() {
+        let nodes = (0..8).map(|c| [0, 1, 2].map(|axis| f64::from(c >> axis & 1))).collect();
+        // The wedge's section is a triangle in which corners 2 and 6 are one.
+        let elements = vec![[0, 1, 2, 3, 4, 5, 6, 7], [0, 1, 2, 3, 4, 5, 2, 3]];
+        let model = Model { nodes, elements, ..Model::default() };
+        let cut = |element: usize, axis: usize, plane: f64| piece(&model, element, axis, plane).map(|cut| cut.corners);
+        assert_eq!(cut(0, 0, 0.5), Some(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]));
+        assert_eq!(cut(1, 0, 0.25).expect("a triangle").len(), 3);
+        assert_eq!(cut(1, 1, 0.25).expect("a quadrangle"), [[0.0, 0.0], [1.0, 0.0], [1.0, 0.75], [0.0, 0.75]]);
+        assert_eq!(cut(0, 1, 2.0), None);
+    }
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::geometry::{Family, Geometry};
 use super::model::{Model, Yarn};
-use crate::explicit::hexahedron::Edges;
+use crate::explicit::hexahedron::{Edges, solid_corners};
 
 /// Lengths are in the units of the weave.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +28,18 @@ pub struct Figures {
 impl Figures {
     /// Those of a ply, from 0; the geometry is its own.
     pub fn of(model: &Model, ply: usize, geometry: &Geometry) -> Figures {
+        let covered = |family: Family| {
+            let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
+            let yarns = model.yarns.iter().filter(|yarn| yarn.ply == ply && yarn.family == family);
+            let layers: f64 = yarns.map(|yarn| width(yarn) * yarn.grid.map_or(0.0, |grid| grid.layers as f64)).sum();
+            layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch
+        };
+        let crimp = Family::BOTH.map(|family| geometry.crimp(family));
+        Figures::with(model, ply, crimp, Family::BOTH.map(covered))
+    }
+
+    /// With the crimp of warp and weft, and the area that the yarns of each cover, each its pitch wide.
+    pub fn with(model: &Model, ply: usize, crimp: [f64; 2], covered: [f64; 2]) -> Figures {
         let yarns = || model.yarns.iter().filter(move |yarn| yarn.ply == ply);
         let heights = || yarns().flat_map(|yarn| &model.nodes[yarn.nodes.clone()]).map(|node| node[2]);
         let count = |family: Family| yarns().filter(|yarn| yarn.family == family).count();
@@ -35,22 +47,21 @@ impl Figures {
             yarns: Family::BOTH.map(count),
             nodes: yarns().map(|yarn| yarn.nodes.len()).sum(),
             elements: yarns().map(|yarn| yarn.elements.len()).sum(),
-            crimp: Family::BOTH.map(|family| geometry.crimp(family)),
+            crimp,
             thickness: heights().fold(f64::NEG_INFINITY, f64::max) - heights().fold(f64::INFINITY, f64::min),
-            volumes_by_area: Family::BOTH.map(|family| volume_by_area(model, ply, geometry, family)),
+            volumes_by_area: Family::BOTH.map(|family| volume(model, ply, family) / covered[family as usize]),
             least_jacobian: f64::INFINITY,
             least_scaled_jacobian: f64::INFINITY,
             shortest_edge: f64::INFINITY,
         };
         for element in yarns().flat_map(|yarn| &model.elements[yarn.elements.clone()]) {
-            let mut nodes = [[0.0; 3]; 8];
-            for (place, &node) in nodes.iter_mut().zip(element) {
-                *place = model.nodes[node as usize];
-            }
-            let edges = Edges::of(&nodes);
-            figures.least_jacobian = edges.jacobians().into_iter().fold(figures.least_jacobian, f64::min);
-            figures.least_scaled_jacobian = figures.least_scaled_jacobian.min(edges.least_scaled_jacobian());
-            figures.shortest_edge = edges.lengths().into_iter().flatten().fold(figures.shortest_edge, f64::min);
+            let edges = Edges::of(&model.corners(element));
+            let jacobians = edges.jacobians().into_iter().zip(solid_corners(element)).filter(|(_, solid)| *solid);
+            figures.least_jacobian = jacobians.fold(figures.least_jacobian, |least, (jacobian, _)| least.min(jacobian));
+            figures.least_scaled_jacobian =
+                figures.least_scaled_jacobian.min(edges.least_scaled_jacobian(solid_corners(element)));
+            let lengths = edges.lengths().into_iter().flatten().filter(|length| *length > 0.0);
+            figures.shortest_edge = lengths.fold(figures.shortest_edge, f64::min);
         }
         figures
     }
@@ -60,17 +71,14 @@ impl Figures {
     }
 }
 
-/// The volume of a family over the area that its yarns cover, each its pitch wide.
-fn volume_by_area(model: &Model, ply: usize, geometry: &Geometry, family: Family) -> f64 {
-    let yarns = || model.yarns.iter().filter(|yarn| yarn.ply == ply && yarn.family == family);
+/// The volume of a ply's family.
+fn volume(model: &Model, ply: usize, family: Family) -> f64 {
+    let yarns = model.yarns.iter().filter(|yarn| yarn.ply == ply && yarn.family == family);
     let derivatives = derivatives();
-    let volume: f64 = yarns()
+    yarns
         .flat_map(|yarn| model.elements[yarn.elements.clone()].iter())
-        .map(|e| volume(model, e, &derivatives))
-        .sum();
-    let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
-    let layers: f64 = yarns().map(|yarn| width(yarn) * yarn.layers as f64).sum();
-    volume / (layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch)
+        .map(|element| of_element(model, element, &derivatives))
+        .sum()
 }
 
 /// Derivatives of the corners' weights along the three axes, at the eight points of Gauss.
@@ -91,7 +99,7 @@ fn derivatives() -> Derivatives {
 }
 
 /// The volume of a trilinear element.
-fn volume(model: &Model, element: &[u32; 8], derivatives: &Derivatives) -> f64 {
+fn of_element(model: &Model, element: &[u32; 8], derivatives: &Derivatives) -> f64 {
     let nodes = element.map(|node| Vector3::from(model.nodes[node as usize]));
     let at_point = |weights: &[[f64; 8]; 3]| {
         let [a, b, c] = weights.each_ref().map(|weights| {

@@ -6,6 +6,7 @@ use serde::de::{IgnoredAny, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
+use super::foreign::file::MeshFile;
 use super::geometry::Family;
 use super::panel::{Centre, Part};
 use super::section::Section;
@@ -17,9 +18,10 @@ use crate::material::file::MaterialFile;
 pub struct SceneFile {
     pub title: Option<String>,
     pub units: Spanned<String>,
-    pub weave: Spanned<WeaveFile>,
+    pub weave: Option<Spanned<WeaveFile>>,
     #[serde(default)]
     pub ply: Vec<Spanned<PlyFile>>,
+    pub mesh: Option<Spanned<MeshFile>>,
     pub material: Option<Spanned<MaterialFile>>,
     /// How the panel is struck, which is nothing to its mesh.
     #[serde(rename = "scene")]

@@ -115,6 +115,7 @@ impl Model {
             nodes: moved(yarn.nodes, nodes_before),
             elements: moved(yarn.elements, elements_before),
             faces: moved(yarn.faces, faces_before),
+            ends: yarn.ends.map(|nodes| nodes.into_iter().map(node).collect()),
             ..yarn
         }));
         self.faces.extend(faces.into_iter().map(|face| Face {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::geometry::{Family, Geometry, Weave};
-use super::model::{Crossing, Face, LEFT, LOWER, Model, RIGHT, Side, UPPER, Yarn};
+use super::model::{Crossing, Face, Grid, LEFT, LOWER, Model, RIGHT, Side, UPPER, Yarn};
 use super::panel::{Centre, Panel, Part, Place};
 
 impl Model {
@@ -36,17 +36,13 @@ impl Model {
             self.add_section(geometry, panel, place, station, lines.clone());
         }
         let layers = place.layers();
-        let per_section = (columns + 1) * (rows + 1);
+        let grid = Grid { layers, columns, rows };
         for layer in 0..layers {
             let direction =
                 direction(geometry, family, place.number, pattern_station(weave, panel, first + layer as i64));
             for column in 0..columns {
                 for row in 0..rows {
-                    let corners = std::array::from_fn(|corner| {
-                        let [along, up, across] = [0, 1, 2].map(|axis| corner >> axis & 1);
-                        let line = (column + across) * (rows + 1) + row + up;
-                        (starts[0] + (layer + along) * per_section + line) as u32
-                    });
+                    let corners = grid.corners([layer, column, row]).map(|node| (starts[0] + node) as u32);
                     let left = lines.start + column == 0;
                     let right = lines.start + column + 1 == weave.columns;
                     self.add_faces(corners, [row + 1 == rows, row == 0, left, right]);
@@ -64,9 +60,8 @@ impl Model {
             nodes: starts[0]..self.nodes.len(),
             elements: starts[1]..self.elements.len(),
             faces: starts[2]..self.faces.len(),
-            layers,
-            columns,
-            rows,
+            ends: [0, layers].map(|number| grid.section(number).map(|node| (starts[0] + node) as u32).collect()),
+            grid: Some(grid),
         };
         self.add_to_sets(&yarn, panel.part);
         self.yarns.push(yarn);
@@ -102,14 +97,18 @@ impl Model {
 
     /// A yarn ends at the edge, or on a plane of symmetry that it crosses; one that lies on such a plane has its cut there.
     fn add_to_sets(&mut self, yarn: &Yarn, part: Part) {
-        let numbers = |range: Range<usize>| range.map(|node| node as u32);
-        self.rim.extend(numbers(yarn.section(yarn.layers)));
+        let [start, end] = &yarn.ends;
+        self.rim.extend(end);
         if part == Part::Whole {
-            self.rim.extend(numbers(yarn.section(0)));
+            self.rim.extend(start);
             return;
         }
         let on = |nodes: &[[f64; 3]], axis: usize| {
-            numbers(yarn.nodes.clone()).filter(|&node| nodes[node as usize][axis] == 0.0).collect::<Vec<_>>()
+            yarn.nodes
+                .clone()
+                .map(|node| node as u32)
+                .filter(|&node| nodes[node as usize][axis] == 0.0)
+                .collect::<Vec<_>>()
         };
         self.on_x.extend(on(&self.nodes, 0));
         self.on_y.extend(on(&self.nodes, 1));

@@ -4,11 +4,13 @@
 //! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,
 //! weft yarns along y, z goes through the thickness.
 
+pub mod cloth;
 pub mod command;
 pub mod cut;
 pub mod distance;
 pub mod figures;
 pub mod file;
+pub mod foreign;
 pub mod geometry;
 pub mod layup;
 pub mod mesh;
@@ -25,4 +27,5 @@ pub mod solve;
 pub mod surface;
 #[cfg(test)]
 mod tests;
+pub mod torn;
 pub mod vtu;

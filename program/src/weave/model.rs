@@ -46,12 +46,21 @@ pub struct Yarn {
     pub nodes: Range<usize>,
     pub elements: Range<usize>,
     pub faces: Range<usize>,
+    /// The nodes of the sections where it begins and ends, where that is at the panel's edge or on a plane of symmetry.
+    pub ends: [Vec<u32>; 2],
+    /// How its elements stand; none where they do so in no order, as in the meshes of others.
+    pub grid: Option<Grid>,
+}
+
+/// A yarn's elements by layers along it, columns across and rows upwards, and its nodes by sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
     pub layers: usize,
     pub columns: usize,
     pub rows: usize,
 }
 
-impl Yarn {
+impl Grid {
     pub fn nodes_per_section(&self) -> usize {
         (self.columns + 1) * (self.rows + 1)
     }
@@ -60,16 +69,22 @@ impl Yarn {
         self.columns * self.rows
     }
 
-    /// The nodes of a section, from 0 to the number of layers: column by column, each from below.
+    /// The yarn's nodes of a section, from 0 to the number of layers: column by column, each from below.
     pub fn section(&self, number: usize) -> Range<usize> {
-        let first = self.nodes.start + number * self.nodes_per_section();
-        first..first + self.nodes_per_section()
+        number * self.nodes_per_section()..(number + 1) * self.nodes_per_section()
     }
 
-    /// The elements of a layer: column by column, each from below.
+    /// The yarn's elements of a layer: column by column, each from below.
     pub fn layer(&self, number: usize) -> Range<usize> {
-        let first = self.elements.start + number * self.elements_per_layer();
-        first..first + self.elements_per_layer()
+        number * self.elements_per_layer()..(number + 1) * self.elements_per_layer()
+    }
+
+    /// The yarn's nodes at the corners of an element of the layer, column and row.
+    pub fn corners(&self, [layer, column, row]: [usize; 3]) -> [usize; 8] {
+        std::array::from_fn(|corner| {
+            let [along, up, across] = [0, 1, 2].map(|axis| corner >> axis & 1);
+            self.section(layer + along).start + (column + across) * (self.rows + 1) + row + up
+        })
     }
 }
 
@@ -87,7 +102,8 @@ pub struct Crossing {
 pub struct Model {
     pub nodes: Vec<[f64; 3]>,
     /// Corner c of an element stands on the upper side of its axis i where bit i of c is set: axis 0 along the yarn (x of
-    /// the warp, y of the weft), 1 upwards, 2 across (-y of the warp, x of the weft). Yarn by yarn, layer by layer.
+    /// the warp, y of the weft), 1 upwards, 2 across (-y of the warp, x of the weft). Yarn by yarn; those of a grid layer by layer.
+    /// Of a wedge two corners that axis 0 does not join are the same node, and so are those across from them.
     pub elements: Vec<[u32; 8]>,
     /// The unit direction of each element's fibres: that of the centre line, as it is meshed, at the element's middle.
     pub fibre: Vec<[f64; 3]>,
@@ -103,6 +119,17 @@ pub struct Model {
 }
 
 impl Model {
+    /// The places of an element's corners.
+    pub fn corners(&self, element: &[u32; 8]) -> [[f64; 3]; 8] {
+        element.map(|node| self.nodes[node as usize])
+    }
+
+    /// The least and the largest coordinate of a yarn's nodes.
+    pub fn extent(&self, yarn: &Yarn, axis: usize) -> [f64; 2] {
+        let places = self.nodes[yarn.nodes.clone()].iter().map(|node| node[axis]);
+        places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+
     /// The yarns nearest to the centre of each ply.
     pub fn central(&self) -> impl Iterator<Item = (usize, &Yarn)> {
         let nearest = |ply: usize| {

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use toml::Spanned;
 
+use super::cloth::Cloth;
 use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::layup::{Laid, Layup};
@@ -51,7 +52,7 @@ impl Woven {
 pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
-    pub layup: Layup,
+    pub cloth: Cloth,
     /// Of the yarns, where the scene names one.
     pub material: Option<Material>,
 }
@@ -79,7 +80,7 @@ impl Scene {
             material.map(|table| source.material(Laws::Toron, table.get_ref(), &units, table.span())).transpose()?;
         Ok(Scene {
             title: file.title.unwrap_or_else(|| name.to_string()),
-            layup: source.layup(&file.weave, &file.ply, &units, None)?,
+            cloth: source.cloth(file.weave.as_ref(), &file.ply, file.mesh.as_ref(), &units)?,
             material,
             units,
         })

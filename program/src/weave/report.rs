@@ -3,7 +3,9 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
+use super::cloth::Cloth;
 use super::figures::Figures;
+use super::foreign::reader::Foreign;
 use super::layup::Ply;
 use super::model::Model;
 use super::reader::Scene;
@@ -46,9 +48,8 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             format!("{} kg/m²", number(areal_density(volume_by_area, density, &scene.units)))
         })
     };
-    let plies = &scene.layup.plies;
-    let figures: Vec<Figures> =
-        plies.iter().enumerate().map(|(number, ply)| Figures::of(model, number, &ply.woven.geometry)).collect();
+    let figures = scene.cloth.figures(model);
+    let plies = scene.cloth.plies();
     let mut text = format!("{}\n\n", scene.title);
     let mut add = |rows: &[(&str, String)]| {
         for (name, value) in rows {
@@ -65,13 +66,18 @@ pub fn report(scene: &Scene, model: &Model) -> String {
             add(&[("", String::new())]);
         }
     }
+    let mut of_mesh = Vec::new();
+    if let Cloth::Foreign(foreign) = &scene.cloth {
+        add(&of_mesh_file(foreign, length, areal_density(foreign.figures.volume_by_area())));
+        of_mesh = foreign.checks.warnings();
+    }
     if plies.len() > 1 {
         let [lowest, highest] = model.heights();
         let volume: f64 = figures.iter().map(Figures::volume_by_area).sum();
         add(&[
             ("all plies", plies.len().to_string()),
             ("elements, nodes", format!("{}, {}", model.elements.len(), model.nodes.len())),
-            ("least distance of yarns", format!("{} {length}", number(scene.layup.clearance))),
+            ("least distance of yarns", format!("{} {length}", number(scene.cloth.clearance()))),
             ("thickness", format!("{} {length}", number(highest - lowest))),
             ("areal density", areal_density(volume)),
         ]);
@@ -80,7 +86,7 @@ pub fn report(scene: &Scene, model: &Model) -> String {
     let of_wave = wave.and_then(|wave| wave.unit_warning(&scene.units));
     let of_area =
         figures.iter().filter_map(|figures| areal_density_warning(figures.volume_by_area(), density?, &scene.units));
-    let warnings: Vec<String> = of_wave.into_iter().chain(of_area.take(1)).collect();
+    let warnings: Vec<String> = of_mesh.into_iter().chain(of_wave).chain(of_area.take(1)).collect();
     for (number, warning) in warnings.iter().enumerate() {
         let before = if number == 0 { "\n" } else { "" };
         let _ = writeln!(text, "{before}warning: {}", warning.replace('\n', "\n  "));
@@ -90,14 +96,33 @@ pub fn report(scene: &Scene, model: &Model) -> String {
 
 fn of_ply(ply: &Ply, figures: &Figures, length: &str, areal_density: String) -> Vec<(&'static str, String)> {
     let geometry = &ply.woven.geometry;
+    let amplitude = ("amplitude of the centre lines", format!("{} {length}", number(geometry.amplitude)));
+    rows(figures, Some(amplitude), geometry.weave.clearance, length, areal_density)
+}
+
+fn of_mesh_file(foreign: &Foreign, length: &str, areal_density: String) -> Vec<(&'static str, String)> {
+    let mut rows = rows(&foreign.figures, None, foreign.clearance, length, areal_density);
+    rows.extend(foreign.rows(length));
+    rows
+}
+
+fn rows(
+    figures: &Figures,
+    amplitude: Option<(&'static str, String)>,
+    clearance: f64,
+    length: &str,
+    areal_density: String,
+) -> Vec<(&'static str, String)> {
     let percent = figures.crimp.map(|crimp| number(100.0 * crimp));
     let [warps, wefts] = figures.yarns;
-    vec![
+    let mut rows = vec![
         ("yarns", format!("{warps} warp, {wefts} weft")),
         ("elements, nodes", format!("{}, {}", figures.elements, figures.nodes)),
         ("crimp of warp and weft", format!("{} %, {} %", percent[0], percent[1])),
-        ("amplitude of the centre lines", format!("{} {length}", number(geometry.amplitude))),
-        ("least distance of yarns", format!("{} {length}", number(geometry.weave.clearance))),
+    ];
+    rows.extend(amplitude);
+    rows.extend([
+        ("least distance of yarns", format!("{} {length}", number(clearance))),
         ("thickness", format!("{} {length}", number(figures.thickness))),
         ("volume over area", format!("{} {length}", number(figures.volume_by_area()))),
         ("areal density", areal_density),
@@ -106,5 +131,6 @@ fn of_ply(ply: &Ply, figures: &Figures, length: &str, areal_density: String) -> 
             format!("{} {length}³, scaled {}", number(figures.least_jacobian), number(figures.least_scaled_jacobian)),
         ),
         ("shortest edge", format!("{} {length}", number(figures.shortest_edge))),
-    ]
+    ]);
+    rows
 }

@@ -2,17 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::model::{END, LEFT, LOWER, Model, RIGHT, START, UPPER};
-
-/// The sides of an element, and where along the yarn, by columns and by rows the element stands that would hide it.
-const SIDES: [([usize; 4], [isize; 3]); 6] = [
-    (UPPER, [0, 0, 1]),
-    (LOWER, [0, 0, -1]),
-    (LEFT, [0, -1, 0]),
-    (RIGHT, [0, 1, 0]),
-    (START, [-1, 0, 0]),
-    (END, [1, 0, 0]),
-];
+use super::model::Model;
+use crate::explicit::mutual_contact::outer_faces;
 
 /// A side of an element that can be seen, where the nodes are now.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,24 +17,16 @@ pub struct Visible {
 /// The sides of the intact elements that are seen with the nodes at these positions; with them the yarns' ends, which stand
 /// upright at rest.
 pub fn visible(model: &Model, positions: &[[f64; 3]], intact: impl Fn(usize) -> bool) -> Vec<Visible> {
-    let mut found = Vec::new();
-    for yarn in &model.yarns {
-        let counts = [yarn.layers, yarn.columns, yarn.rows];
-        let element = |[layer, column, row]: [usize; 3]| yarn.layer(layer).start + column * yarn.rows + row;
-        for number in yarn.elements.clone().filter(|&number| intact(number)) {
-            let place = number - yarn.elements.start;
-            let place = [place / yarn.elements_per_layer(), place / yarn.rows % yarn.columns, place % yarn.rows];
-            let hidden = |step: [isize; 3]| {
-                let next = [0, 1, 2].map(|i| place[i].checked_add_signed(step[i]).filter(|&j| j < counts[i]));
-                matches!(next, [Some(layer), Some(column), Some(row)] if intact(element([layer, column, row])))
-            };
-            for (side, _) in SIDES.into_iter().filter(|(_, step)| !hidden(*step)) {
-                let corners = side.map(|corner| positions[model.elements[number][corner] as usize]);
-                found.push(Visible { element: number, corners, normal: normal(&corners) });
-            }
-        }
-    }
-    found
+    let shown: Vec<usize> = (0..model.elements.len()).filter(|&number| intact(number)).collect();
+    let elements: Vec<[u32; 8]> = shown.iter().map(|&number| model.elements[number]).collect();
+    let faces = outer_faces(&elements).into_iter();
+    // Of a wedge one side is a line.
+    let faces = faces.filter(|([a, b, c, d], _)| !(a == b && c == d || b == c && a == d));
+    let side = |(face, place): ([u32; 4], u32)| {
+        let corners = face.map(|node| positions[node as usize]);
+        Visible { element: shown[place as usize], corners, normal: normal(&corners) }
+    };
+    faces.map(side).collect()
 }
 
 fn normal(corners: &[[f64; 3]; 4]) -> Vector3<f64> {

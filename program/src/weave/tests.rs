@@ -5,11 +5,12 @@ use std::collections::HashSet;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::cloth::Cloth;
 use super::distance::{self, Quad};
 use super::figures::Figures;
 use super::file::WeaveFile;
 use super::geometry::{Family, Weave};
-use super::model::{Crossing, Model, Yarn};
+use super::model::{Crossing, Grid, Model, Yarn};
 use super::panel::{Centre, Outline, Panel, Part, Turn};
 use super::pattern::Pattern;
 use super::preset::Preset;
@@ -42,6 +43,10 @@ fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
 fn small(weave: &Weave) -> Panel {
     let half = [1, 0].map(|family: usize| 2.0 * weave.threads[family].pitch);
     panel(Outline::Rectangle(half), Part::Whole, Centre::Crossing)
+}
+
+fn grid(yarn: &Yarn) -> Grid {
+    yarn.grid.expect("a woven yarn has a grid")
 }
 
 /// The least distance between the faces of two yarns within half a pitch of their crossing, up to a bound.
@@ -132,7 +137,10 @@ fn the_preset_has_the_areal_density_of_its_yarns_and_their_crimp() {
     assert!((0.232..0.235).contains(&figures.thickness), "{figures:?}");
     assert!(figures.least_scaled_jacobian > 0.9);
     assert_eq!(figures.elements, 98_136);
-    assert_eq!(figures.elements, model.yarns.iter().map(|yarn| yarn.layers * yarn.columns * 2).sum::<usize>());
+    assert_eq!(
+        figures.elements,
+        model.yarns.iter().map(|yarn| 2 * grid(yarn).layers * grid(yarn).columns).sum::<usize>()
+    );
 }
 
 /// Places to a picometre, to be found in a set.
@@ -160,7 +168,7 @@ fn a_quarter_is_the_whole_where_x_and_y_are_positive() {
             assert!(on == set.len() && on > 0 && set.iter().all(|&node| quarter.nodes[node as usize][axis] == 0.0));
         }
         // The rim is one section of each yarn of the quarter, two of the whole.
-        let ends = |model: &Model| model.yarns.iter().map(Yarn::nodes_per_section).sum::<usize>();
+        let ends = |model: &Model| model.yarns.iter().map(|yarn| grid(yarn).nodes_per_section()).sum::<usize>();
         assert_eq!([quarter.rim.len(), whole.rim.len()], [ends(&quarter), 2 * ends(&whole)]);
         // No face lies on a plane of symmetry.
         for face in &quarter.faces {
@@ -177,15 +185,16 @@ fn yarns_are_contiguous_and_fibres_unit_tangents_of_their_centre_lines() {
     for yarn in &model.yarns {
         assert_eq!([yarn.nodes.start, yarn.elements.start, yarn.faces.start], [node, element, face]);
         (node, element, face) = (yarn.nodes.end, yarn.elements.end, yarn.faces.end);
-        assert_eq!(yarn.section(yarn.layers).end, node);
-        assert_eq!(yarn.layer(yarn.layers - 1).end, element);
+        let grid = grid(yarn);
+        assert_eq!(yarn.nodes.start + grid.section(grid.layers).end, node);
+        assert_eq!(yarn.elements.start + grid.layer(grid.layers - 1).end, element);
         let centre = |section: usize| {
-            let nodes = yarn.section(section).map(|node| nalgebra::Vector3::from(model.nodes[node]));
-            nodes.sum::<nalgebra::Vector3<f64>>() / yarn.nodes_per_section() as f64
+            let nodes = grid.section(section).map(|node| nalgebra::Vector3::from(model.nodes[yarn.nodes.start + node]));
+            nodes.sum::<nalgebra::Vector3<f64>>() / grid.nodes_per_section() as f64
         };
-        for layer in 0..yarn.layers {
+        for layer in 0..grid.layers {
             let tangent = (centre(layer + 1) - centre(layer)).normalize();
-            for element in yarn.layer(layer) {
+            for element in grid.layer(layer).map(|element| yarn.elements.start + element) {
                 assert!((nalgebra::Vector3::from(model.fibre[element]) - tangent).norm() < 1e-12);
                 let corners = model.elements[element];
                 assert!(corners.iter().all(|&corner| yarn.nodes.contains(&(corner as usize))));
@@ -269,7 +278,8 @@ fn mistakes_are_refused_with_file_line_value_and_what_is_allowed() {
     );
     let own = format!("{own}warp = {{ pitch = 1, width = 0.6, height = 0.1 }}");
     let scene = Scene::parse("weave.toml", &own).expect("the weft is as the warp");
-    let threads = scene.layup.plies[0].woven.geometry.weave.threads;
+    let Cloth::Woven(layup) = scene.cloth else { panic!("a weave") };
+    let threads = layup.plies[0].woven.geometry.weave.threads;
     assert_eq!(threads[0], threads[1]);
 }
 
@@ -358,7 +368,7 @@ fn sorted(mut nodes: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
 fn plies_lie_below_one_another_and_are_turned() {
     let tables = "[[ply]]\n[[ply]]\nangle = 30\ndistance = 0.25\n[[ply]]\nangle = -45\nweave.warp.height = 0.2\n";
     let scene = plies("shape = \"circle\", radius = 5.0", tables).expect("three plies");
-    let model = scene.layup.model();
+    let model = scene.cloth.model();
     assert_eq!(model.plies(), 3);
     let of_ply = |ply: usize| model.yarns.iter().filter(move |yarn| yarn.ply == ply);
     let heights: Vec<[f64; 2]> = (0..3)
@@ -369,7 +379,7 @@ fn plies_lie_below_one_another_and_are_turned() {
         .collect();
     assert!((heights[0][0] - heights[1][1] - 0.25).abs() < 1e-12, "{heights:?}");
     assert!((heights[1][0] - heights[2][1] - 1e-3).abs() < 1e-12, "{heights:?}");
-    assert_eq!(scene.layup.clearance, 1e-3);
+    assert_eq!(scene.cloth.clearance(), 1e-3);
     for (ply, angle) in [0.0_f64, 30.0, -45.0].into_iter().enumerate() {
         let (sin, cos) = angle.to_radians().sin_cos();
         for yarn in of_ply(ply) {
@@ -406,7 +416,7 @@ fn a_quarter_of_crossed_plies_is_one_of_the_whole() {
     let tables = "[[ply]]\n[[ply]]\nangle = 90\n[[ply]]\nangle = 180\n";
     for outline in ["shape = \"circle\", radius = 4.3", "shape = \"rectangle\", half = [3.0, 4.5]"] {
         let model =
-            |part: &str| plies(&format!("{outline}, part = \"{part}\""), tables).expect("three plies").layup.model();
+            |part: &str| plies(&format!("{outline}, part = \"{part}\""), tables).expect("three plies").cloth.model();
         let [whole, quarter] = ["whole", "quarter"].map(model);
         let inside = |node: &&[f64; 3]| node[0] > -1e-9 && node[1] > -1e-9;
         let cut = sorted(whole.nodes.iter().filter(inside).copied().collect());
@@ -422,16 +432,16 @@ fn a_quarter_of_crossed_plies_is_one_of_the_whole() {
 fn a_turned_ply_ends_at_the_outline_of_all() {
     let (half, step) = ([6.0, 4.0], 0.25);
     let scene = plies("shape = \"rectangle\", half = [6.0, 4.0]", "[[ply]]\nangle = 35\n").expect("a ply");
-    let model = scene.layup.model();
+    let model = scene.cloth.model();
     // Across a yarn its ends are cut at right angles to it.
     let slack = 0.5 * step + 0.3;
     let beyond = |node: &[f64; 3]| (node[0].abs() - half[0]).max(node[1].abs() - half[1]);
     assert!(model.nodes.iter().all(|node| beyond(node) < slack));
     assert!(model.rim.iter().all(|&node| beyond(&model.nodes[node as usize]) > -slack - 0.1));
-    let figures = Figures::of(&model, 0, &scene.layup.plies[0].woven.geometry);
+    let figures = scene.cloth.figures(&model)[0];
     let length = |family: Family| {
         let of = model.yarns.iter().filter(|yarn| yarn.family == family);
-        of.map(|yarn| yarn.layers as f64).sum::<f64>() * if family == Family::Warp { 0.2 } else { 0.25 }
+        of.map(|yarn| grid(yarn).layers as f64).sum::<f64>() * if family == Family::Warp { 0.2 } else { 0.25 }
     };
     let covered = [length(Family::Warp) * 1.0, length(Family::Weft) * 0.8];
     assert!(

@@ -473,7 +473,7 @@ fn the_guides_have_the_keys_that_the_program_reads() {
         ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
         ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
         ("fibres", "guides/fibres.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
-        ("weave", "guides/fabric.md", &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]"]),
+        ("weave", "guides/fabric.md", &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]", "[mesh]"]),
         ("fabric", "guides/fabric.md", &["", "[scene]", "[[case]]"]),
     ];
     let mut keys = 0;

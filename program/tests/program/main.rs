@@ -13,6 +13,7 @@ mod calculix;
 #[allow(dead_code)] // each test uses its own part
 mod calculix_decks;
 mod cell;
+mod check;
 mod command_line;
 mod compare;
 mod documents;
@@ -28,6 +29,7 @@ mod impact;
 mod licences;
 mod load_paths;
 mod long;
+mod meshes;
 mod newton;
 mod one_element;
 mod parallel;

@@ -1,0 +1,447 @@
+//! One call of a UMAT: the arguments exactly as Abaqus/Standard passes them, and what comes back.
+
+use std::ffi::c_char;
+use std::io;
+use std::path::Path;
+
+use nalgebra::Matrix3;
+
+use super::guarded::{Fence, Guarded};
+use super::kinematics::{Components, Modulus};
+use super::material::Material;
+use super::shared::Shared;
+
+type Reals = *mut f64;
+/// A law may write to what is its caller's own.
+type Whole = *mut i32;
+
+/// `SUBROUTINE UMAT(STRESS, STATEV, DDSDDE, SSE, ...)`, with the length of CMNAME behind the last argument.
+type Umat = unsafe extern "C" fn(
+    Reals,         // STRESS
+    Reals,         // STATEV
+    Reals,         // DDSDDE
+    Reals,         // SSE
+    Reals,         // SPD
+    Reals,         // SCD
+    Reals,         // RPL
+    Reals,         // DDSDDT
+    Reals,         // DRPLDE
+    Reals,         // DRPLDT
+    Reals,         // STRAN
+    Reals,         // DSTRAN
+    Reals,         // TIME
+    Reals,         // DTIME
+    Reals,         // TEMP
+    Reals,         // DTEMP
+    Reals,         // PREDEF
+    Reals,         // DPRED
+    *const c_char, // CMNAME
+    Whole,         // NDI
+    Whole,         // NSHR
+    Whole,         // NTENS
+    Whole,         // NSTATV
+    Reals,         // PROPS
+    Whole,         // NPROPS
+    Reals,         // COORDS
+    Reals,         // DROT
+    Reals,         // PNEWDT
+    Reals,         // CELENT
+    Reals,         // DFGRD0
+    Reals,         // DFGRD1
+    Whole,         // NOEL
+    Whole,         // NPT
+    Whole,         // LAYER
+    Whole,         // KSPT
+    Whole,         // JSTEP(4)
+    Whole,         // KINC
+    usize,
+);
+/// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
+type Sdvini = unsafe extern "C" fn(Reals, Reals, Whole, Whole, Whole, Whole, Whole, Whole);
+/// `SUBROUTINE UEXTERNALDB(LOP, LRESTART, TIME, DTIME, KSTEP, KINC)`.
+type Uexternaldb = unsafe extern "C" fn(Whole, Whole, Reals, Reals, Whole, Whole);
+
+/// A loaded library's subroutines.
+pub struct Law {
+    umat: Umat,
+    sdvini: Option<Sdvini>,
+    uexternaldb: Option<Uexternaldb>,
+    _library: libloading::Library,
+}
+
+impl Law {
+    /// Loads a library; symbols that are missing are looked for when they are called.
+    ///
+    /// # Errors
+    /// It cannot be loaded, or has no UMAT.
+    pub fn load(path: &Path) -> Result<Law, String> {
+        use libloading::os::unix::{Library, RTLD_LAZY, RTLD_LOCAL};
+        // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
+        let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
+        let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
+        let umat = symbol::<Umat>(&library, "umat").ok_or("there is no subroutine UMAT")?;
+        let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
+        Ok(Law { umat, sdvini, uexternaldb, _library: library })
+    }
+
+    /// LOP = 0: the beginning of the analysis; Abaqus calls it before all else.
+    pub fn begin(&self) {
+        if let Some(uexternaldb) = self.uexternaldb {
+            let (mut time, mut step) = ([0.0; 2], 0.0);
+            let [mut when, mut restart, mut number, mut increment] = [0, 0, 1, 0];
+            // SAFETY: the arguments that Abaqus passes, each as long as it is declared.
+            unsafe {
+                uexternaldb(&mut when, &mut restart, time.as_mut_ptr(), &mut step, &mut number, &mut increment);
+            }
+        }
+    }
+}
+
+/// The address of a subroutine, under the names that compilers give it.
+fn symbol<T: Copy>(library: &libloading::Library, name: &str) -> Option<T> {
+    [format!("{name}_"), name.to_uppercase(), name.to_string()].iter().find_map(|name| {
+        // SAFETY: the caller's type is that of the subroutine of this name.
+        unsafe { library.get::<T>(name.as_bytes()) }.ok().map(|symbol| *symbol)
+    })
+}
+
+/// What a call gets, but for the material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call {
+    pub stress: Components,
+    pub state: Vec<f64>,
+    /// SSE, SPD, SCD.
+    pub energies: [f64; 3],
+    pub strain: Components,
+    pub strain_increment: Components,
+    /// TIME: of the step and in all, at the increment's beginning.
+    pub time: [f64; 2],
+    pub time_step: f64,
+    pub temperature: f64,
+    /// DROT.
+    pub rotation: Matrix3<f64>,
+    pub f0: Matrix3<f64>,
+    pub f1: Matrix3<f64>,
+    /// NOEL, NPT.
+    pub place: [i32; 2],
+    /// KINC.
+    pub increment: i32,
+    /// What DDSDDE has before.
+    pub unset: f64,
+}
+
+impl Call {
+    /// As numbers in a row, for [`Shared`] and files.
+    pub fn numbers(&self) -> Vec<f64> {
+        self.named().into_iter().flat_map(|(_, numbers)| numbers).collect()
+    }
+
+    /// The numbers of the row with their names, in order.
+    pub fn named(&self) -> [(&'static str, Vec<f64>); 15] {
+        [
+            ("NSTATV", vec![self.state.len() as f64]),
+            ("STRESS", self.stress.to_vec()),
+            ("STATEV", self.state.clone()),
+            ("SSE, SPD, SCD", self.energies.to_vec()),
+            ("STRAN", self.strain.to_vec()),
+            ("DSTRAN", self.strain_increment.to_vec()),
+            ("TIME", self.time.to_vec()),
+            ("DTIME", vec![self.time_step]),
+            ("TEMP", vec![self.temperature]),
+            ("DROT, by columns", self.rotation.iter().copied().collect()),
+            ("DFGRD0, by columns", self.f0.iter().copied().collect()),
+            ("DFGRD1, by columns", self.f1.iter().copied().collect()),
+            ("NOEL, NPT", self.place.map(f64::from).to_vec()),
+            ("KINC", vec![f64::from(self.increment)]),
+            ("DDSDDE before the call", vec![self.unset]),
+        ]
+    }
+
+    /// From numbers in a row.
+    pub fn from_numbers(row: &[f64]) -> Option<Call> {
+        let mut rest = row.iter().copied();
+        let states = rest.next()? as usize;
+        let mut take = |count: usize| {
+            let taken: Vec<f64> = rest.by_ref().take(count).collect();
+            (taken.len() == count).then_some(taken)
+        };
+        let six = |row: Vec<f64>| Components::try_from(row).ok();
+        Some(Call {
+            stress: six(take(6)?)?,
+            state: take(states)?,
+            energies: take(3)?.try_into().ok()?,
+            strain: six(take(6)?)?,
+            strain_increment: six(take(6)?)?,
+            time: take(2)?.try_into().ok()?,
+            time_step: take(1)?[0],
+            temperature: take(1)?[0],
+            rotation: Matrix3::from_vec(take(9)?),
+            f0: Matrix3::from_vec(take(9)?),
+            f1: Matrix3::from_vec(take(9)?),
+            place: [take(1)?[0] as i32, take(1)?[0] as i32],
+            increment: take(1)?[0] as i32,
+            unset: take(1)?[0],
+        })
+    }
+}
+
+/// What a call gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    pub stress: Components,
+    pub state: Vec<f64>,
+    /// DDSDDE, by rows.
+    pub modulus: Modulus,
+    /// SSE, SPD, SCD.
+    pub energies: [f64; 3],
+    /// PNEWDT; below 1 the law wants a smaller increment.
+    pub next_step: f64,
+}
+
+impl Answer {
+    pub fn refused(&self) -> bool {
+        self.next_step < 1.0
+    }
+
+    pub fn finite(&self) -> bool {
+        let modulus = self.modulus.iter().flatten();
+        self.stress.iter().chain(&self.state).chain(modulus).all(|value| value.is_finite())
+    }
+
+    /// Every bit is the same; a NaN equals itself.
+    pub fn same(&self, other: &Answer) -> bool {
+        let bits = |answer: &Answer| {
+            let modulus = answer.modulus.iter().flatten();
+            let all = answer.stress.iter().chain(&answer.state).chain(modulus).chain(&answer.energies);
+            all.map(|value| value.to_bits()).collect::<Vec<_>>()
+        };
+        bits(self) == bits(other)
+    }
+}
+
+/// PNEWDT before a call; Abaqus sets it to a large number.
+const NO_WISH: f64 = 1e36;
+
+/// Room for the calls of one thread.
+pub struct Session<'a> {
+    law: &'a Law,
+    pub material: &'a Material,
+    name: [c_char; 80],
+    stress: Guarded,
+    state: Guarded,
+    modulus: Guarded,
+    properties: Guarded,
+    shared: Option<Shared>,
+    records: bool,
+    exchanged: bool,
+}
+
+/// The places of 13 and 23.
+const PLACES: (usize, usize) = (4, 5);
+
+impl<'a> Session<'a> {
+    /// # Errors
+    /// The system has no memory.
+    pub fn new(law: &'a Law, material: &'a Material, fence: Fence, shared: Option<Shared>) -> io::Result<Self> {
+        let components = material.components;
+        let mut session = Session {
+            law,
+            material,
+            name: [b' ' as c_char; 80],
+            stress: Guarded::new(components, fence)?,
+            state: Guarded::new(material.initial.len(), fence)?,
+            modulus: Guarded::new(components * components, fence)?,
+            properties: Guarded::new(material.properties.len(), fence)?,
+            shared,
+            records: true,
+            exchanged: false,
+        };
+        for (place, letter) in session.name.iter_mut().zip(material.name.to_uppercase().bytes()) {
+            *place = letter as c_char;
+        }
+        if let Some(shared) = shared {
+            let arrays = [&session.state, &session.properties, &session.stress, &session.modulus];
+            for (index, array) in arrays.into_iter().enumerate() {
+                let (first, end) = array.addresses();
+                shared.keep_array(index, first, end);
+            }
+        }
+        Ok(session)
+    }
+
+    pub fn shared(&self) -> Option<Shared> {
+        self.shared
+    }
+
+    /// Counts the calls but does not keep their arguments: of several threads one would write over the other's.
+    pub fn without_records(mut self) -> Self {
+        self.records = false;
+        self
+    }
+
+    /// The state variables of a point before its first increment, by SDVINI if there is one.
+    pub fn initial_state(&mut self, place: [i32; 2]) -> Vec<f64> {
+        self.state.numbers_mut().copy_from_slice(&self.material.initial);
+        if let Some(sdvini) = self.law.sdvini {
+            if let Some(shared) = self.shared {
+                shared.count();
+            }
+            let mut coordinates = [0.0; 3];
+            let mut states = self.material.initial.len() as i32;
+            let [mut element, mut point] = place;
+            let [mut axes, mut layer, mut section] = [3, 1, 1];
+            // SAFETY: the arguments that Abaqus passes, each as long as it is declared.
+            unsafe {
+                sdvini(
+                    self.state.as_mut_ptr(),
+                    coordinates.as_mut_ptr(),
+                    &mut states,
+                    &mut axes,
+                    &mut element,
+                    &mut point,
+                    &mut layer,
+                    &mut section,
+                );
+            }
+        }
+        self.state.numbers().to_vec()
+    }
+
+    /// Takes 13 and 23 for each other from now on, as a law does that was written for VUMAT's order; or no longer.
+    pub fn exchange(&mut self, exchanged: bool) {
+        self.exchanged = exchanged && self.material.components == 6;
+    }
+
+    /// Calls the UMAT.
+    pub fn ask(&mut self, call: &Call) -> Answer {
+        if !self.exchanged {
+            return self.ask_in_order(call);
+        }
+        let (first, second) = PLACES;
+        let mut call = call.clone();
+        for values in [&mut call.stress, &mut call.strain, &mut call.strain_increment] {
+            values.swap(first, second);
+        }
+        let mut answer = self.ask_in_order(&call);
+        answer.stress.swap(first, second);
+        answer.modulus.swap(first, second);
+        for row in &mut answer.modulus {
+            row.swap(first, second);
+        }
+        answer
+    }
+
+    fn ask_in_order(&mut self, call: &Call) -> Answer {
+        if let Some(shared) = self.shared {
+            if self.records { shared.record(&call.numbers()) } else { shared.count() }
+        }
+        let components = self.material.components;
+        self.stress.numbers_mut().copy_from_slice(&call.stress[..components]);
+        self.state.numbers_mut().copy_from_slice(&call.state);
+        self.modulus.numbers_mut().fill(call.unset);
+        self.properties.numbers_mut().copy_from_slice(&self.material.properties);
+        let [mut elastic, mut plastic, mut creep] = call.energies;
+        let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
+        let (mut by_temperature, mut heat_by_strain) = ([0.0; 6], [0.0; 6]);
+        let (mut strain, mut strain_increment) = (call.strain, call.strain_increment);
+        let (mut time, mut time_step) = (call.time, call.time_step);
+        let (mut temperature, mut temperature_step) = (call.temperature, 0.0);
+        let (mut field, mut field_step) = ([0.0; 8], [0.0; 8]);
+        let (mut coordinates, mut rotation) = ([0.0; 3], call.rotation);
+        let (mut next_step, mut length) = (NO_WISH, 1.0);
+        let (mut f0, mut f1) = (call.f0, call.f1);
+        let mut direct = self.material.direct() as i32;
+        let mut all = components as i32;
+        let mut shear = all - direct;
+        let mut states = call.state.len() as i32;
+        let mut constants = self.material.properties.len() as i32;
+        let [mut element, mut point] = call.place;
+        let [mut layer, mut section, mut increment] = [1, 1, call.increment];
+        // JSTEP: the step, a static one, NLGEOM=YES, no perturbation.
+        let mut step = [1, 1, 1, 0];
+        // SAFETY: the arguments of a UMAT, each as long as Abaqus declares it; matrices are in Fortran's order. What the subroutine does
+        // beyond is its author's affair, and this process is there to bear it.
+        unsafe {
+            (self.law.umat)(
+                self.stress.as_mut_ptr(),
+                self.state.as_mut_ptr(),
+                self.modulus.as_mut_ptr(),
+                &mut elastic,
+                &mut plastic,
+                &mut creep,
+                &mut heat,
+                by_temperature.as_mut_ptr(),
+                heat_by_strain.as_mut_ptr(),
+                &mut heat_by_temperature,
+                strain.as_mut_ptr(),
+                strain_increment.as_mut_ptr(),
+                time.as_mut_ptr(),
+                &mut time_step,
+                &mut temperature,
+                &mut temperature_step,
+                field.as_mut_ptr(),
+                field_step.as_mut_ptr(),
+                self.name.as_ptr(),
+                &mut direct,
+                &mut shear,
+                &mut all,
+                &mut states,
+                self.properties.as_mut_ptr(),
+                &mut constants,
+                coordinates.as_mut_ptr(),
+                rotation.as_mut_slice().as_mut_ptr(),
+                &mut next_step,
+                &mut length,
+                f0.as_mut_slice().as_mut_ptr(),
+                f1.as_mut_slice().as_mut_ptr(),
+                &mut element,
+                &mut point,
+                &mut layer,
+                &mut section,
+                step.as_mut_ptr(),
+                &mut increment,
+                self.name.len(),
+            );
+        }
+        let mut answer = Answer {
+            stress: [0.0; 6],
+            state: self.state.numbers().to_vec(),
+            modulus: [[0.0; 6]; 6],
+            energies: [elastic, plastic, creep],
+            next_step,
+        };
+        answer.stress[..components].copy_from_slice(self.stress.numbers());
+        for (index, &entry) in self.modulus.numbers().iter().enumerate() {
+            answer.modulus[index % components][index / components] = entry;
+        }
+        answer
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_call_comes_back_from_its_numbers() {
+        let call = Call {
+            stress: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0],
+            state: vec![7.0, 8.0],
+            energies: [9.0, 10.0, 11.0],
+            strain: [12.0; 6],
+            strain_increment: [13.0; 6],
+            time: [14.0, 15.0],
+            time_step: 16.0,
+            temperature: 17.0,
+            rotation: Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0),
+            f0: Matrix3::identity(),
+            f1: Matrix3::identity() * 2.0,
+            place: [3, 4],
+            increment: 5,
+            unset: 0.0,
+        };
+        assert_eq!(Call::from_numbers(&call.numbers()), Some(call.clone()));
+        let numbers = call.numbers();
+        assert_eq!(Call::from_numbers(&numbers[..numbers.len() - 1]), None);
+    }
+}

@@ -1,0 +1,357 @@
+//! A question is asked in a child process, which a law may bring down: how that ends is an answer too.
+
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use super::call::{Answer, Call, Law, Session};
+use super::guarded::Fence;
+use super::line::{Line, Question};
+use super::material::{Material, Reads};
+use super::shared::{self, SIGNALLED, Seen, Shared};
+use super::{energy, objectivity, process, rest, room, steps, tangent};
+use crate::common::bound_child;
+use crate::common::error::Error;
+
+/// A call that takes longer has no end.
+pub const LONGEST_CALL: Duration = Duration::from_secs(5);
+/// A question that takes longer is given up.
+const LONGEST_QUESTION: Duration = Duration::from_secs(60);
+const GLANCE: Duration = Duration::from_millis(4);
+/// The end of the standard error that is kept.
+const KEPT: usize = 1 << 14;
+
+/// Exit codes of `utilities.c`.
+const BY_XIT: i32 = 71;
+const BY_MESSAGE: i32 = 72;
+/// The child's own exit code for a library that cannot be loaded.
+const NOT_LOADED: i32 = 73;
+/// What the loader ends a process with.
+const UNRESOLVED: i32 = 127;
+/// Rust's, after a panic.
+const PANICKED: i32 = 101;
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub enum Task {
+    /// What the law reads.
+    Reads,
+    Question {
+        question: Question,
+        reads: Reads,
+        allowed: Option<f64>,
+    },
+    /// Objectivity where turns are larger than solvers have them.
+    LargeTurns,
+    /// One call, as the bits of its numbers: they need not be finite.
+    Call(Vec<u64>),
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Request {
+    pub library: PathBuf,
+    pub material: Material,
+    pub task: Task,
+    pub fence: Fence,
+    pub shared: PathBuf,
+    pub result: PathBuf,
+}
+
+/// What a child says if it lives.
+#[derive(Debug, Serialize, Deserialize)]
+pub enum Said {
+    Reads(Reads),
+    Line(Line),
+    /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
+    Answer(Vec<(String, String)>),
+}
+
+/// How a child ended.
+pub struct Ending {
+    /// Its kind, as the report has it.
+    pub kind: String,
+    pub text: String,
+    /// The last call.
+    pub call: Option<Call>,
+}
+
+/// The child: answers a request, and ends.
+///
+/// # Errors
+/// The request cannot be read.
+pub fn answer(request: &Path) -> Result<(), Error> {
+    let io_error = |error: io::Error| Error::Input(format!("{}: {error}", request.display()));
+    let text = std::fs::read(request).map_err(io_error)?;
+    let Request { library, material, task, fence, shared, result } =
+        serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
+    let shared = Shared::open(&shared).map_err(io_error)?;
+    let law = match Law::load(&library) {
+        Ok(law) => law,
+        Err(reason) => {
+            crate::common::console::print_error(&reason);
+            std::process::exit(NOT_LOADED);
+        }
+    };
+    Shared::catch_signals();
+    law.begin();
+    let mut session = Session::new(&law, &material, fence, Some(shared)).map_err(io_error)?;
+    let said = match task {
+        Task::Reads => Said::Reads(process::reads(&mut session)),
+        Task::Question { question, reads, allowed } => {
+            Said::Line(line(question, &law, &material, &mut session, reads, allowed))
+        }
+        Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
+        Task::Call(bits) => {
+            let numbers: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
+            let call = Call::from_numbers(&numbers).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
+            Said::Answer(in_words(&session.ask(&call), &material))
+        }
+    };
+    let text = serde_json::to_vec(&said).map_err(|error| Error::Input(error.to_string()))?;
+    std::fs::write(&result, text).map_err(io_error)?;
+    // SAFETY: it takes a number and does not return. What the library would do at the process's end is not asked about.
+    unsafe { libc::_exit(0) }
+}
+
+fn line(
+    question: Question,
+    law: &Law,
+    material: &Material,
+    session: &mut Session,
+    reads: Reads,
+    allowed: Option<f64>,
+) -> Line {
+    match question {
+        Question::Build | Question::Memory => process::touch(session),
+        Question::Rest => rest::ask(session),
+        Question::Tangent => tangent::ask(session, reads, allowed),
+        Question::Objectivity => objectivity::objectivity(session, reads),
+        Question::Isotropy => objectivity::isotropy(session),
+        Question::Steps => steps::ask(session),
+        Question::Energy => energy::energy(session),
+        Question::Cycles => energy::cycles(session, reads),
+        Question::Dissipation => energy::dissipation(session),
+        Question::Repeat => process::repeat(session),
+        Question::Threads => process::threads(law, material, session),
+        Question::Outputs => process::outputs(session),
+        Question::Exceptions => process::exceptions(session),
+        Question::Invalid => process::invalid(session, reads),
+        Question::Histories => process::histories(session, reads),
+        Question::Runtime => process::runtime(session),
+    }
+}
+
+fn in_words(answer: &Answer, material: &Material) -> Vec<(String, String)> {
+    let row = |values: &[f64]| values.iter().map(|value| format!("{value:.9e}")).collect::<Vec<_>>().join("  ");
+    let components = material.components;
+    let mut words = vec![
+        ("STRESS".to_string(), row(&answer.stress[..components])),
+        ("STATEV".to_string(), row(&answer.state)),
+        ("SSE SPD SCD".to_string(), row(&answer.energies)),
+        ("PNEWDT".to_string(), row(&[answer.next_step])),
+    ];
+    words.extend((0..components).map(|i| (format!("DDSDDE({},:)", i + 1), row(&answer.modulus[i][..components]))));
+    words
+}
+
+/// The parent: asks in a child, in this folder.
+///
+/// # Errors
+/// The child cannot be started, or its files cannot be written.
+pub fn ask(
+    folder: &Path,
+    library: &Path,
+    material: &Material,
+    task: Task,
+    fence: Fence,
+    longest_call: Duration,
+) -> Result<Result<Said, Ending>, Error> {
+    let io_error = |error: io::Error| Error::Input(format!("{}: {error}", folder.display()));
+    let (request, shared, result) = (folder.join("request.json"), folder.join("shared"), folder.join("result.json"));
+    let content = Request {
+        library: library.to_path_buf(),
+        material: material.clone(),
+        task,
+        fence,
+        shared: shared.clone(),
+        result: result.clone(),
+    };
+    std::fs::write(&request, serde_json::to_vec(&content).map_err(|error| Error::Input(error.to_string()))?)
+        .map_err(io_error)?;
+    shared::create(&shared).map_err(io_error)?;
+    if let Err(error) = std::fs::remove_file(&result)
+        && error.kind() != io::ErrorKind::NotFound
+    {
+        return Err(io_error(error));
+    }
+    let program = std::env::current_exe().map_err(io_error)?;
+    let mut command = Command::new(program);
+    command.arg("check-child").arg(&request).current_dir(room::running(folder));
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    bound_child::bind(&mut command);
+    let mut child = command.spawn().map_err(io_error)?;
+    let errors = child.stderr.take();
+    let reader = std::thread::spawn(move || errors.map_or(String::new(), last_of));
+    let status = watch(&mut child, &shared, longest_call).map_err(io_error)?;
+    let messages = reader.join().unwrap_or_default();
+    let said = std::fs::read(&result).ok().and_then(|text| serde_json::from_slice::<Said>(&text).ok());
+    if let (Some(said), Watched::Ended(status)) = (said, &status)
+        && status.success()
+    {
+        return Ok(Ok(said));
+    }
+    let seen = Seen::read(&shared).map_err(io_error)?;
+    Ok(Err(ending(&status, &messages, &seen)))
+}
+
+enum Watched {
+    Ended(ExitStatus),
+    Hangs(Duration),
+    TakesTooLong,
+}
+
+/// Waits for the child's end, unless a call has none.
+fn watch(child: &mut Child, shared: &Path, longest_call: Duration) -> io::Result<Watched> {
+    let started = Instant::now();
+    let (mut calls, mut since) = (0, Instant::now());
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Watched::Ended(status));
+        }
+        let now = Seen::calls(shared);
+        if now != calls {
+            (calls, since) = (now, Instant::now());
+        }
+        let hangs = since.elapsed() > longest_call;
+        if hangs || started.elapsed() > LONGEST_QUESTION {
+            child.kill()?;
+            child.wait()?;
+            return Ok(if hangs { Watched::Hangs(longest_call) } else { Watched::TakesTooLong });
+        }
+        std::thread::sleep(GLANCE);
+    }
+}
+
+/// The end of what is written, all of which is read.
+fn last_of(mut stream: impl Read) -> String {
+    let mut kept = Vec::new();
+    let mut room = [0; 4096];
+    while let Ok(count) = stream.read(&mut room) {
+        if count == 0 {
+            break;
+        }
+        kept.extend_from_slice(&room[..count]);
+        if kept.len() > 2 * KEPT {
+            kept.drain(..kept.len() - KEPT);
+        }
+    }
+    String::from_utf8_lossy(&kept).to_string()
+}
+
+fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
+    use std::os::unix::process::ExitStatusExt;
+    let call = Call::from_numbers(&seen.arguments);
+    let end = |kind: &str, text: String| Ending { kind: kind.to_string(), text, call: call.clone() };
+    let after = format!("in call {}", seen.calls);
+    let status = match status {
+        Watched::Hangs(longest) => {
+            return end("hang", format!("the law does not return within {} s {after}", longest.as_secs()));
+        }
+        Watched::TakesTooLong => {
+            return end("slow", format!("no answer within {} s, {} calls", LONGEST_QUESTION.as_secs(), seen.calls));
+        }
+        Watched::Ended(status) => status,
+    };
+    if let Some(symbol) = unresolved(messages) {
+        return end("missing routine", format!("{symbol} is called and is nowhere, {after}"));
+    }
+    if let Some(message) = runtime_error(messages) {
+        return end("runtime check", message);
+    }
+    match (status.code(), status.signal()) {
+        (Some(SIGNALLED), _) => at_signal(seen, &after, call),
+        (Some(BY_XIT), _) => end("XIT", format!("the law calls XIT {after}")),
+        (Some(BY_MESSAGE), _) => end("XIT", format!("the law ends the analysis {after}: {}", last_line(messages))),
+        (Some(NOT_LOADED), _) => end("crash", format!("the library cannot be loaded: {}", last_line(messages))),
+        (Some(UNRESOLVED), _) => {
+            end("missing routine", format!("a routine is nowhere, {after}: {}", last_line(messages)))
+        }
+        (Some(PANICKED), _) => end("slow", format!("this check itself fails: {}", last_line(messages))),
+        (Some(code), _) => {
+            let said = last_line(messages);
+            let said = if said.is_empty() { String::new() } else { format!(": {said}") };
+            end("stop", format!("the law ends the process (STOP, exit code {code}) {after}{said}"))
+        }
+        (None, signal) => {
+            let signal = signal.unwrap_or(0);
+            let name = if signal == libc::SIGABRT { "abort: the heap is damaged, or it is called" } else { "a signal" };
+            end("crash", format!("{name} ({signal}) {after} {}", last_line(messages)))
+        }
+    }
+}
+
+fn at_signal(seen: &Seen, after: &str, call: Option<Call>) -> Ending {
+    let (kind, text) = match (seen.beside(), seen.signal as i32) {
+        (Some(beside), _) => {
+            let side = if beside.behind { "behind" } else { "before" };
+            let text = format!("the law touches {}({}), {side} its end, {after}", beside.array, beside.entry);
+            let text = if beside.behind { text } else { text.replace("its end", "its beginning") };
+            (format!("{side} {}", beside.array), text)
+        }
+        (None, libc::SIGFPE) => {
+            ("crash".to_string(), format!("a floating-point or whole-number exception ends it {after}"))
+        }
+        (None, libc::SIGILL) => ("crash".to_string(), format!("an illegal instruction (a trap) {after}")),
+        (None, _) => ("crash".to_string(), format!("a segmentation fault {after}")),
+    };
+    Ending { kind, text, call }
+}
+
+fn last_line(messages: &str) -> &str {
+    messages.lines().rev().map(str::trim).find(|line| !line.is_empty()).unwrap_or_default()
+}
+
+/// The name of a routine that the loader does not find.
+fn unresolved(messages: &str) -> Option<String> {
+    let (_, rest) = messages.rsplit_once("undefined symbol: ")?;
+    let symbol = rest.split([' ', '\n', ',']).next()?;
+    Some(symbol.trim_end_matches('_').to_uppercase())
+}
+
+/// What gfortran's checks say: `At line 12 of file umat.f`, `Fortran runtime error: ...`.
+fn runtime_error(messages: &str) -> Option<String> {
+    let (before, error) = messages.rsplit_once("Fortran runtime error: ")?;
+    let error = error.lines().next().unwrap_or_default();
+    let place = before.lines().rev().find_map(|line| line.trim().strip_prefix("At line "));
+    let named = place.map(|place| match place.split_once(" of file ") {
+        Some((line, file)) => {
+            // Errors of files have the unit and its file behind.
+            let (file, unit) =
+                file.split_once(" (").map_or((file, String::new()), |(file, unit)| (file, format!(" ({unit}")));
+            let file = Path::new(file.trim()).file_name().map_or(file.into(), |name| name.to_string_lossy());
+            format!("{file}:{line}: {error}{unit}")
+        }
+        None => error.to_string(),
+    });
+    Some(named.unwrap_or_else(|| error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_messages_of_loader_and_fortran_are_read() {
+        let loader = "toron: symbol lookup error: /x/law.so: undefined symbol: kmatinv_\n";
+        assert_eq!(unresolved(loader).as_deref(), Some("KMATINV"));
+        let fortran = "At line 12 of file /x/umat.f\nFortran runtime error: Index '4' of dimension 1 of array 'statev' \
+                       above upper bound of 3\n";
+        let expected = "umat.f:12: Index '4' of dimension 1 of array 'statev' above upper bound of 3";
+        assert_eq!(runtime_error(fortran).as_deref(), Some(expected));
+        let unit = "At line 7 of file /x/a.f (unit = 16, file = 'fibres.inp')\nFortran runtime error: End of file\n";
+        assert_eq!(runtime_error(unit).as_deref(), Some("a.f:7: End of file (unit = 16, file = 'fibres.inp')"));
+        assert_eq!(runtime_error("STOP 1"), None);
+    }
+}

@@ -1,0 +1,262 @@
+//! `toron check`: arguments, the questions in their order, and what follows from the answers.
+
+use std::collections::BTreeMap;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use clap::Args;
+
+use super::child::{self, Ending, Said, Task};
+use super::compile::{self, Built};
+use super::guarded::Fence;
+use super::input::{self, Input, Over};
+use super::line::{Line, Question, Verdict};
+use super::material::{Material, Reads};
+use super::repeated::Repeated;
+use super::report::{OfMaterial, Report};
+use super::room::Room;
+use crate::common::console::print;
+use crate::common::error::Error;
+
+#[derive(Args)]
+pub struct Arguments {
+    /// The subroutine: Fortran, C or C++, or a shared library with it.
+    #[arg(required_unless_present = "again")]
+    file: Option<PathBuf>,
+    /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
+    #[arg(long)]
+    scene: Option<PathBuf>,
+    /// PROPS.
+    #[arg(long, value_delimiter = ',', allow_hyphen_values = true)]
+    props: Option<Vec<f64>>,
+    /// NSTATV.
+    #[arg(long)]
+    statev: Option<usize>,
+    /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
+    #[arg(long)]
+    ntens: Option<usize>,
+    /// What the law is: hyperelastic, dissipative, isotropic.
+    #[arg(long, value_delimiter = ',')]
+    traits: Option<Vec<String>>,
+    /// Seed of the random states.
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Figures that are warnings and no failures, as in tangent=0.05.
+    #[arg(long, value_delimiter = ',', value_parser = allowance)]
+    allow: Vec<(String, f64)>,
+    /// These lines alone, as in tangent,energy.
+    #[arg(long, value_delimiter = ',', value_parser = question)]
+    only: Vec<Question>,
+    /// Print the report as JSON.
+    #[arg(long)]
+    json: bool,
+    /// Where calls that end the process are kept.
+    #[arg(short, long, default_value = "toron-out/check")]
+    output: PathBuf,
+    /// Repeat the call of this file, which a check has written.
+    #[arg(long, conflicts_with = "file")]
+    again: Option<PathBuf>,
+}
+
+fn question(name: &str) -> Result<Question, String> {
+    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::ASKED.map(Question::name).join(", ")))
+}
+
+fn allowance(text: &str) -> Result<(String, f64), String> {
+    let (name, figure) = text.split_once('=').ok_or("allowed: LINE=FIGURE, as in tangent=0.05")?;
+    question(name)?;
+    match figure.parse::<f64>() {
+        Ok(figure) if figure > 0.0 && figure.is_finite() => Ok((name.to_string(), figure)),
+        _ => Err(format!("{name} is {figure}; allowed: a finite number > 0")),
+    }
+}
+
+/// Checks a law, and prints the report.
+///
+/// # Errors
+/// The input is invalid, or a line is wrong.
+pub fn run(arguments: &Arguments) -> Result<(), Error> {
+    let room = Room::new()?;
+    if let Some(again) = &arguments.again {
+        return Repeated::read(again)?.run(&room.path);
+    }
+    let Some(file) = &arguments.file else { return Err(Error::Input("no file is named".to_string())) };
+    let over = Over {
+        properties: arguments.props.clone(),
+        states: arguments.statev,
+        components: arguments.ntens,
+        traits: arguments.traits.clone(),
+        seed: arguments.seed,
+    };
+    let Input { materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
+    allowed.extend(arguments.allow.iter().cloned());
+    let built = compile::compile(file, &room.path)?;
+    let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
+    let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
+    let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
+    let wrong = report.wrong().join(", ");
+    if !wrong.is_empty() {
+        report.verdict = Verdict::Wrong;
+    }
+    if arguments.json {
+        let text = serde_json::to_string_pretty(&report).map_err(|error| Error::Input(error.to_string()))?;
+        print(&format!("{text}\n"));
+    } else {
+        let colours = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        print(&report.as_text(colours));
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+}
+
+/// How long a law is waited for that has hung before.
+const SHORTER: Duration = Duration::from_secs(1);
+
+/// A file that is checked.
+struct Check<'a> {
+    file: &'a Path,
+    built: &'a Built,
+    room: &'a Path,
+    allowed: &'a BTreeMap<String, f64>,
+    arguments: &'a Arguments,
+}
+
+impl Check<'_> {
+    fn material(&self, material: &Material) -> Result<OfMaterial, Error> {
+        let mut lines = vec![Line::new(Question::Build, Verdict::Right, None, self.built.by.clone())];
+        // With room, since the law may need it; the pages at the ends come next.
+        let reads = match self.ask(material, Task::Reads, Fence::Room, false, child::LONGEST_CALL)? {
+            Ok(Said::Reads(reads)) => Some(reads),
+            Ok(_) => None,
+            Err(_) => None,
+        };
+        let asked = Question::ASKED
+            .into_iter()
+            .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
+        let mut fence = Fence::Behind;
+        let mut ended: Vec<(String, Question)> = Vec::new();
+        for question in asked {
+            // Of a law that ends before it says what it reads, an inverted F is not asked for.
+            let unknown = if question == Question::Invalid { Reads::Rate } else { Reads::Mixed };
+            let mut line = self.question(material, question, reads.unwrap_or(unknown), fence, &mut ended)?;
+            if question == Question::Memory && line.verdict != Verdict::Right {
+                fence = Fence::Room;
+            }
+            if fence == Fence::Room
+                && matches!(question, Question::Repeat | Question::Threads)
+                && line.verdict == Verdict::Wrong
+            {
+                line.text.push_str("; it may follow from what memory says");
+            }
+            let allowed = self.allowed.get(question.name()).copied();
+            if let (Verdict::Wrong, Some(allowed), Some(figure)) = (line.verdict, allowed, line.figure)
+                && figure <= allowed
+            {
+                line.verdict = Verdict::Warning;
+            }
+            lines.push(line);
+        }
+        Ok(OfMaterial { name: material.name.clone(), law: reads.map(|reads| reads.name().to_string()), lines })
+    }
+
+    fn ask(
+        &self,
+        material: &Material,
+        task: Task,
+        fence: Fence,
+        checked: bool,
+        longest_call: Duration,
+    ) -> Result<Result<Said, Ending>, Error> {
+        let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
+        child::ask(self.room, library, material, task, fence, longest_call)
+    }
+
+    fn question(
+        &self,
+        material: &Material,
+        question: Question,
+        reads: Reads,
+        fence: Fence,
+        ended: &mut Vec<(String, Question)>,
+    ) -> Result<Line, Error> {
+        let checked = question == Question::Runtime;
+        if checked && self.built.checked.is_none() {
+            let text = "no second build with checks at run time";
+            return Ok(Line::new(question, Verdict::NotAsked, None, text));
+        }
+        let task = Task::Question { question, reads, allowed: self.allowed.get(question.name()).copied() };
+        let fences: &[Fence] = match question {
+            Question::Memory => &[Fence::Behind, Fence::Before],
+            // The compiler's own checks say more than a page that must not be touched.
+            Question::Runtime => &[Fence::Room],
+            _ => &[fence],
+        };
+        // A law that has hung once is not waited for as long again.
+        let hung = ended.iter().any(|(kind, _)| kind == "hang");
+        let longest_call = if hung { SHORTER } else { child::LONGEST_CALL };
+        let mut answer = None;
+        for &fence in fences {
+            match self.ask(material, task.clone(), fence, checked, longest_call)? {
+                Ok(Said::Line(line)) => answer = Some(line),
+                Ok(_) => {}
+                Err(ending) => return self.ended(material, question, ending, fence, ended),
+            }
+        }
+        let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
+        if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
+            return self.at_large_turns(material, line, fence, longest_call);
+        }
+        Ok(line)
+    }
+
+    /// Turns of 90° in one increment: no solver has them, and a law that is right for small ones is only warned of.
+    fn at_large_turns(
+        &self,
+        material: &Material,
+        right: Line,
+        fence: Fence,
+        longest_call: Duration,
+    ) -> Result<Line, Error> {
+        let text = match self.ask(material, Task::LargeTurns, fence, false, longest_call)? {
+            Ok(Said::Line(line)) if line.verdict == Verdict::Right => return Ok(line),
+            Ok(Said::Line(line)) => line.text,
+            Ok(_) => return Ok(right),
+            Err(ending) => ending.text,
+        };
+        let text = format!("right at turns of 5° an increment, not at larger ones: {text}");
+        Ok(Line::new(Question::Objectivity, Verdict::Warning, right.figure, text))
+    }
+
+    /// The process has ended: that is the answer. The same end in another line says nothing new.
+    fn ended(
+        &self,
+        material: &Material,
+        question: Question,
+        ending: Ending,
+        fence: Fence,
+        ended: &mut Vec<(String, Question)>,
+    ) -> Result<Line, Error> {
+        let Ending { kind, text, call } = ending;
+        if kind == "slow" {
+            return Ok(Line::new(question, Verdict::NotSure, None, text));
+        }
+        if question == Question::Invalid && kind == "XIT" {
+            return Ok(Line::new(question, Verdict::Right, None, text));
+        }
+        if question == Question::Invalid && kind == "stop" {
+            return Ok(Line::new(question, Verdict::Warning, None, text).with("stop"));
+        }
+        if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
+            let text = format!("ends as in {} does: {text}", first.name());
+            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
+        }
+        ended.push((kind.clone(), question));
+        let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
+        // The build with checks at run time is not the one that repeats a call.
+        if let Some(call) = call.filter(|_| question != Question::Runtime) {
+            let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
+            line.call = Some(repeated.write(&self.arguments.output, question)?.display().to_string());
+        }
+        Ok(line)
+    }
+}

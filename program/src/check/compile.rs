@@ -1,0 +1,207 @@
+//! From a subroutine's source to a library that is loaded, by whatever compiler there is.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::room;
+use crate::common::error::Error;
+
+/// The routines of Abaqus that subroutines call.
+const UTILITIES: &str = include_str!("utilities.c");
+
+/// What Abaqus's own include files say, as far as a subroutine sees it. It is valid in fixed and in free form.
+const PARAMETERS: &str = "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n";
+const SINGLE: &str = "      implicit real*4(a-h,o-z)\n      parameter (j_sys_Dimension=2, maxblk=512)\n";
+const DOUBLE: &str = "      implicit real*8(a-h,o-z)\n      parameter (j_sys_Dimension=2, maxblk=512)\n";
+const FOR_C: &str = "#define FOR_NAME(small, capital) small##_\n#define CDECL\n";
+
+/// Lines of a compiler's messages that are shown.
+const SHOWN: usize = 20;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Language {
+    FixedForm,
+    FreeForm,
+    C,
+    Cpp,
+    /// A library that is loaded as it is.
+    Library,
+}
+
+/// What a file became.
+pub struct Built {
+    pub library: PathBuf,
+    /// The same with checks at run time, where the compiler has them.
+    pub checked: Option<PathBuf>,
+    /// By which compiler.
+    pub by: String,
+}
+
+/// Compiles the file into the folder, or takes it as it is.
+///
+/// # Errors
+/// It cannot be read, its kind is not known, there is no compiler, or it does not compile.
+pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
+    let language = language(file)?;
+    let file = file.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
+    room::furnish(folder, &file)?;
+    if language == Language::Library {
+        return Ok(Built { library: file, checked: None, by: "loaded as it is".to_string() });
+    }
+    includes(folder).map_err(|error| Error::Input(format!("{}: {error}", folder.display())))?;
+    let compiler = compiler(language)?;
+    let utilities = folder.join("utilities.o");
+    let mut command = Command::new("gcc");
+    command.args(["-c", "-O1", "-fPIC", "-w"]).arg(folder.join("utilities.c")).arg("-o").arg(&utilities);
+    run(&mut command, "utilities.c")?;
+    let build = |checked, dialect| build(&file, language, compiler, folder, &utilities, checked, dialect);
+    let fortran = compiler == "gfortran";
+    // What ifort takes and gfortran does not, in the dialect that both have from DEC.
+    let (library, dialect) = match build(false, false) {
+        Err(error) if fortran => (build(false, true).map_err(|_| error)?, true),
+        library => (library?, false),
+    };
+    // Where the checks do not compile there is no second build, which is said.
+    let checked = fortran.then(|| build(true, dialect).ok()).flatten();
+    Ok(Built { library, checked, by: compiler.to_string() })
+}
+
+fn language(file: &Path) -> Result<Language, Error> {
+    let name = file.display();
+    let ending = file.extension().and_then(OsStr::to_str).unwrap_or_default().to_lowercase();
+    let language = match ending.as_str() {
+        "f" | "for" | "ftn" | "f77" => {
+            let text = std::fs::read(file).map_err(|error| Error::Input(format!("{name}: {error}")))?;
+            if free_form(&String::from_utf8_lossy(&text)) { Language::FreeForm } else { Language::FixedForm }
+        }
+        "f90" | "f95" | "f03" | "f08" => Language::FreeForm,
+        "c" => Language::C,
+        "cpp" | "cc" | "cxx" => Language::Cpp,
+        "so" | "dylib" => Language::Library,
+        _ => {
+            let allowed = "Fortran (.f .for .f90 …), C (.c), C++ (.cpp .cc), a shared library (.so)";
+            return Err(Error::Input(format!("{name} ends in \"{ending}\"; allowed: {allowed}")));
+        }
+    };
+    match std::fs::metadata(file) {
+        Ok(_) => Ok(language),
+        Err(error) => Err(Error::Input(format!("{name}: {error}"))),
+    }
+}
+
+/// By the directive of Intel's compiler, which Abaqus uses.
+fn free_form(text: &str) -> bool {
+    text.lines().any(|line| {
+        let line = line.trim().to_lowercase();
+        let directive = line.strip_prefix(['!', 'c', '*']).and_then(|line| line.strip_prefix("dir$"));
+        directive.is_some_and(|directive| directive.trim().starts_with("freeform") || directive.trim() == "free")
+    })
+}
+
+fn includes(folder: &Path) -> std::io::Result<()> {
+    for (name, text) in [
+        ("aba_param.inc", PARAMETERS),
+        ("aba_param_dp.inc", PARAMETERS),
+        ("vaba_param.inc", DOUBLE),
+        ("vaba_param_dp.inc", DOUBLE),
+        ("vaba_param_sp.inc", SINGLE),
+        ("smaaspusersubroutines.hdr", ""),
+    ] {
+        std::fs::write(folder.join(name), text)?;
+        std::fs::write(folder.join(name.to_uppercase()), text)?;
+    }
+    std::fs::write(folder.join("SMAAspUserSubroutines.hdr"), "")?;
+    for name in ["aba_for_c.h", "omi_for_c.h"] {
+        std::fs::write(folder.join(name), FOR_C)?;
+    }
+    std::fs::write(folder.join("utilities.c"), UTILITIES)
+}
+
+fn compiler(language: Language) -> Result<&'static str, Error> {
+    let known: &[&str] = match language {
+        Language::C => &["gcc", "cc", "clang"],
+        Language::Cpp => &["g++", "c++", "clang++"],
+        _ => &["gfortran", "ifx", "ifort"],
+    };
+    let there = |name: &&&str| Command::new(name).arg("--version").output().is_ok();
+    known
+        .iter()
+        .find(there)
+        .copied()
+        .ok_or_else(|| Error::Input(format!("no compiler is found; wanted: one of {} in PATH", known.join(", "))))
+}
+
+fn build(
+    file: &Path,
+    language: Language,
+    compiler: &str,
+    folder: &Path,
+    utilities: &Path,
+    checked: bool,
+    dialect: bool,
+) -> Result<PathBuf, Error> {
+    let library = folder.join(if checked { "checked.so" } else { "law.so" });
+    let mut command = Command::new(compiler);
+    command.current_dir(folder).args(["-shared", "-fPIC", "-g"]).arg("-I").arg(folder);
+    if let Some(beside) = file.parent() {
+        command.arg("-I").arg(beside);
+    }
+    command.arg("-I").arg(room::in_either_case(folder));
+    match (language, compiler) {
+        (Language::C, _) => {
+            command.args(["-O2", "-w"]);
+        }
+        (Language::Cpp, _) => {
+            command.args(["-O2", "-w", "-std=c++17"]);
+        }
+        (_, "gfortran") => {
+            // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
+            command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
+            if dialect {
+                command.arg("-fdec");
+            }
+            command.args(if checked {
+                &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777", "-fno-backtrace"]
+                    [..]
+            } else {
+                &["-O2"][..]
+            });
+            command.args(if language == Language::FreeForm {
+                ["-ffree-form", "-ffree-line-length-none"]
+            } else {
+                ["-ffixed-form", "-ffixed-line-length-132"]
+            });
+        }
+        _ => {
+            command.args(["-O2", "-auto", "-fpp", "-extend-source", "132", "-w"]);
+            command.arg(if language == Language::FreeForm { "-free" } else { "-fixed" });
+        }
+    }
+    command.arg(file).arg(utilities).args(["-Wl,-z,lazy", "-o"]).arg(&library).args(["-lm", "-lpthread"]);
+    run(&mut command, &file.display().to_string())?;
+    Ok(library)
+}
+
+fn run(command: &mut Command, what: &str) -> Result<(), Error> {
+    let program = command.get_program().to_string_lossy().to_string();
+    let output = command.output().map_err(|error| Error::Input(format!("{program}: {error}")))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let messages = String::from_utf8_lossy(&output.stderr);
+    let shown: Vec<&str> = messages.lines().filter(|line| !line.trim().is_empty()).take(SHOWN).collect();
+    Err(Error::Input(format!("{what} does not compile with {program}:\n{}", shown.join("\n"))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_form_of_the_source_is_known() {
+        assert!(free_form("!DIR$ FREEFORM\n"));
+        assert!(free_form("      subroutine a\n!dir$ freeform\n"));
+        assert!(!free_form("C     a comment about !DIR$ FREEFORM\n"));
+    }
+}

@@ -1,0 +1,166 @@
+//! Derivatives of a law's own stress by central differences, extrapolated (Ridders 1982), with an estimate of their error.
+
+use super::call::{Answer, Call, Session};
+use super::kinematics::{Components, Modulus, exp, of_stress, rotation_of, unit_strain};
+use super::point::{Point, global};
+
+/// Largest relative error of a modulus that is right.
+pub const TOLERANCE: f64 = 1e-4;
+/// A soft direction counts against this part of the stiffest one.
+const SOFTEST: f64 = 1e-4;
+
+/// What each entry is measured by: the stiffness of its row and column.
+pub fn scale(truth: &Modulus, components: usize) -> Modulus {
+    let largest = truth.iter().flatten().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
+    let mut scale = [[f64::INFINITY; 6]; 6];
+    for i in 0..components {
+        for j in 0..components {
+            let of_both = (truth[i][i] * truth[j][j]).abs().sqrt();
+            scale[i][j] = of_both.max(truth[i][j].abs()).max(SOFTEST * largest).max(f64::MIN_POSITIVE);
+        }
+    }
+    scale
+}
+
+/// The largest step of strain, and how many halvings follow.
+const LARGEST: f64 = 2e-3;
+const HALVINGS: usize = 10;
+/// Columns of the extrapolation.
+const ORDERS: usize = 4;
+
+/// A modulus by differences.
+#[derive(Clone, Debug)]
+pub struct Derivative {
+    pub value: Modulus,
+    pub error: Modulus,
+    /// Where forward and backward differences do not meet.
+    pub kinks: [[bool; 6]; 6],
+    pub forward: Modulus,
+    pub backward: Modulus,
+}
+
+/// A stress of the strain of one component of this size; none where the law refuses.
+type Stress<'a> = dyn FnMut(usize, f64) -> Option<Components> + 'a;
+
+fn differences(components: usize, stress: &mut Stress) -> Option<Derivative> {
+    let zero = [[0.0; 6]; 6];
+    let mut all = Derivative {
+        value: zero,
+        error: [[f64::INFINITY; 6]; 6],
+        kinks: [[false; 6]; 6],
+        forward: zero,
+        backward: zero,
+    };
+    let mut jumps = [[[0.0_f64; 2]; 6]; 6];
+    for (column, jumps) in jumps.iter_mut().enumerate().take(components) {
+        let centre = stress(column, 0.0)?;
+        let mut above: Vec<Components> = Vec::new();
+        for k in 0..=HALVINGS {
+            let size = LARGEST / (1 << k) as f64;
+            let (Some(plus), Some(minus)) = (stress(column, size), stress(column, -size)) else {
+                above.clear();
+                continue;
+            };
+            let mut row = vec![std::array::from_fn(|i| (plus[i] - minus[i]) / (2.0 * size))];
+            for order in 1..ORDERS.min(above.len() + 1) {
+                let factor = 4f64.powi(order as i32);
+                let (coarse, fine): (&Components, &Components) = (&above[order - 1], &row[order - 1]);
+                let next: Components = std::array::from_fn(|i| (factor * fine[i] - coarse[i]) / (factor - 1.0));
+                for i in 0..components {
+                    let rounding = f64::EPSILON * (plus[i].abs() + minus[i].abs()) / size;
+                    let error = (next[i] - fine[i]).abs().max((next[i] - coarse[i]).abs()) + rounding;
+                    if error < all.error[i][column] {
+                        all.error[i][column] = error;
+                        all.value[i][column] = next[i];
+                    }
+                }
+                row.push(next);
+            }
+            above = row;
+            // One-sided slopes come nearer to each other with the step, but at a kink.
+            if k + 3 == HALVINGS || k + 1 == HALVINGS {
+                for i in 0..components {
+                    all.forward[i][column] = (plus[i] - centre[i]) / size;
+                    all.backward[i][column] = (centre[i] - minus[i]) / size;
+                    let jump = (all.forward[i][column] - all.backward[i][column]).abs();
+                    jumps[i][usize::from(k + 1 == HALVINGS)] = jump;
+                }
+            }
+        }
+    }
+    let scale = scale(&all.value, components);
+    for (j, of_column) in jumps.iter().enumerate().take(components) {
+        for (i, &[coarse, fine]) in of_column.iter().enumerate().take(components) {
+            // What is smooth leaves a quarter of the jump at a quarter of the step, noise four times as much, a kink the same.
+            all.kinks[i][j] = fine > 0.1 * TOLERANCE * scale[i][j] && fine > 0.6 * coarse && fine < 1.6 * coarse;
+        }
+    }
+    all.value.iter().flatten().all(|entry| entry.is_finite()).then_some(all)
+}
+
+fn answered(answer: &Answer) -> bool {
+    !answer.refused() && answer.stress.iter().all(|value| value.is_finite())
+}
+
+/// The Jaumann rate of the Kirchhoff stress over J: the deformation at the increment's end is strained further, without rotation.
+pub fn of_deformation(
+    session: &mut Session,
+    point: &Point,
+    base: &Call,
+    f1: &nalgebra::Matrix3<f64>,
+) -> Option<Derivative> {
+    let material = session.material;
+    let components = material.components;
+    let volume = f1.determinant();
+    let axes = if material.orientation { rotation_of(f1) } else { nalgebra::Matrix3::identity() };
+    differences(components, &mut |column, size| {
+        let strain = axes * unit_strain(components, column) * axes.transpose();
+        let strained = exp(&(strain * size)) * f1;
+        let mut call = point.call(&strained, material);
+        call.time_step = base.time_step;
+        let answer = session.ask(&call);
+        let kirchhoff = global(&answer.stress, &strained, material) * (strained.determinant() / volume);
+        answered(&answer).then(|| of_stress(&(axes.transpose() * kirchhoff * axes), components))
+    })
+}
+
+/// The plain ∂Δσ/∂Δε: the strain increment grows, the rotation stays.
+pub fn of_strain_increment(session: &mut Session, base: &Call) -> Option<Derivative> {
+    let components = session.material.components;
+    differences(components, &mut |column, size| {
+        let mut call = base.clone();
+        call.strain_increment[column] += size;
+        call.f1 = exp(&(unit_strain(components, column) * size)) * base.f1;
+        let answer = session.ask(&call);
+        answered(&answer).then_some(answer.stress)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_smooth_function_a_kink_and_noise() {
+        let smooth = differences(3, &mut |column, h| {
+            Some(std::array::from_fn(|i| ((i + 1) as f64 * (0.3 + h)).exp() * (column + 1) as f64))
+        });
+        let smooth = smooth.expect("finite");
+        for column in 0..3 {
+            for i in 0..3 {
+                let exact = (i + 1) as f64 * (0.3 * (i + 1) as f64).exp() * (column + 1) as f64;
+                let error = (smooth.value[i][column] - exact).abs();
+                assert!(error < 1e-9 * exact, "{error}");
+                assert!(error < 10.0 * smooth.error[i][column] + 1e-12 * exact);
+            }
+        }
+        assert_eq!(smooth.kinks, [[false; 6]; 6]);
+
+        let kinked = differences(3, &mut |_, h| Some([if h > 0.0 { 2.0 * h } else { h }; 6])).expect("finite");
+        assert!(kinked.kinks[..3].iter().all(|row| row[..3] == [true; 3]));
+        assert!((kinked.forward[0][0] - 2.0).abs() < 1e-9 && (kinked.backward[0][0] - 1.0).abs() < 1e-9);
+
+        let noisy = differences(3, &mut |_, h| Some([h + 1e-4 * (1e9 * h).sin(); 6])).expect("finite");
+        assert!(noisy.error[0][0] > 1e-4, "{}", noisy.error[0][0]);
+    }
+}

@@ -1,0 +1,254 @@
+//! Work and energies: whether a potential has the stress, what SSE is, what closed cycles give, and what is dissipated.
+
+use std::f64::consts::TAU;
+
+use fastrand::Rng;
+use nalgebra::Matrix3;
+
+use super::call::Session;
+use super::histories::{direction, gradient};
+use super::kinematics::exp;
+use super::line::{Line, Question, Verdict};
+use super::material::{Material, Reads};
+use super::point::{Failure, Point};
+
+const CYCLES: usize = 12;
+/// Increments of a cycle; every second one is a cycle too, which says how sure the sum is.
+const INCREMENTS: usize = 240;
+/// Work of a cycle of a hyperelastic law, as a part of the work on its way.
+const CLOSED: f64 = 1e-6;
+/// Energy that a dissipative law may give, likewise: its integration in time has an error.
+const GAINED: f64 = 1e-3;
+/// The same of a rate law, whose elastic part has no potential (hypoelasticity).
+const GAINED_BY_RATE: f64 = 3e-2;
+/// Increments of a straight path on which SSE is compared.
+const STRAIGHT: usize = 64;
+
+/// The work of a closed cycle.
+struct Cycle {
+    work: f64,
+    /// By how much every second increment alone gives another sum.
+    unsure: f64,
+    /// Of the amounts on the way.
+    way: f64,
+}
+
+/// Half the logarithm of the range of stretches.
+fn size(material: &Material) -> f64 {
+    material.stretch.iter().fold(f64::INFINITY, |size, stretch| size.min(stretch.ln().abs().max(1e-3))).min(0.3)
+}
+
+/// F = 1 + A sin t + B (1 - cos t), once round from the virgin state. The sum over equal parts is exact to all orders for what is
+/// smooth.
+fn cycle(session: &mut Session, rng: &mut Rng, parts: usize) -> Result<Option<Cycle>, String> {
+    let size = 0.7 * size(session.material);
+    let a = gradient(rng, session.material) * size;
+    let b = gradient(rng, session.material) * (0.5 * size);
+    let mut point = Point::virgin(session, [1, 1]);
+    let (mut work, mut way, mut every_second) = (0.0, 0.0, 0.0);
+    for k in 1..=parts {
+        let t = TAU * k as f64 / parts as f64;
+        let f = if k == parts { Matrix3::identity() } else { Matrix3::identity() + a * t.sin() + b * (1.0 - t.cos()) };
+        let time_step = session.material.time_step;
+        match point.advance_in(session, &f, time_step) {
+            Ok(_) => {}
+            Err(Failure::Refused) => return Ok(None),
+            Err(Failure::NotFinite(_)) => return Err("not finite in a closed cycle".to_string()),
+        }
+        let rate = a * t.cos() + b * t.sin();
+        let power = power(&point, &rate, session.material) * TAU / parts as f64;
+        work += power;
+        way += power.abs();
+        if k % 2 == 0 {
+            every_second += 2.0 * power;
+        }
+    }
+    Ok(Some(Cycle { work, unsure: (work - every_second).abs(), way }))
+}
+
+/// P : Ḟ = J σ : (Ḟ F⁻¹).
+fn power(point: &Point, rate: &Matrix3<f64>, material: &Material) -> f64 {
+    let Some(inverse) = point.f.try_inverse() else { return f64::NAN };
+    point.global_stress(material).dot(&(rate * inverse)) * point.f.determinant()
+}
+
+/// Whether a potential has the stress.
+pub fn cycles(session: &mut Session, reads: Reads) -> Line {
+    let material = session.material;
+    let declared = material.traits;
+    if material.components == 3 {
+        return Line::new(Question::Cycles, Verdict::NotAsked, None, "plane stress: the work across it is not known");
+    }
+    if !declared.hyperelastic && !declared.dissipative {
+        return Line::new(
+            Question::Cycles,
+            Verdict::NotAsked,
+            None,
+            "neither hyperelastic nor dissipative is declared",
+        );
+    }
+    let mut rng = Rng::with_seed(material.seed ^ 0xc1);
+    let (mut worst, mut unsure, mut gained, mut asked) = (0.0_f64, 0.0_f64, f64::INFINITY, 0);
+    for _ in 0..CYCLES {
+        let found = match cycle(session, &mut rng, INCREMENTS) {
+            Ok(Some(found)) if found.way > 0.0 => found,
+            Ok(_) => continue,
+            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with("NaN"),
+        };
+        asked += 1;
+        worst = worst.max((found.work.abs() - 10.0 * found.unsure).max(0.0) / found.way);
+        unsure = unsure.max(found.unsure / found.way);
+        gained = gained.min((found.work + 10.0 * found.unsure) / found.way);
+    }
+    if asked == 0 {
+        return Line::new(Question::Cycles, Verdict::NotSure, None, "no cycle was closed, or there was no stress");
+    }
+    if declared.hyperelastic {
+        let text = format!("{asked} closed cycles give or take no work");
+        if worst <= CLOSED {
+            return Line::new(Question::Cycles, Verdict::Right, Some(worst), text);
+        }
+        let text = format!(
+            "closed cycles give or take up to {worst:.1e} of the work on their way: no potential has this stress"
+        );
+        return Line::new(Question::Cycles, Verdict::Wrong, Some(worst), text).with("no energy");
+    }
+    if gained < -(if reads == Reads::Total { GAINED } else { GAINED_BY_RATE }) {
+        let text = format!("a closed cycle from the virgin state gives {:.1e} of the work on its way", -gained);
+        return Line::new(Question::Cycles, Verdict::Wrong, Some(-gained), text).with("energy gained");
+    }
+    let text = format!("{asked} closed cycles from the virgin state give no work");
+    Line::new(Question::Cycles, Verdict::Right, Some((-gained).max(0.0)), text)
+}
+
+/// What SSE, SPD and SCD are along straight paths from rest.
+struct Reported {
+    /// The largest difference of SSE, or of SSE + SPD + SCD, from W and from W/J, as parts of the largest W.
+    from_work: [f64; 2],
+    elastic_alone_from_work: [f64; 2],
+    untouched: bool,
+    dissipated_untouched: bool,
+    /// The largest decrease of SPD + SCD, as a part of W.
+    regained: f64,
+}
+
+fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
+    let mut rng = Rng::with_seed(session.material.seed ^ 0xe1);
+    let zero = [0.0_f64; 2];
+    let mut all = Reported {
+        from_work: zero,
+        elastic_alone_from_work: zero,
+        untouched: true,
+        dissipated_untouched: true,
+        regained: 0.0,
+    };
+    let mut asked = 0;
+    for _ in 0..8 {
+        let strain = direction(&mut rng, session.material) * size(session.material);
+        let mut point = Point::virgin(session, [1, 1]);
+        let (mut work, mut largest, mut power_before) = (0.0, 0.0_f64, 0.0);
+        let mut differences = Vec::new();
+        for k in 1..=STRAIGHT {
+            let f = exp(&(strain * (k as f64 / STRAIGHT as f64)));
+            let before = point.energies;
+            match point.advance(session, &f) {
+                Ok(_) => {}
+                Err(Failure::Refused) => return Ok(None),
+                Err(Failure::NotFinite(_)) => return Err("not finite on a straight path".to_string()),
+            }
+            // τ : D along a path of constant D.
+            let power = point.global_stress(session.material).dot(&strain) * f.determinant() / STRAIGHT as f64;
+            work += 0.5 * (power + power_before);
+            power_before = power;
+            largest = largest.max(work.abs());
+            let [elastic, plastic, creep] = point.energies;
+            all.untouched &= elastic == 0.0;
+            all.dissipated_untouched &= plastic == 0.0 && creep == 0.0;
+            let regained = before[1] + before[2] - plastic - creep;
+            let sum = elastic + plastic + creep;
+            let by_volume = work / f.determinant();
+            differences.push((
+                [(elastic - work).abs(), (elastic - by_volume).abs()],
+                [(sum - work).abs(), (sum - by_volume).abs()],
+                regained,
+            ));
+        }
+        if largest > 0.0 {
+            asked += 1;
+            for (elastic, sum, regained) in differences {
+                for i in 0..2 {
+                    all.elastic_alone_from_work[i] = all.elastic_alone_from_work[i].max(elastic[i] / largest);
+                    all.from_work[i] = all.from_work[i].max(sum[i] / largest);
+                }
+                all.regained = all.regained.max(regained / largest);
+            }
+        }
+    }
+    Ok((asked > 0).then_some(all))
+}
+
+/// What SSE is.
+pub fn energy(session: &mut Session) -> Line {
+    if session.material.components == 3 {
+        return Line::new(Question::Energy, Verdict::NotAsked, None, "plane stress: the work across it is not known");
+    }
+    let found = match reported(session) {
+        Ok(Some(found)) => found,
+        Ok(None) => return Line::new(Question::Energy, Verdict::NotSure, None, "no path without smaller increments"),
+        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with("NaN"),
+    };
+    if found.untouched {
+        return Line::new(Question::Energy, Verdict::NotReported, None, "SSE is not set");
+    }
+    let hyperelastic = session.material.traits.hyperelastic;
+    let (of, differences) = if hyperelastic && found.dissipated_untouched {
+        ("SSE", found.elastic_alone_from_work)
+    } else {
+        ("SSE + SPD + SCD", found.from_work)
+    };
+    let (name, figure) = if differences[0] <= differences[1] { ("W", differences[0]) } else { ("W/J", differences[1]) };
+    // The sum along the path has an error of its own, and a law that adds up work has another.
+    let near = if hyperelastic { 2e-3 } else { 3e-2 };
+    if figure <= near {
+        return Line::new(Question::Energy, Verdict::Right, Some(figure), format!("{of} is {name}, the work done"));
+    }
+    let text = format!("{of} differs from the work done by {:.1e} of W, {:.1e} of W/J", differences[0], differences[1]);
+    let declared = session.material.traits;
+    if !hyperelastic && !declared.dissipative {
+        // Growth, for one, brings energy along.
+        let text = format!("{text}; neither hyperelastic nor dissipative is declared");
+        return Line::new(Question::Energy, Verdict::NotAsked, Some(figure), text);
+    }
+    let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
+    Line::new(Question::Energy, verdict, Some(figure), text).with("SSE")
+}
+
+/// Whether SPD + SCD ever decrease.
+pub fn dissipation(session: &mut Session) -> Line {
+    if session.material.components == 3 {
+        return Line::new(
+            Question::Dissipation,
+            Verdict::NotAsked,
+            None,
+            "plane stress: the work across it is not known",
+        );
+    }
+    if !session.material.traits.dissipative {
+        return Line::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
+    }
+    match reported(session) {
+        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with("NaN"),
+        Ok(None) => Line::new(Question::Dissipation, Verdict::NotSure, None, "no path without smaller increments"),
+        Ok(Some(found)) if found.dissipated_untouched => {
+            Line::new(Question::Dissipation, Verdict::NotReported, None, "SPD and SCD are not set")
+        }
+        Ok(Some(found)) if found.regained > 1e-9 => {
+            let text = format!("SPD + SCD decrease by {:.1e} of the work done", found.regained);
+            Line::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained")
+        }
+        Ok(Some(found)) => {
+            let text = "SPD + SCD never decrease";
+            Line::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)
+        }
+    }
+}

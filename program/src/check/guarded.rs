@@ -1,0 +1,86 @@
+//! An array between pages that must not be touched.
+
+use std::io;
+
+/// Where the array lies between its pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Fence {
+    /// It ends at the upper page.
+    Behind,
+    /// It begins at the lower page.
+    Before,
+    /// There is room at both ends, for a law that is known to need it.
+    Room,
+}
+
+/// Numbers of which the first, or the last, is beside a page without access.
+pub struct Guarded {
+    mapping: *mut libc::c_void,
+    size: usize,
+    first: *mut f64,
+    length: usize,
+}
+
+// SAFETY: the mapping belongs to this value alone.
+unsafe impl Send for Guarded {}
+
+/// Entries that may be touched on either side with [`Fence::Room`].
+const ROOM: usize = 512;
+
+impl Guarded {
+    /// # Errors
+    /// The system has no memory.
+    pub fn new(length: usize, fence: Fence) -> io::Result<Guarded> {
+        // SAFETY: it takes a number and gives one.
+        let page = unsafe { libc::sysconf(libc::_SC_PAGESIZE) } as usize;
+        let bytes = 8 * if fence == Fence::Room { length + 2 * ROOM } else { length };
+        let inner = bytes.div_ceil(page).max(1) * page;
+        let size = inner + 2 * page;
+        let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS;
+        // SAFETY: a new mapping wherever the system has room.
+        let mapping = unsafe { libc::mmap(std::ptr::null_mut(), size, libc::PROT_NONE, flags, -1, 0) };
+        if mapping == libc::MAP_FAILED {
+            return Err(io::Error::last_os_error());
+        }
+        // SAFETY: the pages between the first and the last are within the mapping.
+        let protected = unsafe { libc::mprotect(mapping.add(page), inner, libc::PROT_READ | libc::PROT_WRITE) };
+        if protected != 0 {
+            return Err(io::Error::last_os_error());
+        }
+        let offset = match fence {
+            Fence::Behind => inner - 8 * length,
+            Fence::Before => 0,
+            Fence::Room => 8 * ROOM,
+        };
+        // SAFETY: within the pages that may be touched, and a multiple of eight bytes, since a page's length is one.
+        let first = unsafe { mapping.add(page + offset) }.cast();
+        Ok(Guarded { mapping, size, first, length })
+    }
+
+    pub fn as_mut_ptr(&mut self) -> *mut f64 {
+        self.first
+    }
+
+    pub fn numbers(&self) -> &[f64] {
+        // SAFETY: so many numbers are within the pages that may be touched; any bits are a number.
+        unsafe { std::slice::from_raw_parts(self.first, self.length) }
+    }
+
+    pub fn numbers_mut(&mut self) -> &mut [f64] {
+        // SAFETY: as above, and nobody else has them.
+        unsafe { std::slice::from_raw_parts_mut(self.first, self.length) }
+    }
+
+    /// The addresses of the first entry and of the one behind the last.
+    pub fn addresses(&self) -> (usize, usize) {
+        (self.first as usize, self.first as usize + 8 * self.length)
+    }
+}
+
+impl Drop for Guarded {
+    fn drop(&mut self) {
+        // SAFETY: the mapping that was made, once.
+        unsafe { libc::munmap(self.mapping, self.size) };
+    }
+}

@@ -1,0 +1,238 @@
+//! What a check is told: a file in TOML, and the arguments of the command over it.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::line::Question;
+use super::material::{Material, Traits};
+use crate::common::error::Error;
+use crate::common::toml_file::{Source, read};
+
+/// The keys of a file.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    name: Option<Spanned<String>>,
+    properties: Option<Vec<f64>>,
+    statev: Option<usize>,
+    initial: Option<Spanned<Vec<f64>>>,
+    ntens: Option<Spanned<usize>>,
+    stretch: Option<Spanned<Vec<f64>>>,
+    increment: Option<Spanned<f64>>,
+    temperature: Option<Spanned<f64>>,
+    dtime: Option<Spanned<f64>>,
+    traits: Option<Spanned<Vec<String>>>,
+    orientation: Option<bool>,
+    fibres: Option<Spanned<Vec<Vec<f64>>>>,
+    seed: Option<u64>,
+    #[serde(default)]
+    allow: BTreeMap<String, Spanned<f64>>,
+    #[serde(default, rename = "material")]
+    materials: Vec<Own>,
+}
+
+/// The keys of one of several materials.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Own {
+    name: Option<Spanned<String>>,
+    properties: Option<Vec<f64>>,
+    statev: Option<usize>,
+    initial: Option<Spanned<Vec<f64>>>,
+    traits: Option<Spanned<Vec<String>>>,
+    fibres: Option<Spanned<Vec<Vec<f64>>>>,
+}
+
+/// What the command's arguments say of the material.
+#[derive(Clone, Debug, Default)]
+pub struct Over {
+    pub properties: Option<Vec<f64>>,
+    pub states: Option<usize>,
+    pub components: Option<usize>,
+    pub traits: Option<Vec<String>>,
+    pub seed: Option<u64>,
+}
+
+/// Materials, and how wrong which line may be.
+#[derive(Debug)]
+pub struct Input {
+    pub materials: Vec<Material>,
+    pub allowed: BTreeMap<String, f64>,
+}
+
+/// Longest CMNAME.
+const LONGEST_NAME: usize = 80;
+/// Most entries of STATEV that are believed.
+const MOST_STATES: usize = 100_000;
+
+/// Reads the file, if there is one: the one named, or the one beside the law.
+///
+/// # Errors
+/// It cannot be read, or says what is not allowed.
+pub fn input(law: &Path, file: Option<&Path>, over: &Over) -> Result<Input, Error> {
+    let beside = law.with_extension("toml");
+    let file: Option<PathBuf> = file.map(Path::to_path_buf).or_else(|| beside.is_file().then_some(beside));
+    let (name, text) = match &file {
+        Some(file) => read(file)?,
+        None => ("the arguments".to_string(), String::new()),
+    };
+    parse(&Source { name: &name, text: &text }, over)
+}
+
+fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
+    let file: File = source.parse()?;
+    let mut allowed = BTreeMap::new();
+    for (key, value) in &file.allow {
+        if Question::parse(key).is_none() {
+            let names = Question::ASKED.map(Question::name).join(", ");
+            return Err(source.error(value.span(), &format!("allow has {key}; allowed: {names}")));
+        }
+        allowed.insert(key.clone(), source.positive(&format!("allow.{key}"), *value.get_ref(), value.span())?);
+    }
+    let owns = if file.materials.is_empty() { vec![Own::default()] } else { file.materials.clone() };
+    let materials: Result<Vec<Material>, Error> = owns.iter().map(|own| material(source, &file, own, over)).collect();
+    Ok(Input { materials: materials?, allowed })
+}
+
+fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Material, Error> {
+    let components = match (over.components, &file.ntens) {
+        (Some(components), _) => allowed_components(components).map_err(Error::Input)?,
+        (None, Some(ntens)) => {
+            allowed_components(*ntens.get_ref()).map_err(|message| source.error(ntens.span(), &message))?
+        }
+        (None, None) => 6,
+    };
+    let name = own.name.as_ref().or(file.name.as_ref());
+    if let Some(name) = name
+        && (name.get_ref().len() > LONGEST_NAME || !name.get_ref().is_ascii())
+    {
+        let message = format!("name is \"{}\"; allowed: up to {LONGEST_NAME} ASCII characters", name.get_ref());
+        return Err(source.error(name.span(), &message));
+    }
+    let given = own.initial.as_ref().or(file.initial.as_ref());
+    let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
+    let states = over.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
+    if states > MOST_STATES {
+        return Err(Error::Input(format!("statev is {states}; allowed: 0 to {MOST_STATES}")));
+    }
+    if let Some(given) = given
+        && states < initial.len()
+    {
+        if over.states.is_none() {
+            let message = format!("initial has {} numbers; allowed: statev = {states} or fewer", initial.len());
+            return Err(source.error(given.span(), &message));
+        }
+        initial.truncate(states);
+    }
+    initial.resize(states, 0.0);
+    let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
+        Some(value) => source.positive(key, *value.get_ref(), value.span()),
+        None => Ok(default),
+    };
+    let stretch = match &file.stretch {
+        None => [0.9, 1.1],
+        Some(stretch) => match stretch.get_ref()[..] {
+            [low, high] if low > 0.0 && low <= 1.0 && high >= 1.0 && low < high && high.is_finite() => [low, high],
+            _ => {
+                let message = "stretch is not a range; allowed: [lowest, highest] with 0 < lowest <= 1 <= highest";
+                return Err(source.error(stretch.span(), message));
+            }
+        },
+    };
+    Ok(Material {
+        name: name.map_or("MATERIAL".to_string(), |name| name.get_ref().clone()),
+        properties: over.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default(),
+        initial,
+        components,
+        stretch,
+        increment: positive("increment", &file.increment, 0.01)?,
+        temperature: match &file.temperature {
+            Some(value) => source.finite("temperature", *value.get_ref(), value.span())?,
+            None => 0.0,
+        },
+        time_step: positive("dtime", &file.dtime, 1.0)?,
+        traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), over)?,
+        orientation: file.orientation.unwrap_or(false),
+        fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
+        seed: over.seed.or(file.seed).unwrap_or(1),
+    })
+}
+
+fn allowed_components(components: usize) -> Result<usize, String> {
+    match components {
+        6 | 4 | 3 => Ok(components),
+        _ => Err(format!(
+            "ntens is {components}; allowed: 6 (solids), 4 (plane strain, axisymmetric), 3 (plane stress); the extra \
+             equation of hybrid elements and UVARM are not checked"
+        )),
+    }
+}
+
+fn traits(source: &Source, file: Option<&Spanned<Vec<String>>>, over: &Over) -> Result<Traits, Error> {
+    let mut traits = Traits::default();
+    let unknown = |name: &str| format!("trait \"{name}\"; allowed: {}", Traits::ALLOWED);
+    if let Some(names) = &over.traits {
+        for name in names {
+            if !traits.declare(name) {
+                return Err(Error::Input(unknown(name)));
+            }
+        }
+        return Ok(traits);
+    }
+    let Some(names) = file else { return Ok(traits) };
+    for name in names.get_ref() {
+        if !traits.declare(name) {
+            return Err(source.error(names.span(), &unknown(name)));
+        }
+    }
+    Ok(traits)
+}
+
+fn fibres(source: &Source, fibres: Option<&Spanned<Vec<Vec<f64>>>>) -> Result<Vec<[f64; 3]>, Error> {
+    let Some(fibres) = fibres else { return Ok(Vec::new()) };
+    let direction = |numbers: &Vec<f64>| {
+        let direction = <[f64; 3]>::try_from(numbers.clone()).ok()?;
+        let length = direction.iter().map(|entry| entry * entry).sum::<f64>().sqrt();
+        (length.is_finite() && length > 0.0).then(|| direction.map(|entry| entry / length))
+    };
+    let all = fibres.get_ref().iter().map(direction).collect::<Option<Vec<_>>>();
+    all.ok_or_else(|| source.error(fibres.span(), "a fibre is no direction; allowed: three numbers, not all 0"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(text: &str) -> Result<Input, String> {
+        parse(&Source { name: "law.toml", text }, &Over::default()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn keys_of_the_file_and_of_its_materials() {
+        let input = of("statev = 3\ntraits = [\"isotropic\"]\n[allow]\ntangent = 0.05\n[[material]]\nname = \"A\"\n\
+                        properties = [1.0]\n[[material]]\nname = \"B\"\nproperties = [2.0]\ninitial = [1.0, 2.0]\n")
+        .expect("valid");
+        assert_eq!(input.materials.len(), 2);
+        assert_eq!(input.materials[1].initial, [1.0, 2.0, 0.0]);
+        assert!(input.materials[0].traits.isotropic && input.allowed["tangent"] == 0.05);
+    }
+
+    #[test]
+    fn what_is_not_allowed_is_named() {
+        for (text, message) in [
+            ("ntens = 5", "law.toml:1: ntens is 5; allowed: 6 (solids)"),
+            ("\nstretch = [1.1, 1.2]", "law.toml:2: stretch is not a range"),
+            ("traits = [\"elastic\"]", "law.toml:1: trait \"elastic\"; allowed: hyperelastic"),
+            ("fibres = [[0.0, 0.0, 0.0]]", "law.toml:1: a fibre is no direction"),
+            ("statev = 1\ninitial = [1.0, 2.0]", "law.toml:2: initial has 2 numbers"),
+            ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: memory, rest"),
+            ("dtime = 0.0", "law.toml:1: dtime is 0; allowed: a finite number > 0"),
+        ] {
+            let error = of(text).expect_err(text);
+            assert!(error.starts_with(message), "{error}");
+        }
+    }
+}

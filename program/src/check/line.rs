@@ -1,0 +1,132 @@
+//! The lines of the report: a question, a figure, a verdict.
+
+use serde::{Deserialize, Serialize};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    #[serde(rename = "right")]
+    Right,
+    #[serde(rename = "wrong")]
+    Wrong,
+    #[serde(rename = "warning")]
+    Warning,
+    #[serde(rename = "not sure")]
+    NotSure,
+    #[serde(rename = "not reported")]
+    NotReported,
+    #[serde(rename = "not asked")]
+    NotAsked,
+}
+
+impl Verdict {
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Right => "right",
+            Verdict::Wrong => "wrong",
+            Verdict::Warning => "warning",
+            Verdict::NotSure => "not sure",
+            Verdict::NotReported => "not reported",
+            Verdict::NotAsked => "not asked",
+        }
+    }
+}
+
+/// One answer.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Line {
+    /// The question's name.
+    pub line: String,
+    pub verdict: Verdict,
+    /// What was measured, a relative error for most.
+    pub figure: Option<f64>,
+    /// In words.
+    pub text: String,
+    /// In what way it is wrong; several where they cannot be told apart.
+    pub kinds: Vec<String>,
+    /// The file of a call that ended the process, for `--again`.
+    pub call: Option<String>,
+}
+
+impl Line {
+    pub fn new(question: Question, verdict: Verdict, figure: Option<f64>, text: impl Into<String>) -> Self {
+        // JSON has no number that is not finite.
+        let figure = figure.filter(|figure| figure.is_finite());
+        Line { line: question.name().to_string(), verdict, figure, text: text.into(), kinds: Vec::new(), call: None }
+    }
+
+    pub fn with(mut self, kind: &str) -> Self {
+        self.kinds.push(kind.to_string());
+        self
+    }
+}
+
+/// What is asked, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Question {
+    Build,
+    Memory,
+    Rest,
+    Tangent,
+    Objectivity,
+    Isotropy,
+    Steps,
+    Energy,
+    Cycles,
+    Dissipation,
+    Repeat,
+    Threads,
+    Outputs,
+    Exceptions,
+    Invalid,
+    Histories,
+    Runtime,
+}
+
+impl Question {
+    /// Those that a law answers in a child process.
+    pub const ASKED: [Question; 16] = [
+        Question::Memory,
+        Question::Rest,
+        Question::Tangent,
+        Question::Objectivity,
+        Question::Isotropy,
+        Question::Steps,
+        Question::Energy,
+        Question::Cycles,
+        Question::Dissipation,
+        Question::Repeat,
+        Question::Threads,
+        Question::Outputs,
+        Question::Exceptions,
+        Question::Invalid,
+        Question::Histories,
+        Question::Runtime,
+    ];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Question::Build => "build",
+            Question::Memory => "memory",
+            Question::Rest => "rest",
+            Question::Tangent => "tangent",
+            Question::Objectivity => "objectivity",
+            Question::Isotropy => "isotropy",
+            Question::Steps => "steps",
+            Question::Energy => "energy",
+            Question::Cycles => "cycles",
+            Question::Dissipation => "dissipation",
+            Question::Repeat => "repeat",
+            Question::Threads => "threads",
+            Question::Outputs => "outputs",
+            Question::Exceptions => "exceptions",
+            Question::Invalid => "invalid",
+            Question::Histories => "histories",
+            Question::Runtime => "runtime",
+        }
+    }
+
+    pub fn parse(name: &str) -> Option<Question> {
+        Question::ASKED.into_iter().find(|question| question.name() == name)
+    }
+}

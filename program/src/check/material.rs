@@ -1,0 +1,81 @@
+//! The material that a law is asked about, and what is declared of it.
+
+use serde::{Deserialize, Serialize};
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Material {
+    /// CMNAME.
+    pub name: String,
+    /// PROPS.
+    pub properties: Vec<f64>,
+    /// STATEV at the beginning, of NSTATV entries; SDVINI may change it.
+    pub initial: Vec<f64>,
+    /// NTENS: 6, 4 (plane strain, axisymmetric) or 3 (plane stress).
+    pub components: usize,
+    /// The range of the principal stretches that are reached.
+    pub stretch: [f64; 2],
+    /// The norm of the logarithmic strain of one increment.
+    pub increment: f64,
+    pub temperature: f64,
+    /// DTIME.
+    pub time_step: f64,
+    pub traits: Traits,
+    /// Corotational axes, as with `*ORIENTATION`.
+    pub orientation: bool,
+    /// Directions in the reference configuration, of length 1.
+    pub fibres: Vec<[f64; 3]>,
+    /// Of the random states.
+    pub seed: u64,
+}
+
+/// What its author declares of a law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Traits {
+    pub hyperelastic: bool,
+    pub dissipative: bool,
+    pub isotropic: bool,
+}
+
+impl Traits {
+    pub const ALLOWED: &str = "hyperelastic, dissipative, isotropic";
+
+    /// Declares a trait; whether there is one of this name.
+    pub fn declare(&mut self, name: &str) -> bool {
+        match name {
+            "hyperelastic" => self.hyperelastic = true,
+            "dissipative" => self.dissipative = true,
+            "isotropic" => self.isotropic = true,
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Material {
+    /// NDI.
+    pub fn direct(&self) -> usize {
+        if self.components == 3 { 2 } else { 3 }
+    }
+}
+
+/// What a law reads of the deformation, found by changing one argument at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Reads {
+    /// DFGRD1 alone: stress follows from the deformation and the state.
+    Total,
+    /// Strain increments alone.
+    Rate,
+    /// Both, or DFGRD0 too.
+    Mixed,
+}
+
+impl Reads {
+    pub fn name(self) -> &'static str {
+        match self {
+            Reads::Total => "total",
+            Reads::Rate => "rate",
+            Reads::Mixed => "mixed",
+        }
+    }
+}

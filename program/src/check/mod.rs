@@ -1,0 +1,30 @@
+//! What is wrong with a UMAT, one's own or anybody's: `toron check`.
+//!
+//! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`], [`call`],
+//! [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`]), [`objectivity`], [`steps`],
+//! [`energy`], [`rest`], [`process`]. Answers are lines ([`mod@line`]) of a [`report`].
+
+pub mod call;
+pub mod child;
+pub mod command;
+pub mod compile;
+pub mod differences;
+pub mod energy;
+pub mod guarded;
+pub mod histories;
+pub mod hypotheses;
+pub mod input;
+pub mod judgement;
+pub mod kinematics;
+pub mod line;
+pub mod material;
+pub mod objectivity;
+pub mod point;
+pub mod process;
+pub mod repeated;
+pub mod report;
+pub mod rest;
+pub mod room;
+pub mod shared;
+pub mod steps;
+pub mod tangent;

@@ -1,0 +1,194 @@
+//! Whether the answer turns with the axes: superposed rotations, and those of the reference where the law is isotropic or has fibres.
+
+use fastrand::Rng;
+use nalgebra::{Matrix3, Vector3};
+
+use super::call::Session;
+use super::histories::{LARGEST_TURN, history, rotation, turn};
+use super::line::{Line, Question, Verdict};
+use super::material::{Material, Reads};
+use super::point::{Failure, Point};
+use super::tangent::EXCHANGED;
+
+/// Of the stress.
+const TOLERANCE: f64 = 1e-6;
+const HISTORIES: usize = 24;
+/// Increments of a history, at most.
+const INCREMENTS: usize = 40;
+
+/// What differs between two histories that should answer the same.
+struct Worst {
+    figure: f64,
+    compared: usize,
+    text: String,
+}
+
+/// Superposed rotations: of a total law at once, of others in turns as solvers have them.
+pub fn objectivity(session: &mut Session, reads: Reads) -> Line {
+    if reads == Reads::Total { at_large_turns(session) } else { at_small_turns(session) }
+}
+
+/// A steady spin, which adds up to large turns. A law that integrates the spin itself errs with the square of the turn at least.
+fn at_small_turns(session: &mut Session) -> Line {
+    let spin = |turn_of_one: f64| {
+        move |rng: &mut Rng, material: &Material, _: usize, count: usize| {
+            let axis = match material.components {
+                6 => Vector3::from_fn(|_, _| 2.0 * rng.f64() - 1.0).normalize(),
+                _ => Vector3::z(),
+            };
+            let turns = (0..count).map(|k| turn(axis * (turn_of_one * (k + 1) as f64))).collect();
+            (format!("a spin of {:.1}° an increment", turn_of_one.to_degrees()), turns)
+        }
+    };
+    let asked = |session: &mut Session, turn_of_one: f64| compared(session, |f, q| q * f, spin(turn_of_one));
+    let mut line = objective(session, &|session| asked(session, LARGEST_TURN));
+    let (Verdict::Wrong, Some(figure)) = (line.verdict, line.figure) else { return line };
+    let mut part = |part: f64| asked(session, part * LARGEST_TURN).map_or(f64::INFINITY, |worst| worst.figure);
+    let (half, quarter) = (part(0.5), part(0.25));
+    if half < figure && quarter < half / SQUARE {
+        let text = format!(
+            "right for small turns alone: the stress changes by {figure:.1e} of itself at 5° an increment, by {half:.1e} at \
+             2.5°, by {quarter:.1e} at 1.25°"
+        );
+        line = Line::new(Question::Objectivity, Verdict::Warning, Some(figure), text);
+    }
+    line
+}
+
+/// By what factor an error of second order falls with half the turn, with some room.
+const SQUARE: f64 = 2.8;
+
+/// A quarter turn, half a turn and random ones in one increment.
+pub fn at_large_turns(session: &mut Session) -> Line {
+    let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| -> (String, Vec<Matrix3<f64>>) {
+        let z = Vector3::z();
+        let half = std::f64::consts::FRAC_PI_2;
+        let tilted = if material.components == 6 { Vector3::new(1.0, 0.0, 0.0) } else { z };
+        match number % 4 {
+            0 => ("a quarter turn in the last increment".into(), last(turn(tilted * half), count)),
+            1 => ("half a turn in the last increment".into(), last(turn(z * 2.0 * half), count)),
+            2 => ("a random turn in the last increment".into(), last(rotation(rng, material), count)),
+            _ => ("a random turn in every increment".into(), (0..count).map(|_| rotation(rng, material)).collect()),
+        }
+    };
+    objective(session, &|session| compared(session, |f, q| q * f, rotations))
+}
+
+fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Line {
+    let worst = match asked(session) {
+        Ok(worst) => worst,
+        Err(text) => return Line::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"),
+    };
+    let mut line = judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone");
+    if line.verdict == Verdict::Wrong && session.material.components == 6 {
+        session.exchange(true);
+        if asked(session).is_ok_and(|worst| worst.figure <= TOLERANCE) {
+            line.kinds.push(EXCHANGED.to_string());
+            line.text = format!("{EXCHANGED}: with 12 23 13 in the place of 12 13 23 it is right; {}", line.text);
+        }
+        session.exchange(false);
+    }
+    line
+}
+
+/// Rotations of the material before all else.
+pub fn isotropy(session: &mut Session) -> Line {
+    let material = session.material;
+    if !material.traits.isotropic && material.fibres.is_empty() {
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "neither isotropic nor fibres are declared");
+    }
+    if material.orientation {
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, "on the material's own axes");
+    }
+    let rotations = |rng: &mut Rng, material: &Material, number: usize, count: usize| {
+        let q = if material.traits.isotropic {
+            if number == 0 { turn(Vector3::z() * std::f64::consts::FRAC_PI_2) } else { rotation(rng, material) }
+        } else {
+            // Half a turn about a fibre leaves it, and others only if they are along it or across.
+            turn(Vector3::from(material.fibres[0]) * std::f64::consts::PI)
+        };
+        ("the material turned beforehand".to_string(), vec![q; count])
+    };
+    if !material.traits.isotropic && !about_first_fibre(material) {
+        let text = "no rotation leaves the fibres where they are";
+        return Line::new(Question::Isotropy, Verdict::NotAsked, None, text);
+    }
+    match compared(session, |f, q| q * f * q.transpose(), rotations) {
+        Ok(worst) => judged(Question::Isotropy, "axes matter", &worst, "turning the material turns the stress alone"),
+        Err(text) => Line::new(Question::Isotropy, Verdict::Wrong, None, text).with("NaN"),
+    }
+}
+
+fn about_first_fibre(material: &Material) -> bool {
+    let first = Vector3::from(material.fibres[0]);
+    let planar = material.components == 6 || (first - Vector3::z()).norm() < 1e-12;
+    let left = |fibre: &[f64; 3]| {
+        let along = first.dot(&Vector3::from(*fibre)).abs();
+        along < 1e-9 || (along - 1.0).abs() < 1e-9
+    };
+    planar && material.fibres.iter().all(left)
+}
+
+fn last(rotation: Matrix3<f64>, count: usize) -> Vec<Matrix3<f64>> {
+    let mut rotations = vec![Matrix3::identity(); count];
+    if let Some(last) = rotations.last_mut() {
+        *last = rotation;
+    }
+    rotations
+}
+
+/// Random histories, and the same with rotations: the largest difference of the stress, over the largest stress of the history.
+fn compared(
+    session: &mut Session,
+    turned: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+    rotations: impl Fn(&mut Rng, &Material, usize, usize) -> (String, Vec<Matrix3<f64>>),
+) -> Result<Worst, String> {
+    let mut rng = Rng::with_seed(session.material.seed ^ 0x0b);
+    let mut worst = Worst { figure: 0.0, compared: 0, text: String::new() };
+    for number in 0..HISTORIES {
+        let mut path = history(&mut rng, session.material, 2);
+        path.truncate(INCREMENTS);
+        let (text, rotations) = rotations(&mut rng, session.material, number, path.len());
+        let mut plain = Point::virgin(session, [1, 1]);
+        let mut other = Point::virgin(session, [1, 2]);
+        let mut largest = 0.0_f64;
+        for (f, q) in path.iter().zip(&rotations) {
+            match (plain.advance(session, f), other.advance(session, &turned(f, q))) {
+                (Ok(_), Ok(_)) => {}
+                (Err(Failure::NotFinite(_)), _) | (_, Err(Failure::NotFinite(_))) => {
+                    return Err(format!("not finite with {text}"));
+                }
+                _ => break,
+            }
+            let (stress, seen) = (plain.global_stress(session.material), other.global_stress(session.material));
+            largest = largest.max(stress.norm());
+            let difference = (seen - q * stress * q.transpose()).norm();
+            if largest > 0.0 {
+                worst.compared += 1;
+                if difference / largest > worst.figure {
+                    worst = Worst { figure: difference / largest, text: text.clone(), ..worst };
+                }
+            }
+        }
+    }
+    Ok(worst)
+}
+
+fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
+    if worst.compared == 0 {
+        return Line::new(question, Verdict::NotSure, None, "there was no stress");
+    }
+    if worst.figure <= TOLERANCE {
+        return Line::new(
+            question,
+            Verdict::Right,
+            Some(worst.figure),
+            format!("{right}, {} increments", worst.compared),
+        );
+    }
+    let mut text = format!("the stress changes by {:.2e} of itself with {}", worst.figure, worst.text);
+    if question == Question::Objectivity {
+        text.push_str("; a rate law with directions of its own needs orientation = true");
+    }
+    Line::new(question, Verdict::Wrong, Some(worst.figure), text).with(kind)
+}

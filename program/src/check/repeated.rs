@@ -1,0 +1,93 @@
+//! A call that ended the process, in a file, and its repetition.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::call::Call;
+use super::child::{self, Said, Task};
+use super::compile;
+use super::guarded::Fence;
+use super::line::Question;
+use super::material::Material;
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::folder;
+
+/// What is needed to repeat a call.
+pub struct Repeated {
+    pub file: PathBuf,
+    pub material: Material,
+    pub fence: Fence,
+    pub call: Call,
+}
+
+/// As it is written. Numbers are text: they need not be finite.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    file: PathBuf,
+    material: Material,
+    fence: Fence,
+    arguments: Vec<(String, Vec<String>)>,
+}
+
+impl Repeated {
+    /// Writes `NAME-LINE.json` into the folder.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write(&self, output: &Path, question: Question) -> Result<PathBuf, Error> {
+        folder::create(output)?;
+        let stem = self.file.file_stem().map_or("law".into(), |stem| stem.to_string_lossy());
+        let path = output.join(format!("{stem}-{}.json", question.name()));
+        let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
+        let arguments = self.call.named().map(|(name, numbers)| {
+            (name.to_string(), numbers.iter().map(|number| format!("{number:e}")).collect::<Vec<_>>())
+        });
+        let written = Written {
+            file: self.file.canonicalize().map_err(|reason| error(reason.to_string()))?,
+            material: self.material.clone(),
+            fence: self.fence,
+            arguments: arguments.to_vec(),
+        };
+        let text = serde_json::to_string_pretty(&written).map_err(|reason| error(reason.to_string()))?;
+        std::fs::write(&path, text).map_err(|reason| error(reason.to_string()))?;
+        Ok(path)
+    }
+
+    /// # Errors
+    /// It cannot be read, or is no such file.
+    pub fn read(path: &Path) -> Result<Repeated, Error> {
+        let error = |reason: String| Error::Input(format!("{}: {reason}", path.display()));
+        let text = std::fs::read(path).map_err(|reason| error(reason.to_string()))?;
+        let written: Written = serde_json::from_slice(&text).map_err(|reason| error(reason.to_string()))?;
+        let texts = written.arguments.iter().flat_map(|(_, numbers)| numbers);
+        let numbers = texts.map(|text| text.parse().map_err(|_| error(format!("\"{text}\"; allowed: a number"))));
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+        let call = Call::from_numbers(&numbers).ok_or_else(|| error("arguments are missing".to_string()))?;
+        Ok(Repeated { file: written.file, material: written.material, fence: written.fence, call })
+    }
+
+    /// Compiles the law again and repeats the call.
+    ///
+    /// # Errors
+    /// The law does not compile, or the call ends the process again.
+    pub fn run(&self, room: &Path) -> Result<(), Error> {
+        let built = compile::compile(&self.file, room)?;
+        let numbers = self.call.numbers().into_iter().map(f64::to_bits).collect();
+        match child::ask(room, &built.library, &self.material, Task::Call(numbers), self.fence, child::LONGEST_CALL)? {
+            Ok(Said::Answer(lines)) => {
+                for (name, numbers) in lines {
+                    print(&format!("{name:<14}{numbers}\n"));
+                }
+                print(
+                    "\nAlone the call ends well: if it did not before, that depends on the calls before it (a variable that is not \
+                     set, SAVE, COMMON).\n",
+                );
+                Ok(())
+            }
+            Ok(_) => Err(Error::Evaluation("the call has no answer".to_string())),
+            Err(ending) => Err(Error::Evaluation(format!("{}: {}", ending.kind, ending.text))),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The report: a line a question, aligned, in colours on a terminal; or as JSON.
+
+use serde::Serialize;
+
+use super::line::{Line, Verdict};
+use crate::common::text_table::folded;
+
+/// All that was found of a file.
+#[derive(Serialize)]
+pub struct Report {
+    pub file: String,
+    pub verdict: Verdict,
+    pub materials: Vec<OfMaterial>,
+}
+
+#[derive(Serialize)]
+pub struct OfMaterial {
+    pub name: String,
+    /// What it reads: total, rate, mixed; none where it does not live to say so.
+    pub law: Option<String>,
+    pub lines: Vec<Line>,
+}
+
+impl Report {
+    /// The names of the lines that are wrong.
+    pub fn wrong(&self) -> Vec<&str> {
+        let lines = self.materials.iter().flat_map(|material| &material.lines);
+        let mut names: Vec<&str> = Vec::new();
+        for line in lines.filter(|line| line.verdict == Verdict::Wrong) {
+            if !names.contains(&line.line.as_str()) {
+                names.push(&line.line);
+            }
+        }
+        names
+    }
+
+    pub fn as_text(&self, colours: bool) -> String {
+        self.materials.iter().map(|material| self.of_material(material, colours)).collect()
+    }
+
+    fn of_material(&self, material: &OfMaterial, colours: bool) -> String {
+        let law = material.law.as_ref().map_or(String::new(), |law| format!(", a {law} law"));
+        let mut text = format!("{}: {}{law}\n\n", self.file, material.name);
+        for line in &material.lines {
+            text.push_str(&written(line, colours));
+        }
+        let count = |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict).count();
+        let counts = [Verdict::Right, Verdict::Wrong, Verdict::Warning, Verdict::NotSure, Verdict::NotReported];
+        let counts: Vec<String> = counts
+            .into_iter()
+            .filter(|&verdict| count(verdict) > 0)
+            .map(|verdict| format!("{} {}", count(verdict), verdict.name()))
+            .collect();
+        text.push_str(&format!("\n{}\n", counts.join(", ")));
+        text
+    }
+}
+
+/// Columns: name, figure, verdict, words.
+const NAME: usize = 12;
+const FIGURE: usize = 8;
+const VERDICT: usize = 13;
+const WORDS: usize = 78;
+
+fn written(line: &Line, colours: bool) -> String {
+    let figure = line.figure.map_or(String::new(), short);
+    let verdict = format!("{:<VERDICT$}", line.verdict.name());
+    let verdict = match (colours, line.verdict) {
+        (false, _) => verdict,
+        (true, Verdict::Right) => format!("\x1b[32m{verdict}\x1b[0m"),
+        (true, Verdict::Wrong) => format!("\x1b[1;31m{verdict}\x1b[0m"),
+        (true, Verdict::Warning) => format!("\x1b[33m{verdict}\x1b[0m"),
+        (true, _) => format!("\x1b[2m{verdict}\x1b[0m"),
+    };
+    let mut words = line.text.clone();
+    if let Some(call) = &line.call {
+        words.push_str(&format!("; toron check --again {call}"));
+    }
+    let indent = " ".repeat(NAME + FIGURE + 2 + VERDICT);
+    let words = folded(&words, WORDS).replace("\n  ", &format!("\n{indent}"));
+    format!("{:<NAME$}{figure:>FIGURE$}  {verdict}{words}\n", line.line)
+}
+
+/// Three digits.
+fn short(figure: f64) -> String {
+    if figure == 0.0 {
+        "0".to_string()
+    } else if (0.01..100.0).contains(&figure.abs()) {
+        format!("{figure:.3}")
+    } else {
+        format!("{figure:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::line::Question;
+    use super::*;
+
+    #[test]
+    fn columns_stand_below_each_other_and_colours_change_no_width() {
+        let right = Line::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
+        let long = "a sentence of many words ".repeat(8);
+        let wrong = Line::new(Question::Tangent, Verdict::Wrong, Some(0.25), long.trim());
+        let plain = [written(&right, false), written(&wrong, false)].concat();
+        let columns: Vec<usize> = plain.lines().map(|line| line.len() - line.trim_start().len()).collect();
+        assert_eq!(columns[..2], [0, 0]);
+        assert!(columns[2..].iter().all(|&column| column == NAME + FIGURE + 2 + VERDICT));
+        let coloured = written(&right, true);
+        assert_eq!(coloured.replace("\x1b[32m", "").replace("\x1b[0m", ""), written(&right, false));
+    }
+}

@@ -1,0 +1,37 @@
+//! Whether a point that has not been deformed has stress.
+
+use nalgebra::Matrix3;
+
+use super::call::Session;
+use super::line::{Line, Question, Verdict};
+use super::point::Point;
+
+/// Of the stiffness, what counts as no stress.
+const TOLERANCE: f64 = 1e-9;
+
+pub fn ask(session: &mut Session) -> Line {
+    let point = Point::virgin(session, [1, 1]);
+    let call = point.call(&Matrix3::identity(), session.material);
+    let answer = session.ask(&call);
+    if !answer.finite() {
+        let text = "stress, state or DDSDDE is not finite at rest";
+        return Line::new(Question::Rest, Verdict::Wrong, None, text).with("NaN");
+    }
+    if answer.refused() {
+        let text = "PNEWDT asks for a smaller increment at rest, where nothing is deformed";
+        return Line::new(Question::Rest, Verdict::Wrong, None, text).with("refused");
+    }
+    let largest =
+        |values: &mut dyn Iterator<Item = &f64>| values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    let stiffness = largest(&mut answer.modulus.iter().flatten());
+    let stress = largest(&mut answer.stress.iter());
+    if stress == 0.0 {
+        return Line::new(Question::Rest, Verdict::Right, Some(0.0), "no stress at rest");
+    }
+    let figure = stress / stiffness.max(f64::MIN_POSITIVE);
+    if figure <= TOLERANCE {
+        return Line::new(Question::Rest, Verdict::Right, Some(figure), "stress over stiffness at rest");
+    }
+    let text = format!("stress of {stress:.3e} at rest, over a stiffness of {stiffness:.3e}");
+    Line::new(Question::Rest, Verdict::Wrong, Some(figure), text).with("stress at rest")
+}

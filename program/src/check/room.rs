@@ -1,0 +1,67 @@
+//! A folder for what is built and asked, which goes with its owner.
+
+use std::path::{Path, PathBuf};
+
+use crate::common::error::Error;
+
+pub struct Room {
+    pub path: PathBuf,
+}
+
+impl Room {
+    /// # Errors
+    /// It cannot be made.
+    pub fn new() -> Result<Room, Error> {
+        let path = std::env::temp_dir().join(format!("toron-check-{}", std::process::id()));
+        let error = |error: std::io::Error| Error::Input(format!("{}: {error}", path.display()));
+        // What an earlier process of this number has left.
+        if path.exists() {
+            std::fs::remove_dir_all(&path).map_err(error)?;
+        }
+        std::fs::create_dir_all(running(&path)).map_err(error)?;
+        std::fs::create_dir(in_either_case(&path)).map_err(error)?;
+        Ok(Room { path })
+    }
+}
+
+/// Where in the room the law runs.
+pub fn running(room: &Path) -> PathBuf {
+    room.join("run")
+}
+
+/// Where the names of the files beside a law are in small letters and in capitals: Windows does not tell them apart.
+pub fn in_either_case(room: &Path) -> PathBuf {
+    room.join("names")
+}
+
+/// Files that a law may read, beside it: so many, and no longer ones.
+const FILES: usize = 200;
+const LONGEST: u64 = 1 << 20;
+
+/// Copies the files beside a law to where it runs: it may read some, and must not write to them.
+///
+/// # Errors
+/// They cannot be read or written.
+pub fn furnish(room: &Path, law: &Path) -> Result<(), Error> {
+    let Some(beside) = law.parent() else { return Ok(()) };
+    let error = |error: std::io::Error| Error::Input(format!("{}: {error}", beside.display()));
+    for entry in std::fs::read_dir(beside).map_err(error)?.take(FILES) {
+        let entry = entry.map_err(error)?;
+        let data = entry.metadata().map_err(error)?;
+        if data.is_file() && data.len() <= LONGEST {
+            std::fs::copy(entry.path(), running(room).join(entry.file_name())).map_err(error)?;
+            let name = entry.file_name().to_string_lossy().to_string();
+            for name in [name.to_lowercase(), name.to_uppercase()] {
+                std::fs::copy(entry.path(), in_either_case(room).join(name)).map_err(error)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Drop for Room {
+    fn drop(&mut self) {
+        // What cannot be removed stays where the system puts what is temporary.
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}

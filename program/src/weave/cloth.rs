@@ -1,0 +1,117 @@
+//! What is struck: a panel that is woven here, or one of a mesh file.
+
+use toml::Spanned;
+
+use super::figures::Figures;
+use super::file::{PlyFile, WeaveFile};
+use super::foreign::file::MeshFile;
+use super::foreign::reader::Foreign;
+use super::layup::{Layup, Ply};
+use super::model::Model;
+use super::panel::Part;
+use crate::common::error::Error;
+use crate::common::toml_file::Source;
+use toron::host::units::UnitSystem;
+
+#[derive(Clone, Debug)]
+pub enum Cloth {
+    Woven(Layup),
+    Foreign(Box<Foreign>),
+}
+
+impl Cloth {
+    pub fn model(&self) -> Model {
+        match self {
+            Cloth::Woven(layup) => layup.model(),
+            Cloth::Foreign(foreign) => foreign.model.clone(),
+        }
+    }
+
+    /// Of each ply, in the model of this; a mesh is one ply.
+    pub fn figures(&self, model: &Model) -> Vec<Figures> {
+        match self {
+            Cloth::Woven(layup) => {
+                let plies = layup.plies.iter().enumerate();
+                plies.map(|(number, ply)| Figures::of(model, number, &ply.woven.geometry)).collect()
+            }
+            Cloth::Foreign(foreign) => vec![foreign.figures],
+        }
+    }
+
+    /// The part of the panel that is modelled.
+    pub fn part(&self) -> Part {
+        match self {
+            Cloth::Woven(layup) => layup.part(),
+            Cloth::Foreign(foreign) => foreign.part,
+        }
+    }
+
+    /// The least distance of two yarns at rest.
+    pub fn clearance(&self) -> f64 {
+        match self {
+            Cloth::Woven(layup) => layup.clearance,
+            Cloth::Foreign(foreign) => foreign.clearance,
+        }
+    }
+
+    /// The least and the largest height of a yarn.
+    pub fn yarn_heights(&self) -> [f64; 2] {
+        match self {
+            Cloth::Woven(layup) => layup.yarn_heights(),
+            Cloth::Foreign(foreign) => {
+                [foreign.heights[0].min(foreign.heights[1]), foreign.heights[0].max(foreign.heights[1])]
+            }
+        }
+    }
+
+    /// The plies that are woven here.
+    pub fn plies(&self) -> &[Ply] {
+        match self {
+            Cloth::Woven(layup) => &layup.plies,
+            Cloth::Foreign(_) => &[],
+        }
+    }
+
+    /// Elements that reach into another yarn.
+    pub fn overlapping(&self) -> &[usize] {
+        match self {
+            Cloth::Woven(_) => &[],
+            Cloth::Foreign(foreign) => &foreign.checks.overlapping,
+        }
+    }
+
+    /// The largest pitch.
+    pub fn pitch(&self) -> f64 {
+        match self {
+            Cloth::Woven(layup) => {
+                let threads = layup.plies.iter().flat_map(|ply| ply.woven.geometry.weave.threads);
+                threads.map(|thread| thread.pitch).fold(0.0, f64::max)
+            }
+            Cloth::Foreign(foreign) => foreign.pitch[0].max(foreign.pitch[1]),
+        }
+    }
+}
+
+impl Source<'_> {
+    /// The table `[weave]` with its `[[ply]]`, or `[mesh]`.
+    ///
+    /// # Errors
+    /// Neither or both are there, or what is wrong with the one.
+    pub fn cloth(
+        &self,
+        weave: Option<&Spanned<WeaveFile>>,
+        plies: &[Spanned<PlyFile>],
+        mesh: Option<&Spanned<MeshFile>>,
+        units: &UnitSystem,
+    ) -> Result<Cloth, Error> {
+        match (weave, mesh) {
+            (Some(weave), None) => self.layup(weave, plies, units, None).map(Cloth::Woven),
+            (None, Some(mesh)) => match plies.first() {
+                Some(ply) => Err(self.error(ply.span(), "[[ply]] beside [mesh]; allowed: with [weave]")),
+                None => self.foreign(mesh, units).map(|foreign| Cloth::Foreign(Box::new(foreign))),
+            },
+            (Some(_), Some(mesh)) => Err(self.error(mesh.span(), "[mesh] beside [weave]; allowed: one of them")),
+            (None, None) => Err(self.error(0..0, "[weave] is missing; allowed: [weave], or [mesh] with a file")),
+        }
+    }
+}

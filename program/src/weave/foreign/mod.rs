@@ -1,0 +1,14 @@
+//! Meshes of panels that others have made: read, turned as the model has them, and checked. `docs/guides/fabric.md` has the formats.
+
+pub mod abaqus;
+pub mod bins;
+pub mod build;
+pub mod checks;
+pub mod file;
+pub mod ls_dyna;
+pub mod orient;
+pub mod raw;
+pub mod reader;
+#[cfg(test)]
+mod tests;
+pub mod vtu;
