@@ -157,6 +157,11 @@ impl Call {
         ]
     }
 
+    /// From the bits of numbers in a row: they need not be finite.
+    pub fn from_bits(row: &[u64]) -> Option<Call> {
+        Call::from_numbers(&row.iter().map(|&bits| f64::from_bits(bits)).collect::<Vec<f64>>())
+    }
+
     /// From numbers in a row.
     pub fn from_numbers(row: &[f64]) -> Option<Call> {
         let mut rest = row.iter().copied();

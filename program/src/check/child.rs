@@ -104,8 +104,7 @@ pub fn answer(request: &Path) -> Result<(), Error> {
         }
         Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
-            let numbers: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
-            let call = Call::from_numbers(&numbers).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
+            let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
             Said::Answer(in_words(&session.ask(&call), &material))
         }
     };

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::call::Call;
 use super::child::{self, Ending, Said, Task};
 use super::compile::{self, Built};
 use super::guarded::Fence;
@@ -156,6 +157,7 @@ impl Check<'_> {
             }
             lines.push(line);
         }
+        seen_together(&mut lines);
         Ok(OfMaterial { name: material.name.clone(), law: reads.map(|reads| reads.name().to_string()), lines })
     }
 
@@ -197,7 +199,12 @@ impl Check<'_> {
         let mut answer = None;
         for &fence in fences {
             match self.ask(material, task.clone(), fence, checked, longest_call)? {
-                Ok(Said::Line(line)) => answer = Some(line),
+                Ok(Said::Line(mut line)) => {
+                    if let Some(call) = line.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
+                        line.call = Some(self.kept(material, question, fence, call)?);
+                    }
+                    answer = Some(line);
+                }
                 Ok(_) => {}
                 Err(ending) => return self.ended(material, question, ending, fence, ended),
             }
@@ -246,17 +253,72 @@ impl Check<'_> {
         if question == Question::Invalid && kind == "stop" {
             return Ok(Line::new(question, Verdict::Warning, None, text).with("stop"));
         }
+        if let Some(array) = old_assumed_size(&text) {
+            let text = format!(
+                "{text}: if it is an argument, {array}(1) is the old way to write {array}(*), which hides the rest from this check"
+            );
+            return Ok(Line::new(question, Verdict::Warning, None, text).with("assumed size"));
+        }
         if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
             let text = format!("ends as in {} does: {text}", first.name());
             return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
         }
         ended.push((kind.clone(), question));
         let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
-        // The build with checks at run time is not the one that repeats a call.
-        if let Some(call) = call.filter(|_| question != Question::Runtime) {
-            let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
-            line.call = Some(repeated.write(&self.arguments.output, question)?.display().to_string());
+        // The build with checks at run time is not the one that repeats a call, and of threads no call is kept.
+        if let Some(call) = call.filter(|_| !matches!(question, Question::Runtime | Question::Threads)) {
+            line.call = Some(self.kept(material, question, fence, call)?);
         }
         Ok(line)
+    }
+
+    /// The file of a call, for `--again`.
+    fn kept(&self, material: &Material, question: Question, fence: Fence, call: Call) -> Result<String, Error> {
+        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
+        Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
+    }
+}
+
+/// The array of a message of gfortran's checks that has one entry by its declaration, and more by its use.
+fn old_assumed_size(message: &str) -> Option<&str> {
+    let (_, rest) = message.split_once(" of dimension 1 of array '")?;
+    let (array, rest) = rest.split_once('\'')?;
+    (rest.trim() == "above upper bound of 1").then_some(array)
+}
+
+/// What one line says of another: where the stress itself is wrong, the tangent's kind may follow from it.
+fn seen_together(lines: &mut [Line]) {
+    let is_wrong =
+        |question: Question| lines.iter().any(|line| line.line == question.name() && line.verdict == Verdict::Wrong);
+    let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
+    let Some(of_stress) = of_stress.map(Question::name) else { return };
+    for line in lines.iter_mut().filter(|line| line.line == Question::Tangent.name()) {
+        if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
+            line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; perhaps: {}", line.text);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_of_one_entry_is_told_from_a_true_bound() {
+        let of =
+            |bound: &str| format!("umat.f:17: Index '2' of dimension 1 of array 'props' above upper bound of {bound}");
+        assert_eq!(old_assumed_size(&of("1")), Some("props"));
+        assert_eq!(old_assumed_size(&of("12")), None);
+    }
+
+    #[test]
+    fn a_wrong_stress_comes_before_the_tangent() {
+        let tangent = Line::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
+        let mut alone = [tangent.clone(), Line::new(Question::Objectivity, Verdict::Right, None, "")];
+        seen_together(&mut alone);
+        assert_eq!(alone[0].text, "symmetrised");
+        let mut both = [tangent, Line::new(Question::Objectivity, Verdict::Wrong, None, "")];
+        seen_together(&mut both);
+        assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
     }
 }

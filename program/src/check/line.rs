@@ -43,15 +43,26 @@ pub struct Line {
     pub text: String,
     /// In what way it is wrong; several where they cannot be told apart.
     pub kinds: Vec<String>,
-    /// The file of a call that ended the process, for `--again`.
+    /// The file of a call that ended the process, or that is the worst of few, for `--again`.
     pub call: Option<String>,
+    /// That call as the child says it, as bits: the parent writes the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub call_bits: Option<Vec<u64>>,
 }
 
 impl Line {
     pub fn new(question: Question, verdict: Verdict, figure: Option<f64>, text: impl Into<String>) -> Self {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
-        Line { line: question.name().to_string(), verdict, figure, text: text.into(), kinds: Vec::new(), call: None }
+        Line {
+            line: question.name().to_string(),
+            verdict,
+            figure,
+            text: text.into(),
+            kinds: Vec::new(),
+            call: None,
+            call_bits: None,
+        }
     }
 
     pub fn with(mut self, kind: &str) -> Self {

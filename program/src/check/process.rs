@@ -164,6 +164,8 @@ fn what_differs(a: &Answer, b: &Answer) -> String {
 }
 
 const THREADS: usize = 8;
+/// Of a thread: local arrays of a law may be large, and solvers' threads have room for them.
+const STACK: usize = 256 << 20;
 
 /// Eight threads at once, each with a history of its own.
 pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
@@ -186,11 +188,18 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     let Ok(sessions) = sessions else {
         return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for eight threads");
     };
-    let found: Vec<Result<i32, ()>> = std::thread::scope(|scope| {
+    let found: std::io::Result<Vec<Result<i32, ()>>> = std::thread::scope(|scope| {
         let run = &run;
-        let threads = sessions.into_iter().enumerate().map(|(k, session)| scope.spawn(move || run(k, session)));
-        threads.collect::<Vec<_>>().into_iter().map(|thread| thread.join().unwrap_or(Err(()))).collect()
+        let threads = sessions.into_iter().enumerate().map(|(k, session)| {
+            let builder = std::thread::Builder::new().stack_size(STACK);
+            builder.spawn_scoped(scope, move || run(k, session))
+        });
+        let threads: Result<Vec<_>, _> = threads.collect();
+        threads.map(|threads| threads.into_iter().map(|thread| thread.join().unwrap_or(Err(()))).collect())
     });
+    let Ok(found) = found else {
+        return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for the stacks of eight threads");
+    };
     let wrong = found.iter().filter(|found| found.is_err()).count();
     if wrong > 0 {
         let text =

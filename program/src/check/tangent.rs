@@ -23,6 +23,10 @@ const HISTORIES: usize = 60;
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
 
+/// So many wrong states of at least [`MANY`] times as many are a warning.
+const FEW: usize = 2;
+const MANY: usize = 25;
+
 /// Relative difference from which the modulus of unloading is another than that of loading.
 const TWO_MODULI: f64 = 5e-2;
 
@@ -174,7 +178,12 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
     });
     let factor = factor.fold(0.0, f64::max);
     let slows = convergence(factor);
-    let (kinds, way) = in_what_way(session, &states, &wrong, &right, &found, Convention::of(reads, components));
+    let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
+    let (kinds, way) = if few {
+        (vec!["few states".to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
+    } else {
+        in_what_way(session, &states, &wrong, &right, &found, Convention::of(reads, components))
+    };
     let where_ = states_named(&states, &wrong);
     let text = format!(
         "{way}; wrong at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
@@ -182,9 +191,12 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
         states.len(),
         states[at].name,
     );
-    let verdict = if difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
+    let verdict = if few || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut line = Line::new(Question::Tangent, verdict, Some(difference.worst), text);
     line.kinds = kinds;
+    if few {
+        line.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
+    }
     line
 }
 
