@@ -18,6 +18,8 @@ use super::point::{Failure, Point};
 /// States that are asked at, if the time suffices.
 const STATES: usize = 200;
 const TIME: Duration = Duration::from_secs(14);
+/// For naming what is wrong.
+const TIME_FOR_NAMES: Duration = Duration::from_secs(14);
 /// Histories, at most; each gives some states.
 const HISTORIES: usize = 60;
 /// States on which mistakes are tried, of the wrong and of the right ones.
@@ -98,12 +100,15 @@ impl State {
 
 /// The states of the answer. A law whose mistake has no name is asked again with 13 and 23 for each other.
 pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
+    let started = Instant::now();
     let mut line = ask_in_order(session, reads, allowed);
-    if session.material.components == 6 && line.kinds == ["unknown"] {
+    // As long again must not be too long.
+    if session.material.components == 6 && line.kinds == ["unknown"] && started.elapsed() < TIME {
         session.exchange(true);
         let exchanged = ask_in_order(session, reads, allowed);
         session.exchange(false);
-        if exchanged.kinds != line.kinds {
+        let named = exchanged.verdict == Verdict::Wrong && exchanged.kinds != line.kinds;
+        if exchanged.verdict == Verdict::Right || named {
             line.kinds = vec![EXCHANGED.to_string()];
             line.kinds.extend(exchanged.kinds);
             let text = if exchanged.verdict == Verdict::Right { line.text } else { exchanged.text };
@@ -250,13 +255,16 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
         let path = history(&mut rng, session.material, 3);
         let asked = [rng.usize(0..path.len()), rng.usize(0..path.len()), path.len() - 1, 0];
         for (k, f1) in path.iter().enumerate() {
+            if started.elapsed() > TIME {
+                break 'histories;
+            }
             if asked.contains(&k) && !(k == 0 && number % 4 > 0) {
                 let name = kind_of(&point, f1);
                 match state(session, &point, f1, reads, name) {
                     Ok(state) => states.push(state),
                     Err(failure) => broken |= refused(failure)?,
                 }
-                if states.len() >= STATES || started.elapsed() > TIME {
+                if states.len() >= STATES {
                     break 'histories;
                 }
             }
@@ -346,12 +354,17 @@ fn in_what_way(
     let wrong: Vec<usize> = wrong.into_iter().step_by(spread).collect();
     let right: Vec<usize> = right.iter().copied().step_by(right.len().div_ceil(TRIED).max(1)).collect();
     let mut names: Vec<(Vec<&'static str>, String, Factor, bool)> = Vec::new();
+    let deadline = Instant::now() + TIME_FOR_NAMES;
     for &convention in conventions {
-        let tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = wrong
-            .iter()
-            .chain(&right)
-            .filter_map(|&k| Some((k, hypotheses::all(&sight(session, &states[k], convention)?, components))))
-            .collect();
+        let mut tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = Vec::new();
+        for &k in wrong.iter().chain(&right) {
+            if Instant::now() > deadline {
+                return (vec!["unknown".to_string()], "too slow a law to be asked in what way".to_string());
+            }
+            if let Some(sight) = sight(session, &states[k], convention) {
+                tried.push((k, hypotheses::all(&sight, components)));
+            }
+        }
         let Some(count) = tried.first().map(|(_, all)| all.len()) else { continue };
         for h in 0..count {
             let common = common_factor(states, &tried, h);
