@@ -22,6 +22,8 @@ struct Worst {
     figure: f64,
     compared: usize,
     text: String,
+    /// Histories that the law refuses turned, and not as they are.
+    refused_turned: usize,
 }
 
 /// Superposed rotations: of a total law at once, of others in turns as solvers have them.
@@ -151,7 +153,7 @@ fn compared(
     rotations: impl Fn(&mut Rng, &Material, usize, usize) -> (String, Vec<Matrix3<f64>>),
 ) -> Result<Worst, String> {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x0b);
-    let mut worst = Worst { figure: 0.0, compared: 0, text: String::new() };
+    let mut worst = Worst { figure: 0.0, compared: 0, text: String::new(), refused_turned: 0 };
     for number in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -167,6 +169,10 @@ fn compared(
                 (Ok(_), Ok(_)) => {}
                 (Err(Failure::NotFinite(_)), _) | (_, Err(Failure::NotFinite(_))) => {
                     return Err(format!("not finite with {text}"));
+                }
+                (Ok(_), Err(Failure::Refused)) => {
+                    worst.refused_turned += 1;
+                    break;
                 }
                 _ => break,
             }
@@ -196,6 +202,15 @@ fn divided(path: &[Matrix3<f64>], parts: usize) -> Vec<Matrix3<f64>> {
 }
 
 fn judged(question: Question, kind: &str, worst: &Worst, right: &str) -> Line {
+    if worst.figure <= TOLERANCE && worst.refused_turned > 0 {
+        let text = format!(
+            "{} of {HISTORIES} histories end with PNEWDT if they are turned, and not else",
+            worst.refused_turned
+        );
+        let most = 2 * worst.refused_turned > HISTORIES;
+        let verdict = if most { Verdict::Wrong } else { Verdict::Warning };
+        return Line::new(question, verdict, None, text).with(kind);
+    }
     if worst.compared == 0 {
         return Line::new(question, Verdict::NotSure, None, "there was no stress");
     }
