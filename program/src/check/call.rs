@@ -79,7 +79,7 @@ impl Law {
         // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
         let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
         let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
-        let umat = symbol::<Umat>(&library, "umat").ok_or("there is no subroutine UMAT")?;
+        let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
         Ok(Law { umat, sdvini, uexternaldb, _library: library })
     }
@@ -95,6 +95,21 @@ impl Law {
             }
         }
     }
+}
+
+/// What is said of a library without UMAT: what it has instead, by the names of its symbols.
+fn without_umat(path: &Path) -> String {
+    let bytes = std::fs::read(path).unwrap_or_default();
+    let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    let texts = bytes.split(|&byte| byte == 0).filter_map(|text| std::str::from_utf8(text).ok()).filter(is_name);
+    let mut names: Vec<String> = texts
+        .filter(|text| text.to_lowercase().contains("umat") && text.ends_with('_'))
+        .map(|text| text.trim_end_matches('_').to_uppercase())
+        .collect();
+    names.sort();
+    names.dedup();
+    let instead = if names.is_empty() { String::new() } else { format!("; there is {}", names.join(", ")) };
+    format!("there is no subroutine UMAT (symbol umat_){instead}")
 }
 
 /// The address of a subroutine, under the names that compilers give it.

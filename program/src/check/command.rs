@@ -12,11 +12,12 @@ use super::child::{self, Ending, Said, Task};
 use super::compile::{self, Built};
 use super::guarded::Fence;
 use super::input::{self, Input, Over};
-use super::line::{Line, Question, Verdict};
-use super::material::{Material, Reads};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
+use super::material::{DEFAULT_NAME, Material, Reads};
 use super::repeated::Repeated;
 use super::report::{OfMaterial, Report};
 use super::room::Room;
+use super::shared;
 use crate::common::console::print;
 use crate::common::error::Error;
 
@@ -40,6 +41,12 @@ pub struct Arguments {
     /// What the law is: hyperelastic, dissipative, isotropic.
     #[arg(long, value_delimiter = ',')]
     traits: Option<Vec<String>>,
+    /// CMNAME.
+    #[arg(long)]
+    name: Option<String>,
+    /// Axes that turn with the material, as with *ORIENTATION.
+    #[arg(long)]
+    orientation: bool,
     /// Seed of the random states.
     #[arg(long)]
     seed: Option<u64>,
@@ -88,6 +95,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         states: arguments.statev,
         components: arguments.ntens,
         traits: arguments.traits.clone(),
+        name: arguments.name.clone(),
+        orientation: arguments.orientation,
         seed: arguments.seed,
     };
     let Input { materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
@@ -170,7 +179,10 @@ impl Check<'_> {
         longest_call: Duration,
     ) -> Result<Result<Said, Ending>, Error> {
         let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
-        child::ask(self.room, library, material, task, fence, longest_call)
+        child::ask(self.room, library, material, task, fence, longest_call).map_err(|error| match error {
+            Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
+            other => other,
+        })
     }
 
     fn question(
@@ -247,6 +259,10 @@ impl Check<'_> {
         if kind == "slow" {
             return Ok(Line::new(question, Verdict::NotSure, None, text));
         }
+        if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
+            let text = format!("ends as in {}", first.name());
+            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
+        }
         if question == Question::Invalid && kind == "XIT" {
             return Ok(Line::new(question, Verdict::Right, None, text));
         }
@@ -259,12 +275,18 @@ impl Check<'_> {
             );
             return Ok(Line::new(question, Verdict::Warning, None, text).with("assumed size"));
         }
-        if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
-            let text = format!("ends as in {} does: {text}", first.name());
-            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
-        }
         ended.push((kind.clone(), question));
-        let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
+        let of_the_line = kind == "runtime check"
+            || matches!(question, Question::Threads | Question::Repeat | Question::Histories)
+            || shared::ARRAYS.iter().any(|array| kind.ends_with(array));
+        let verdict = if of_the_line { Verdict::Wrong } else { Verdict::Ended };
+        let hint = match kind.as_str() {
+            "XIT" | "stop" if material.name == DEFAULT_NAME => {
+                format!("; CMNAME is {DEFAULT_NAME} here: --name, if the law asks for it")
+            }
+            _ => String::new(),
+        };
+        let mut line = Line::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
         // The build with checks at run time is not the one that repeats a call, and of threads no call is kept.
         if let Some(call) = call.filter(|_| !matches!(question, Question::Runtime | Question::Threads)) {
             line.call = Some(self.kept(material, question, fence, call)?);
@@ -286,8 +308,15 @@ fn old_assumed_size(message: &str) -> Option<&str> {
     (rest.trim() == "above upper bound of 1").then_some(array)
 }
 
-/// What one line says of another: where the stress itself is wrong, the tangent's kind may follow from it.
+/// What one line says of another: one cause is told once.
 fn seen_together(lines: &mut [Line]) {
+    stress_before_tangent(lines);
+    not_finite_once(lines);
+    crash_of_unset_variable(lines);
+}
+
+/// Where the stress itself is wrong, the tangent's kind may follow from it.
+fn stress_before_tangent(lines: &mut [Line]) {
     let is_wrong =
         |question: Question| lines.iter().any(|line| line.line == question.name() && line.verdict == Verdict::Wrong);
     let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
@@ -295,6 +324,37 @@ fn seen_together(lines: &mut [Line]) {
     for line in lines.iter_mut().filter(|line| line.line == Question::Tangent.name()) {
         if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
             line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; perhaps: {}", line.text);
+        }
+    }
+}
+
+/// What is not finite in one line is so in others.
+fn not_finite_once(lines: &mut [Line]) {
+    let mut first: Option<String> = None;
+    for line in lines.iter_mut() {
+        if line.verdict != Verdict::Wrong || !line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+            continue;
+        }
+        match &first {
+            Some(first) => {
+                line.verdict = Verdict::NotSure;
+                line.text = format!("not finite, as in {first}");
+            }
+            None => first = Some(line.line.clone()),
+        }
+    }
+}
+
+/// A crash where the build with checks has found the cause.
+fn crash_of_unset_variable(lines: &mut [Line]) {
+    let runtime = Question::Runtime.name();
+    if !lines.iter().any(|line| line.line == runtime && line.verdict == Verdict::Wrong) {
+        return;
+    }
+    for line in lines.iter_mut() {
+        if line.verdict.fails() && line.kinds.iter().any(|kind| kind == "crash") {
+            line.verdict = Verdict::NotSure;
+            line.text.push_str("; see runtime");
         }
     }
 }
@@ -320,5 +380,10 @@ mod tests {
         let mut both = [tangent, Line::new(Question::Objectivity, Verdict::Wrong, None, "")];
         seen_together(&mut both);
         assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
+        let not_finite = |question| Line::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
+        let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
+        seen_together(&mut both);
+        assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);
+        assert_eq!(both[1].text, "not finite, as in rest");
     }
 }

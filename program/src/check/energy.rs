@@ -8,7 +8,7 @@ use nalgebra::Matrix3;
 use super::call::Session;
 use super::histories::{direction, gradient};
 use super::kinematics::exp;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -99,7 +99,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         let found = match cycle(session, &mut rng, INCREMENTS) {
             Ok(Some(found)) if found.way > 0.0 => found,
             Ok(_) => continue,
-            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with("NaN"),
+            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with(NOT_FINITE),
         };
         asked += 1;
         worst = worst.max((found.work.abs() - 10.0 * found.unsure).max(0.0) / found.way);
@@ -220,7 +220,7 @@ pub fn energy(session: &mut Session) -> Line {
     let found = match reported(session, STRAIGHT) {
         Ok(Some(found)) => found,
         Ok(None) => return Line::new(Question::Energy, Verdict::NotSure, None, "no path without smaller increments"),
-        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with("NaN"),
+        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     if found.untouched {
         return Line::new(Question::Energy, Verdict::NotReported, None, "SSE is not set");
@@ -274,7 +274,7 @@ pub fn dissipation(session: &mut Session) -> Line {
         return Line::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
     }
     match reported(session, STRAIGHT) {
-        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with("NaN"),
+        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with(NOT_FINITE),
         Ok(None) => Line::new(Question::Dissipation, Verdict::NotSure, None, "no path without smaller increments"),
         Ok(Some(found)) if found.dissipated_untouched => {
             Line::new(Question::Dissipation, Verdict::NotReported, None, "SPD and SCD are not set")

@@ -2,12 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The kind of what is not finite.
+pub const NOT_FINITE: &str = "NaN";
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     #[serde(rename = "right")]
     Right,
     #[serde(rename = "wrong")]
     Wrong,
+    /// The law ended the process, or did not return.
+    #[serde(rename = "ended")]
+    Ended,
     #[serde(rename = "warning")]
     Warning,
     #[serde(rename = "not sure")]
@@ -19,10 +25,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Whether it fails the check.
+    pub fn fails(self) -> bool {
+        matches!(self, Verdict::Wrong | Verdict::Ended)
+    }
+
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Right => "right",
             Verdict::Wrong => "wrong",
+            Verdict::Ended => "ended",
             Verdict::Warning => "warning",
             Verdict::NotSure => "not sure",
             Verdict::NotReported => "not reported",

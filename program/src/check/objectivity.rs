@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::call::Session;
 use super::histories::{LARGEST_TURN, history, rotation, turn};
 use super::kinematics::Increment;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 use super::tangent::EXCHANGED;
@@ -84,7 +84,7 @@ pub fn at_large_turns(session: &mut Session) -> Line {
 fn objective(session: &mut Session, asked: &dyn Fn(&mut Session) -> Result<Worst, String>) -> Line {
     let worst = match asked(session) {
         Ok(worst) => worst,
-        Err(text) => return Line::new(Question::Objectivity, Verdict::Wrong, None, text).with("NaN"),
+        Err(text) => return Line::new(Question::Objectivity, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     let mut line = judged(Question::Objectivity, "not objective", &worst, "superposed rotations turn the stress alone");
     if line.verdict == Verdict::Wrong && session.material.components == 6 {
@@ -122,7 +122,7 @@ pub fn isotropy(session: &mut Session) -> Line {
     }
     match compared(session, 1, |f, q| q * f * q.transpose(), rotations) {
         Ok(worst) => judged(Question::Isotropy, "axes matter", &worst, "turning the material turns the stress alone"),
-        Err(text) => Line::new(Question::Isotropy, Verdict::Wrong, None, text).with("NaN"),
+        Err(text) => Line::new(Question::Isotropy, Verdict::Wrong, None, text).with(NOT_FINITE),
     }
 }
 

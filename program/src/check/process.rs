@@ -10,7 +10,7 @@ use super::call::{Answer, Call, Law, Session};
 use super::guarded::Fence;
 use super::histories::{LARGEST_TURN, history, state};
 use super::kinematics::{Increment, name};
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -404,7 +404,7 @@ pub fn histories(session: &mut Session, reads: Reads) -> Line {
                     let answer = session.ask(&call);
                     let text =
                         format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
-                    return Line::new(Question::Histories, Verdict::Wrong, None, text).with("NaN");
+                    return Line::new(Question::Histories, Verdict::Wrong, None, text).with(NOT_FINITE);
                 }
             }
         }
@@ -461,7 +461,9 @@ pub fn runtime(session: &mut Session) -> Line {
                         "{} of the build that fills unset reals with NaN: a variable is used unset",
                         not_finite(&answer, session)
                     );
-                    return Line::new(Question::Runtime, Verdict::Wrong, None, text).with("runtime check");
+                    return Line::new(Question::Runtime, Verdict::Wrong, None, text)
+                        .with("runtime check")
+                        .with(NOT_FINITE);
                 }
             }
         }

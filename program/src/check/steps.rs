@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use super::call::Session;
 use super::histories::history;
 use super::kinematics::Increment;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::point::{Failure, Point};
 
 const HISTORIES: usize = 16;
@@ -39,7 +39,7 @@ pub fn ask(session: &mut Session) -> Line {
                     size = size.max(largest);
                 }
                 Ok(None) => {}
-                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with("NaN"),
+                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
             }
         }
         let [one, two, four, eight, sixteen] = ends[..] else { continue };

@@ -11,7 +11,7 @@ use super::histories::history;
 use super::hypotheses::{self, Factor, Sight, stress_by_volume};
 use super::judgement::{Difference, compare, contraction};
 use super::kinematics::{Components, Increment, Modulus, name, of_stress, rotation_of};
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::Reads;
 use super::point::{Failure, Point};
 
@@ -294,7 +294,7 @@ fn refused(failure: Failure) -> Result<bool, Box<Line>> {
         Failure::Refused => Ok(true),
         Failure::NotFinite(call) => {
             let text = format!("stress, state or DDSDDE is not finite at increment {}", call.increment);
-            Err(Box::new(Line::new(Question::Tangent, Verdict::Wrong, None, text).with("NaN")))
+            Err(Box::new(Line::new(Question::Tangent, Verdict::Wrong, None, text).with(NOT_FINITE)))
         }
     }
 }

@@ -53,13 +53,13 @@ fn complaints(report: &Value) -> Vec<Complaint> {
         lines
     });
     let text = |value: &Value| value.as_str().expect("text").to_string();
-    let complaints =
-        lines.filter(|line| line["verdict"] == "wrong" || line["verdict"] == "warning").map(|line| Complaint {
-            line: text(&line["line"]),
-            verdict: text(&line["verdict"]),
-            kinds: line["kinds"].as_array().expect("kinds").iter().map(text).collect(),
-            text: text(&line["text"]),
-        });
+    let is_one = |line: &&Value| ["wrong", "ended", "warning"].iter().any(|verdict| line["verdict"] == *verdict);
+    let complaints = lines.filter(is_one).map(|line| Complaint {
+        line: text(&line["line"]),
+        verdict: text(&line["verdict"]),
+        kinds: line["kinds"].as_array().expect("kinds").iter().map(text).collect(),
+        text: text(&line["text"]),
+    });
     complaints.collect()
 }
 
