@@ -17,43 +17,43 @@ type Whole = *mut i32;
 
 /// `SUBROUTINE UMAT(STRESS, STATEV, DDSDDE, SSE, ...)`, with the length of CMNAME behind the last argument.
 type Umat = unsafe extern "C" fn(
-    Reals,         // STRESS
-    Reals,         // STATEV
-    Reals,         // DDSDDE
-    Reals,         // SSE
-    Reals,         // SPD
-    Reals,         // SCD
-    Reals,         // RPL
-    Reals,         // DDSDDT
-    Reals,         // DRPLDE
-    Reals,         // DRPLDT
-    Reals,         // STRAN
-    Reals,         // DSTRAN
-    Reals,         // TIME
-    Reals,         // DTIME
-    Reals,         // TEMP
-    Reals,         // DTEMP
-    Reals,         // PREDEF
-    Reals,         // DPRED
-    *const c_char, // CMNAME
-    Whole,         // NDI
-    Whole,         // NSHR
-    Whole,         // NTENS
-    Whole,         // NSTATV
-    Reals,         // PROPS
-    Whole,         // NPROPS
-    Reals,         // COORDS
-    Reals,         // DROT
-    Reals,         // PNEWDT
-    Reals,         // CELENT
-    Reals,         // DFGRD0
-    Reals,         // DFGRD1
-    Whole,         // NOEL
-    Whole,         // NPT
-    Whole,         // LAYER
-    Whole,         // KSPT
-    Whole,         // JSTEP(4)
-    Whole,         // KINC
+    Reals,       // STRESS
+    Reals,       // STATEV
+    Reals,       // DDSDDE
+    Reals,       // SSE
+    Reals,       // SPD
+    Reals,       // SCD
+    Reals,       // RPL
+    Reals,       // DDSDDT
+    Reals,       // DRPLDE
+    Reals,       // DRPLDT
+    Reals,       // STRAN
+    Reals,       // DSTRAN
+    Reals,       // TIME
+    Reals,       // DTIME
+    Reals,       // TEMP
+    Reals,       // DTEMP
+    Reals,       // PREDEF
+    Reals,       // DPRED
+    *mut c_char, // CMNAME
+    Whole,       // NDI
+    Whole,       // NSHR
+    Whole,       // NTENS
+    Whole,       // NSTATV
+    Reals,       // PROPS
+    Whole,       // NPROPS
+    Reals,       // COORDS
+    Reals,       // DROT
+    Reals,       // PNEWDT
+    Reals,       // CELENT
+    Reals,       // DFGRD0
+    Reals,       // DFGRD1
+    Whole,       // NOEL
+    Whole,       // NPT
+    Whole,       // LAYER
+    Whole,       // KSPT
+    Whole,       // JSTEP(4)
+    Whole,       // KINC
     usize,
 );
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
@@ -360,6 +360,7 @@ impl<'a> Session<'a> {
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
         self.properties.numbers_mut().copy_from_slice(&self.material.properties);
+        let mut name = self.name;
         let [mut elastic, mut plastic, mut creep] = call.energies;
         let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
         let (mut by_temperature, mut heat_by_strain) = ([0.0; 6], [0.0; 6]);
@@ -401,7 +402,7 @@ impl<'a> Session<'a> {
                 &mut temperature_step,
                 field.as_mut_ptr(),
                 field_step.as_mut_ptr(),
-                self.name.as_ptr(),
+                name.as_mut_ptr(),
                 &mut direct,
                 &mut shear,
                 &mut all,

@@ -222,6 +222,11 @@ impl Check<'_> {
             }
         }
         let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
+        if checked && line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+            let unset = self.built.used_unset(self.file, self.room);
+            let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
+            return Ok(Line { text: format!("{}{unset}", line.text), ..line });
+        }
         if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
             return self.at_large_turns(material, line, fence, longest_call);
         }
