@@ -328,7 +328,9 @@ fn stress_before_tangent(lines: &mut [Line]) {
     let Some(of_stress) = of_stress.map(Question::name) else { return };
     for line in lines.iter_mut().filter(|line| line.line == Question::Tangent.name()) {
         if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
-            line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; perhaps: {}", line.text);
+            let kind = line.text.strip_prefix("none of the usual mistakes; ");
+            let text = kind.map_or_else(|| format!("perhaps {}", line.text), str::to_string);
+            line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
         }
     }
 }
