@@ -27,8 +27,9 @@ const KEPT: usize = 1 << 14;
 /// Exit codes of `utilities.c`.
 const BY_XIT: i32 = 71;
 const BY_MESSAGE: i32 = 72;
-/// The child's own exit code for a library that cannot be loaded.
+/// The child's own exit codes: for a library that cannot be loaded, and for what is not the law's.
 const NOT_LOADED: i32 = 73;
+const FAILED: i32 = 75;
 /// What the loader ends a process with.
 const UNRESOLVED: i32 = 127;
 /// Rust's, after a panic.
@@ -80,8 +81,16 @@ pub struct Ending {
 /// The child: answers a request, and ends.
 ///
 /// # Errors
-/// The request cannot be read.
+/// None that come back: its exit code tells its own failures from the law's ends.
 pub fn answer(request: &Path) -> Result<(), Error> {
+    if let Err(error) = answered(request) {
+        crate::common::console::print_error(&error.to_string());
+        std::process::exit(FAILED);
+    }
+    Ok(())
+}
+
+fn answered(request: &Path) -> Result<(), Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", request.display()));
     let text = std::fs::read(request).map_err(io_error)?;
     let Request { library, material, task, fence, shared, result } =
@@ -104,8 +113,7 @@ pub fn answer(request: &Path) -> Result<(), Error> {
         }
         Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
-            let numbers: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
-            let call = Call::from_numbers(&numbers).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
+            let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
             Said::Answer(in_words(&session.ask(&call), &material))
         }
     };
@@ -159,7 +167,7 @@ fn in_words(answer: &Answer, material: &Material) -> Vec<(String, String)> {
 /// The parent: asks in a child, in this folder.
 ///
 /// # Errors
-/// The child cannot be started, or its files cannot be written.
+/// The child cannot be started, its files cannot be written, or the library cannot be loaded or has no UMAT.
 pub fn ask(
     folder: &Path,
     library: &Path,
@@ -201,6 +209,13 @@ pub fn ask(
         && status.success()
     {
         return Ok(Ok(said));
+    }
+    if let Watched::Ended(status) = &status {
+        match status.code() {
+            Some(NOT_LOADED) => return Err(Error::Input(last_line(&messages).to_string())),
+            Some(FAILED) => return Err(Error::Input(format!("the check itself fails: {}", last_line(&messages)))),
+            _ => {}
+        }
     }
     let seen = Seen::read(&shared).map_err(io_error)?;
     Ok(Err(ending(&status, &messages, &seen)))
@@ -274,7 +289,6 @@ fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
         (Some(SIGNALLED), _) => at_signal(seen, &after, call),
         (Some(BY_XIT), _) => end("XIT", format!("the law calls XIT {after}")),
         (Some(BY_MESSAGE), _) => end("XIT", format!("the law ends the analysis {after}: {}", last_line(messages))),
-        (Some(NOT_LOADED), _) => end("crash", format!("the library cannot be loaded: {}", last_line(messages))),
         (Some(UNRESOLVED), _) => {
             end("missing routine", format!("a routine is nowhere, {after}: {}", last_line(messages)))
         }

@@ -2,12 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The kind of what is not finite.
+pub const NOT_FINITE: &str = "NaN";
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     #[serde(rename = "right")]
     Right,
     #[serde(rename = "wrong")]
     Wrong,
+    /// The law ended the process, or did not return.
+    #[serde(rename = "ended")]
+    Ended,
     #[serde(rename = "warning")]
     Warning,
     #[serde(rename = "not sure")]
@@ -19,10 +25,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Whether it fails the check.
+    pub fn fails(self) -> bool {
+        matches!(self, Verdict::Wrong | Verdict::Ended)
+    }
+
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Right => "right",
             Verdict::Wrong => "wrong",
+            Verdict::Ended => "ended",
             Verdict::Warning => "warning",
             Verdict::NotSure => "not sure",
             Verdict::NotReported => "not reported",
@@ -43,15 +55,26 @@ pub struct Line {
     pub text: String,
     /// In what way it is wrong; several where they cannot be told apart.
     pub kinds: Vec<String>,
-    /// The file of a call that ended the process, for `--again`.
+    /// The file of a call that ended the process, or that is the worst of few, for `--again`.
     pub call: Option<String>,
+    /// That call as the child says it, as bits: the parent writes the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub call_bits: Option<Vec<u64>>,
 }
 
 impl Line {
     pub fn new(question: Question, verdict: Verdict, figure: Option<f64>, text: impl Into<String>) -> Self {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
-        Line { line: question.name().to_string(), verdict, figure, text: text.into(), kinds: Vec::new(), call: None }
+        Line {
+            line: question.name().to_string(),
+            verdict,
+            figure,
+            text: text.into(),
+            kinds: Vec::new(),
+            call: None,
+            call_bits: None,
+        }
     }
 
     pub fn with(mut self, kind: &str) -> Self {

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// CMNAME, where none is given.
+pub const DEFAULT_NAME: &str = "MATERIAL";
+
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Material {
     /// CMNAME.

@@ -6,7 +6,7 @@ use nalgebra::Matrix3;
 use super::call::Session;
 use super::histories::history;
 use super::kinematics::Increment;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::point::{Failure, Point};
 
 const HISTORIES: usize = 16;
@@ -16,13 +16,15 @@ const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
 const INCREMENTS: usize = 12;
 /// Of the stress.
 const SAME: f64 = 1e-8;
+/// A last change of the stress that is none.
+const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
 pub fn ask(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
-    let (mut coarse, mut fine) = (0.0, 0.0);
+    let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
     let mut compared = 0;
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
@@ -37,7 +39,7 @@ pub fn ask(session: &mut Session) -> Line {
                     size = size.max(largest);
                 }
                 Ok(None) => {}
-                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with("NaN"),
+                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
             }
         }
         let [one, two, four, eight, sixteen] = ends[..] else { continue };
@@ -47,6 +49,7 @@ pub fn ask(session: &mut Session) -> Line {
         compared += 1;
         largest_change = largest_change.max((two - one).norm() / size);
         coarse += (two - one).norm() / size + (four - two).norm() / size;
+        last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
     }
     if compared == 0 {
@@ -62,8 +65,8 @@ pub fn ask(session: &mut Session) -> Line {
     }
     // Two halvings lie between the coarse differences and the fine ones.
     let order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
-    // Below the tolerance of a law's own iterations no order is seen.
-    if order >= LOWEST_ORDER || coarse <= 1e-6 {
+    // Below the tolerance of a law's own iterations no order is seen, nor where a threshold is crossed within one increment.
+    if order >= LOWEST_ORDER || coarse <= 1e-6 || last <= SETTLED {
         let text = format!("increments in two change the stress by up to {largest_change:.1e}; order {order:.1}");
         return Line::new(Question::Steps, Verdict::Right, Some(order), text);
     }
