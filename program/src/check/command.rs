@@ -24,6 +24,9 @@ pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
     #[arg(required_unless_present = "again")]
     file: Option<PathBuf>,
+    /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
+    #[arg(long)]
+    vumat: bool,
     /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
@@ -60,7 +63,7 @@ pub struct Arguments {
 }
 
 fn question(name: &str) -> Result<Question, String> {
-    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::ASKED.map(Question::name).join(", ")))
+    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::names()))
 }
 
 fn allowance(text: &str) -> Result<(String, f64), String> {
@@ -89,9 +92,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         traits: arguments.traits.clone(),
         seed: arguments.seed,
     };
-    let Input { materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
+    let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &room.path)?;
+    if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
+        explicit(file, &room.path, &mut materials)?;
+    }
     let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
     let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
     let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
@@ -107,6 +113,28 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         print(&report.as_text(colours));
     }
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+}
+
+/// Whether a library has a VUMAT and no UMAT, asked in a child as everything else.
+fn vumat_alone(built: &Built, room: &Path, material: Option<&Material>) -> Result<bool, Error> {
+    let Some(material) = material else { return Ok(false) };
+    let said = child::ask(room, &built.library, material, Task::Alone, Fence::Room, child::LONGEST_CALL)?;
+    Ok(matches!(said, Ok(Said::Alone(true))))
+}
+
+/// Declares that a VUMAT is called, in both precisions where the source leaves that open.
+fn explicit(file: &Path, room: &Path, materials: &mut [Material]) -> Result<(), Error> {
+    let single = compile::single(file, room)?;
+    for material in materials {
+        if material.components == 3 {
+            return Err(Error::Input(
+                "ntens is 3; allowed with a VUMAT: 6 (solids), 4 (plane strain, axisymmetric)".into(),
+            ));
+        }
+        material.explicit.called = true;
+        material.explicit.single.clone_from(&single);
+    }
+    Ok(())
 }
 
 /// How long a law is waited for that has hung before.
@@ -130,8 +158,11 @@ impl Check<'_> {
             Ok(_) => None,
             Err(_) => None,
         };
-        let asked = Question::ASKED
-            .into_iter()
+        let explicit = material.explicit.called;
+        let questions = if explicit { &Question::OF_VUMAT[..] } else { &Question::ASKED };
+        let asked = questions
+            .iter()
+            .copied()
             .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
         let mut fence = Fence::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
@@ -203,7 +234,11 @@ impl Check<'_> {
             }
         }
         let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
-        if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
+        if question == Question::Objectivity
+            && !material.explicit.called
+            && line.verdict == Verdict::Right
+            && reads != Reads::Total
+        {
             return self.at_large_turns(material, line, fence, longest_call);
         }
         Ok(line)

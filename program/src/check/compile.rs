@@ -67,6 +67,34 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     Ok(Built { library, checked, by: compiler.to_string() })
 }
 
+/// The same for single precision, where the source leaves it to `vaba_param.inc`.
+///
+/// # Errors
+/// Files cannot be read or written, or the source does not compile so.
+pub fn single(file: &Path, folder: &Path) -> Result<Option<PathBuf>, Error> {
+    let language = language(file)?;
+    if !matches!(language, Language::FixedForm | Language::FreeForm) {
+        return Ok(None);
+    }
+    let error = |error: std::io::Error| Error::Input(format!("{}: {error}", file.display()));
+    let text = String::from_utf8_lossy(&std::fs::read(file).map_err(error)?).to_lowercase();
+    if !text.contains("vaba_param.inc") {
+        return Ok(None);
+    }
+    let inner = folder.join("single");
+    std::fs::create_dir_all(&inner).map_err(error)?;
+    includes(&inner).map_err(error)?;
+    for name in ["vaba_param.inc", "VABA_PARAM.INC"] {
+        std::fs::write(inner.join(name), SINGLE).map_err(error)?;
+    }
+    std::os::unix::fs::symlink(room::in_either_case(folder), room::in_either_case(&inner)).map_err(error)?;
+    let file = file.canonicalize().map_err(error)?;
+    let compiler = compiler(language)?;
+    let utilities = folder.join("utilities.o");
+    let plain = build(&file, language, compiler, &inner, &utilities, false, false);
+    plain.or_else(|_| build(&file, language, compiler, &inner, &utilities, false, true)).map(Some)
+}
+
 fn language(file: &Path) -> Result<Language, Error> {
     let name = file.display();
     let ending = file.extension().and_then(OsStr::to_str).unwrap_or_default().to_lowercase();
