@@ -27,6 +27,9 @@ pub struct Arguments {
     /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
     #[arg(long)]
     vumat: bool,
+    /// The library of the same VUMAT for single precision, where FILE is a library.
+    #[arg(long, requires = "file")]
+    single: Option<PathBuf>,
     /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
@@ -96,7 +99,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &room.path)?;
     if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
-        explicit(file, &room.path, &mut materials)?;
+        let single = match &arguments.single {
+            Some(library) => Some(canonical(library)?),
+            None => compile::single(file, &room.path)?,
+        };
+        explicit(single.as_deref(), &mut materials)?;
+    } else if arguments.single.is_some() {
+        return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
     let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
     let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
@@ -122,9 +131,13 @@ fn vumat_alone(built: &Built, room: &Path, material: Option<&Material>) -> Resul
     Ok(matches!(said, Ok(Said::Alone(true))))
 }
 
-/// Declares that a VUMAT is called, in both precisions where the source leaves that open.
-fn explicit(file: &Path, room: &Path, materials: &mut [Material]) -> Result<(), Error> {
-    let single = compile::single(file, room)?;
+/// A path that the child finds from where it runs.
+fn canonical(path: &Path) -> Result<PathBuf, Error> {
+    path.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", path.display())))
+}
+
+/// Declares that a VUMAT is called, and where its build for single precision is.
+fn explicit(single: Option<&Path>, materials: &mut [Material]) -> Result<(), Error> {
     for material in materials {
         if material.components == 3 {
             return Err(Error::Input(
@@ -132,7 +145,7 @@ fn explicit(file: &Path, room: &Path, materials: &mut [Material]) -> Result<(), 
             ));
         }
         material.explicit.called = true;
-        material.explicit.single.clone_from(&single);
+        material.explicit.single = single.map(Path::to_path_buf);
     }
     Ok(())
 }

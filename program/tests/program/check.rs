@@ -232,3 +232,27 @@ fn there_are_thirty_faults_of_ten_kinds() {
     }
     assert_eq!(kinds.values().map(|laws| laws.len()).collect::<Vec<_>>(), [3; 10], "{kinds:?}");
 }
+
+// ---- VUMAT
+
+/// Ours, in both precisions.
+#[test]
+fn a_right_vumat_raises_no_alarm() {
+    let law = "vumat_neo_hooke.f";
+    let alarms = alarm(law, &[]) + &alarm(law, &["--props=2,300,1.4".to_string(), "--seed=2".to_string()]);
+    assert!(alarms.is_empty(), "false alarms:\n{alarms}");
+    // Every line has an answer, but that this law dissipates nothing.
+    let (_, report) = check(&corpus("laws").join(law), &[]);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    let others = lines.iter().filter(|line| line["verdict"] != "right");
+    assert_eq!(others.map(|line| &line["line"]).collect::<Vec<_>>(), ["dissipation"]);
+}
+
+#[test]
+fn faults_of_a_vumat_are_found_and_named() {
+    let Faults { fault: faults } = parse("vumat_faults.toml");
+    // Folders beyond those of the UMATs' faults.
+    let rows = faults.iter().enumerate().map(|(number, fault)| fault.row(1000 + number));
+    let missed: String = rows.filter_map(Result::err).collect();
+    assert!(missed.is_empty(), "missed or called otherwise:\n{missed}");
+}

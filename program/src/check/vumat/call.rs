@@ -261,6 +261,43 @@ impl Arrays {
     }
 }
 
+/// How a law may have misread the arguments: a session that alters them so gets right answers from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Misread {
+    /// 13 and 23 as a UMAT has them, in the place of 23 and 31.
+    Order,
+    /// Shears of strainInc that are twice the tensor's.
+    Shears,
+}
+
+impl Misread {
+    pub const ALL: [Misread; 2] = [Misread::Order, Misread::Shears];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Misread::Order => "23 and 31 exchanged",
+            Misread::Shears => "engineering shears",
+        }
+    }
+
+    fn given(self, given: &Given) -> Given {
+        let mut given = given.clone();
+        match self {
+            Misread::Order => {
+                for values in [&mut given.strain_increment, &mut given.stress].into_iter().chain(&mut given.stretch) {
+                    values.swap(4, 5);
+                }
+            }
+            Misread::Shears => {
+                for shear in &mut given.strain_increment[3..] {
+                    *shear *= 2.0;
+                }
+            }
+        }
+        given
+    }
+}
+
 /// Room for the calls of one thread.
 pub struct Session<'a> {
     law: &'a Law,
@@ -274,6 +311,8 @@ pub struct Session<'a> {
     pub unset: f64,
     /// The state of a point that has not been deformed, once it is known.
     pub virgin: Option<Vec<f64>>,
+    /// What arguments are altered by.
+    pub misread: Option<Misread>,
 }
 
 impl<'a> Session<'a> {
@@ -288,7 +327,7 @@ impl<'a> Session<'a> {
         for (place, letter) in name.iter_mut().zip(material.name.to_uppercase().bytes()) {
             *place = letter as c_char;
         }
-        Session { law, material, name, precision, fence, arrays: None, shared, unset: 0.0, virgin: None }
+        Session { law, material, name, precision, fence, arrays: None, shared, unset: 0.0, virgin: None, misread: None }
     }
 
     /// Another one for a thread, with room at both ends of its arrays.
@@ -321,7 +360,13 @@ impl<'a> Session<'a> {
         if let Some(shared) = self.shared {
             shared.count();
         }
-        self.fill(&mut arrays, points);
+        match self.misread {
+            None => self.fill(&mut arrays, points),
+            Some(misread) => {
+                let altered: Vec<Given> = points.iter().map(|given| misread.given(given)).collect();
+                self.fill(&mut arrays, &altered);
+            }
+        }
         self.call(&mut arrays, time);
         let found = (0..count).map(|i| self.found(&arrays, i)).collect();
         self.arrays = Some(arrays);
@@ -451,6 +496,9 @@ impl<'a> Session<'a> {
         let mut stress = [0.0; 6];
         for (c, value) in stress.iter_mut().enumerate().take(self.material.components) {
             *value = arrays.take(Array::StressNew, c, i);
+        }
+        if self.misread == Some(Misread::Order) {
+            stress.swap(4, 5);
         }
         Found {
             stress,

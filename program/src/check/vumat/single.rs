@@ -21,7 +21,7 @@ const INCREMENTS: usize = 12;
 /// The system has no memory.
 pub fn ask(session: &mut Session) -> io::Result<Line> {
     let Some(library) = &session.material.explicit.single else {
-        let text = "no second build with real*4: the source has no vaba_param.inc, or is a library";
+        let text = "no second build with real*4: the source has no vaba_param.inc, or is a library (--single)";
         return Ok(Line::new(Question::Single, Verdict::NotAsked, None, text));
     };
     let law = match Law::load(Path::new(library)) {
