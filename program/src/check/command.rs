@@ -100,10 +100,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let built = compile::compile(file, &room.path)?;
     if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
         let single = match &arguments.single {
-            Some(library) => Some(canonical(library)?),
+            Some(library) => Some(Ok(canonical(library)?)),
             None => compile::single(file, &room.path)?,
         };
-        explicit(single.as_deref(), &mut materials)?;
+        explicit(single.as_ref(), &mut materials)?;
     } else if arguments.single.is_some() {
         return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
     }
@@ -137,7 +137,7 @@ fn canonical(path: &Path) -> Result<PathBuf, Error> {
 }
 
 /// Declares that a VUMAT is called, and where its build for single precision is.
-fn explicit(single: Option<&Path>, materials: &mut [Material]) -> Result<(), Error> {
+fn explicit(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
     for material in materials {
         if material.components == 3 {
             return Err(Error::Input(
@@ -145,7 +145,7 @@ fn explicit(single: Option<&Path>, materials: &mut [Material]) -> Result<(), Err
             ));
         }
         material.explicit.called = true;
-        material.explicit.single = single.map(Path::to_path_buf);
+        material.explicit.single = single.cloned();
     }
     Ok(())
 }

@@ -67,11 +67,11 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     Ok(Built { library, checked, by: compiler.to_string() })
 }
 
-/// The same for single precision, where the source leaves it to `vaba_param.inc`.
+/// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile so.
 ///
 /// # Errors
-/// Files cannot be read or written, or the source does not compile so.
-pub fn single(file: &Path, folder: &Path) -> Result<Option<PathBuf>, Error> {
+/// Files cannot be read or written.
+pub fn single(file: &Path, folder: &Path) -> Result<Option<Result<PathBuf, String>>, Error> {
     let language = language(file)?;
     if !matches!(language, Language::FixedForm | Language::FreeForm) {
         return Ok(None);
@@ -92,7 +92,8 @@ pub fn single(file: &Path, folder: &Path) -> Result<Option<PathBuf>, Error> {
     let compiler = compiler(language)?;
     let utilities = folder.join("utilities.o");
     let plain = build(&file, language, compiler, &inner, &utilities, false, false);
-    plain.or_else(|_| build(&file, language, compiler, &inner, &utilities, false, true)).map(Some)
+    let library = plain.or_else(|_| build(&file, language, compiler, &inner, &utilities, false, true));
+    Ok(Some(library.map_err(|error| error.to_string())))
 }
 
 fn language(file: &Path) -> Result<Language, Error> {

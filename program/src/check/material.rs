@@ -28,6 +28,7 @@ pub struct Material {
     pub fibres: Vec<[f64; 3]>,
     /// Of the random states.
     pub seed: u64,
+    #[serde(default)]
     pub explicit: Explicit,
 }
 
@@ -42,8 +43,8 @@ pub struct Explicit {
     pub deletion: Option<usize>,
     /// defgradOld and defgradNew are U, not R U.
     pub stretch_alone: bool,
-    /// The library built for single precision.
-    pub single: Option<PathBuf>,
+    /// The library built for single precision, or why it could not be; none where there is no question of one.
+    pub single: Option<Result<PathBuf, String>>,
 }
 
 /// What its author declares of a law.

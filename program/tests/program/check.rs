@@ -8,7 +8,7 @@ use fastrand::Rng;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::library::{ROOT, folder};
+use crate::library::{LIBRARY, ROOT, folder};
 
 /// The lines that depend on the properties, and take little time.
 const OF_PROPERTIES: &str = "--only=rest,tangent,objectivity,isotropy,steps,energy,cycles,dissipation";
@@ -235,17 +235,33 @@ fn there_are_thirty_faults_of_ten_kinds() {
 
 // ---- VUMAT
 
-/// Ours, in both precisions.
+/// With the properties beside them and others.
 #[test]
-fn a_right_vumat_raises_no_alarm() {
-    let law = "vumat_neo_hooke.f";
-    let alarms = alarm(law, &[]) + &alarm(law, &["--props=2,300,1.4".to_string(), "--seed=2".to_string()]);
+fn right_vumats_raise_no_alarm() {
+    let others = ["--props=2,300,1.4".to_string(), "--seed=2".to_string()];
+    let hyperelastic = "vumat_neo_hooke.f";
+    let alarms = alarm(hyperelastic, &[]) + &alarm(hyperelastic, &others) + &alarm("vumat_j2.f", &[]);
     assert!(alarms.is_empty(), "false alarms:\n{alarms}");
     // Every line has an answer, but that this law dissipates nothing.
-    let (_, report) = check(&corpus("laws").join(law), &[]);
+    let (_, report) = check(&corpus("laws").join(hyperelastic), &[]);
     let lines = report["materials"][0]["lines"].as_array().expect("lines");
     let others = lines.iter().filter(|line| line["verdict"] != "right");
     assert_eq!(others.map(|line| &line["line"]).collect::<Vec<_>>(), ["dissipation"]);
+}
+
+/// Both laws of the libraries that Abaqus/Explicit loads, in both precisions.
+#[test]
+fn the_own_vumat_raises_no_alarm() {
+    for (scene, right) in [("vumat_yarn.toml", 16), ("vumat_linear.toml", 15)] {
+        let single = format!("--single={}", LIBRARY.join("libtoron_abaqus_sp.so").display());
+        let scene = format!("--scene={}", corpus(scene).display());
+        let arguments = ["--vumat".to_string(), single, scene];
+        let (code, report) = check(&LIBRARY.join("libtoron_abaqus.so"), &arguments);
+        let found = complaints(&report);
+        assert!(code == 0 && found.is_empty(), "exit {code}{}", listed(&found));
+        let lines = report["materials"][0]["lines"].as_array().expect("lines");
+        assert_eq!(lines.iter().filter(|line| line["verdict"] == "right").count(), right);
+    }
 }
 
 #[test]

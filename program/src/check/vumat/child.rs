@@ -36,7 +36,7 @@ fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> i
         Question::Dissipation => energy::dissipation(session),
         Question::Deletion => deletion::ask(session),
         Question::Blocks => blocks::blocks(session),
-        Question::Single => single::ask(session),
+        Question::Single => single::ask(session, reads),
         Question::Repeat => blocks::repeat(session),
         Question::Threads => blocks::threads(law, session),
         Question::Outputs => process::outputs(session),

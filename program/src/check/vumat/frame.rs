@@ -87,6 +87,10 @@ pub fn reads(session: &mut Session) -> io::Result<Reads> {
 /// # Errors
 /// The system has no memory.
 pub fn objectivity(session: &mut Session) -> io::Result<Line> {
+    if session.material.explicit.stretch_alone {
+        let text = "defgradNew = U alone is declared: no argument sees a rotation";
+        return Ok(Line::new(Question::Objectivity, Verdict::NotAsked, None, text));
+    }
     let read = arguments(session)?;
     let mut rng = Rng::with_seed(session.material.seed ^ 0x0b);
     // The largest difference from the same stress, and from the same stress turned by R.
@@ -127,10 +131,6 @@ pub fn objectivity(session: &mut Session) -> io::Result<Line> {
         (false, true, false) => "stretchNew is read, defgradNew is not",
         _ => "strainInc is read, defgradNew is not",
     };
-    if session.material.explicit.stretch_alone {
-        let text = format!("{of}; defgradNew = U alone is assumed, which no rotation changes, {compared} increments");
-        return Ok(line(Verdict::Right, text));
-    }
     if figure <= TOLERANCE {
         let text = format!("superposed rotations change nothing; {of}; assumed is R U, {compared} increments");
         return Ok(line(Verdict::Right, text));

@@ -1,17 +1,17 @@
 //! The build for single precision: its answers are those of the double one but for rounding.
 
 use std::io;
-use std::path::Path;
 
 use nalgebra::Matrix3;
 
 use super::super::guarded::Fence;
 use super::super::line::{Line, Question, Verdict};
+use super::super::material::Reads;
 use super::blocks::{SIZES, paths};
 use super::call::{Given, Law, Precision, Session};
 use super::point::{Point, time};
 
-/// In roundings of stress and stiffness: what single precision costs a law that is written well, and some room.
+/// In roundings: what single precision costs a law that is written well, and some room.
 const ROUNDINGS: f64 = 100.0;
 const INCREMENTS: usize = 12;
 
@@ -19,12 +19,20 @@ const INCREMENTS: usize = 12;
 ///
 /// # Errors
 /// The system has no memory.
-pub fn ask(session: &mut Session) -> io::Result<Line> {
-    let Some(library) = &session.material.explicit.single else {
+pub fn ask(session: &mut Session, reads: Reads) -> io::Result<Line> {
+    let Some(built) = &session.material.explicit.single else {
         let text = "no second build with real*4: the source has no vaba_param.inc, or is a library (--single)";
         return Ok(Line::new(Question::Single, Verdict::NotAsked, None, text));
     };
-    let law = match Law::load(Path::new(library)) {
+    let library = match built {
+        Ok(library) => library,
+        Err(reason) => {
+            let reason = reason.lines().find(|line| line.contains("Error")).unwrap_or(reason);
+            let text = format!("does not compile with real*4: {}", reason.trim());
+            return Ok(Line::new(Question::Single, Verdict::Wrong, None, text).with("does not compile"));
+        }
+    };
+    let law = match Law::load(library) {
         Ok(law) => law,
         Err(reason) => return Ok(Line::new(Question::Single, Verdict::NotSure, None, reason)),
     };
@@ -57,7 +65,9 @@ pub fn ask(session: &mut Session) -> io::Result<Line> {
                 let change: [f64; 6] = std::array::from_fn(|c| double.stress[c] - given[i].stress[c]);
                 stiffness = stiffness.max(norm(&change) / norm(&given[i].strain_increment).max(1e-6));
                 let difference: [f64; 6] = std::array::from_fn(|c| double.stress[c] - single.stress[c]);
-                differences.push((norm(&difference), norm(&double.stress), k + 1));
+                // A law of stretches loses what U of about 1 loses, times the stiffness; one of increments does not.
+                let strain = if reads == Reads::Rate { norm(&given[i].strain_increment) } else { 1.0 };
+                differences.push((norm(&difference), norm(&double.stress), strain, k + 1));
             }
             points[i] = points[i].after(&paths[i][k], &unturned, double);
         }
@@ -65,20 +75,21 @@ pub fn ask(session: &mut Session) -> io::Result<Line> {
     if stiffness == 0.0 {
         return Ok(Line::new(Question::Single, Verdict::NotSure, None, "there was no stress"));
     }
-    for (difference, stress, increment) in differences {
-        let figure = difference / (stiffness + stress);
+    for (difference, stress, strain, increment) in differences {
+        let figure = difference / (stiffness * strain + stress);
         if figure > worst.0 {
             worst = (figure, format!("at increment {increment}"));
         }
     }
     let (figure, place) = worst;
     let roundings = figure / f64::from(f32::EPSILON);
+    let of = if reads == Reads::Rate { "stress" } else { "stiffness" };
     if roundings <= ROUNDINGS {
-        let text = format!("with real*4 the stress differs by {roundings:.1} roundings of the stiffness at most");
+        let text = format!("with real*4 the stress differs by {roundings:.1} roundings of the {of} at most");
         return Ok(Line::new(Question::Single, Verdict::Right, Some(figure), text));
     }
     let text = format!(
-        "with real*4 the stress differs by {roundings:.0} roundings of the stiffness, {place}; up to {ROUNDINGS:.0} are right"
+        "with real*4 the stress differs by {roundings:.0} roundings of the {of}, {place}; up to {ROUNDINGS:.0} are right"
     );
     Ok(Line::new(Question::Single, Verdict::Wrong, Some(figure), text).with("single precision"))
 }
