@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::call::{Answer, Call, Law, Session};
 use super::guarded::Fence;
-use super::line::{Line, Question};
+use super::line::{Line, Question, Verdict};
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, room, steps, tangent};
+use super::{energy, objectivity, process, rest, room, steps, tangent, vumat};
 use crate::common::bound_child;
 use crate::common::error::Error;
 
@@ -37,6 +37,8 @@ const PANICKED: i32 = 101;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Task {
+    /// Whether there is a VUMAT and no UMAT.
+    Alone,
     /// What the law reads.
     Reads,
     Question {
@@ -63,6 +65,7 @@ pub struct Request {
 /// What a child says if it lives.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Said {
+    Alone(bool),
     Reads(Reads),
     Line(Line),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
@@ -96,17 +99,23 @@ fn answered(request: &Path) -> Result<(), Error> {
     let Request { library, material, task, fence, shared, result } =
         serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
     let shared = Shared::open(&shared).map_err(io_error)?;
-    let law = match Law::load(&library) {
-        Ok(law) => law,
-        Err(reason) => {
-            crate::common::console::print_error(&reason);
-            std::process::exit(NOT_LOADED);
-        }
-    };
+    if matches!(task, Task::Alone) {
+        Shared::catch_signals();
+        return say(&result, &Said::Alone(loaded(vumat::call::alone(&library))));
+    }
+    if material.explicit.called {
+        let law = loaded(vumat::call::Law::load(&library));
+        Shared::catch_signals();
+        let said = vumat::child::answer(&law, &material, &task, fence, shared).map_err(io_error)?;
+        let said = said.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
+        return say(&result, &said);
+    }
+    let law = loaded(Law::load(&library));
     Shared::catch_signals();
     law.begin();
     let mut session = Session::new(&law, &material, fence, Some(shared)).map_err(io_error)?;
     let said = match task {
+        Task::Alone => Said::Alone(false),
         Task::Reads => Said::Reads(process::reads(&mut session)),
         Task::Question { question, reads, allowed } => {
             Said::Line(line(question, &law, &material, &mut session, reads, allowed))
@@ -117,8 +126,20 @@ fn answered(request: &Path) -> Result<(), Error> {
             Said::Answer(in_words(&session.ask(&call), &material))
         }
     };
-    let text = serde_json::to_vec(&said).map_err(|error| Error::Input(error.to_string()))?;
-    std::fs::write(&result, text).map_err(io_error)?;
+    say(&result, &said)
+}
+
+/// What is loaded; where it cannot be, this process has nothing to do.
+fn loaded<T>(law: Result<T, String>) -> T {
+    law.unwrap_or_else(|reason| {
+        crate::common::console::print_error(&reason);
+        std::process::exit(NOT_LOADED)
+    })
+}
+
+fn say(result: &Path, said: &Said) -> Result<(), Error> {
+    let text = serde_json::to_vec(said).map_err(|error| Error::Input(error.to_string()))?;
+    std::fs::write(result, text).map_err(|error| Error::Input(format!("{}: {error}", result.display())))?;
     // SAFETY: it takes a number and does not return. What the library would do at the process's end is not asked about.
     unsafe { libc::_exit(0) }
 }
@@ -148,6 +169,9 @@ fn line(
         Question::Invalid => process::invalid(session, reads),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
+        Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
+            Line::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
+        }
     }
 }
 

@@ -26,6 +26,12 @@ pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
     #[arg(required_unless_present = "again")]
     file: Option<PathBuf>,
+    /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
+    #[arg(long)]
+    vumat: bool,
+    /// The library of the same VUMAT for single precision, where FILE is a library.
+    #[arg(long, requires = "file")]
+    single: Option<PathBuf>,
     /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
@@ -68,7 +74,7 @@ pub struct Arguments {
 }
 
 fn question(name: &str) -> Result<Question, String> {
-    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::ASKED.map(Question::name).join(", ")))
+    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::names()))
 }
 
 fn allowance(text: &str) -> Result<(String, f64), String> {
@@ -99,9 +105,18 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         orientation: arguments.orientation,
         seed: arguments.seed,
     };
-    let Input { materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
+    let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &room.path)?;
+    if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
+        let single = match &arguments.single {
+            Some(library) => Some(Ok(canonical(library)?)),
+            None => built.single(file, &room.path)?,
+        };
+        explicit(single.as_ref(), &mut materials)?;
+    } else if arguments.single.is_some() {
+        return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
+    }
     let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
     let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
     let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
@@ -117,6 +132,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         print(&report.as_text(colours));
     }
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+}
+
+/// Whether a library has a VUMAT and no UMAT, asked in a child as everything else.
+fn vumat_alone(built: &Built, room: &Path, material: Option<&Material>) -> Result<bool, Error> {
+    let Some(material) = material else { return Ok(false) };
+    let said = child::ask(room, &built.library, material, Task::Alone, Fence::Room, child::LONGEST_CALL)?;
+    Ok(matches!(said, Ok(Said::Alone(true))))
+}
+
+/// A path that the child finds from where it runs.
+fn canonical(path: &Path) -> Result<PathBuf, Error> {
+    path.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", path.display())))
+}
+
+/// Declares that a VUMAT is called, and where its build for single precision is.
+fn explicit(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
+    for material in materials {
+        if material.components == 3 {
+            return Err(Error::Input(
+                "ntens is 3; allowed with a VUMAT: 6 (solids), 4 (plane strain, axisymmetric)".into(),
+            ));
+        }
+        material.explicit.called = true;
+        material.explicit.single = single.cloned();
+    }
+    Ok(())
 }
 
 /// How long a law is waited for that has hung before.
@@ -140,8 +181,11 @@ impl Check<'_> {
             Ok(_) => None,
             Err(_) => None,
         };
-        let asked = Question::ASKED
-            .into_iter()
+        let explicit = material.explicit.called;
+        let questions = if explicit { &Question::OF_VUMAT[..] } else { &Question::ASKED };
+        let asked = questions
+            .iter()
+            .copied()
             .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
         let mut fence = Fence::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
@@ -227,7 +271,11 @@ impl Check<'_> {
             let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
             return Ok(Line { text: format!("{}{unset}", line.text), ..line });
         }
-        if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
+        if question == Question::Objectivity
+            && !material.explicit.called
+            && line.verdict == Verdict::Right
+            && reads != Reads::Total
+        {
             return self.at_large_turns(material, line, fence, longest_call);
         }
         Ok(line)
@@ -283,7 +331,7 @@ impl Check<'_> {
         ended.push((kind.clone(), question));
         let of_the_line = kind == "runtime check"
             || matches!(question, Question::Threads | Question::Repeat | Question::Histories)
-            || shared::ARRAYS.iter().any(|array| kind.ends_with(array));
+            || shared::names().any(|array| kind.ends_with(array));
         let verdict = if of_the_line { Verdict::Wrong } else { Verdict::Ended };
         let hint = match kind.as_str() {
             "XIT" | "stop" if material.name == DEFAULT_NAME => {

@@ -121,6 +121,34 @@ impl Built {
         let messages = command.output().map(|output| String::from_utf8_lossy(&output.stderr).to_string());
         unset_in(&messages.unwrap_or_default())
     }
+
+    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile so.
+    ///
+    /// # Errors
+    /// Files cannot be read or written.
+    pub fn single(&self, file: &Path, folder: &Path) -> Result<Option<Result<PathBuf, String>>, Error> {
+        let language = language(file)?;
+        if !matches!(language, Language::FixedForm | Language::FreeForm) {
+            return Ok(None);
+        }
+        let error = |error: std::io::Error| Error::Input(format!("{}: {error}", file.display()));
+        let text = String::from_utf8_lossy(&std::fs::read(file).map_err(error)?).to_lowercase();
+        if !text.contains("vaba_param.inc") {
+            return Ok(None);
+        }
+        let inner = folder.join("single");
+        std::fs::create_dir_all(&inner).map_err(error)?;
+        includes(&inner).map_err(error)?;
+        for name in ["vaba_param.inc", "VABA_PARAM.INC"] {
+            std::fs::write(inner.join(name), SINGLE).map_err(error)?;
+        }
+        std::os::unix::fs::symlink(room::in_either_case(folder), room::in_either_case(&inner)).map_err(error)?;
+        let file = file.canonicalize().map_err(error)?;
+        let compiler = compiler(language)?;
+        let utilities = folder.join("utilities.o");
+        let library = build(&file, language, compiler, &inner, &utilities, false, self.form);
+        Ok(Some(library.map_err(|error| error.to_string())))
+    }
 }
 
 /// `file.f:12:5: Warning: 'x' is used uninitialized` as `x (line 12)`, each variable once.

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::line::Question;
-use super::material::{DEFAULT_NAME, Material, Traits};
+use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
 use crate::common::error::Error;
 use crate::common::toml_file::{Source, read};
 
@@ -28,6 +28,9 @@ struct File {
     orientation: Option<bool>,
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
     seed: Option<u64>,
+    density: Option<Spanned<f64>>,
+    deletion: Option<Spanned<usize>>,
+    defgrad: Option<Spanned<String>>,
     #[serde(default)]
     allow: BTreeMap<String, Spanned<f64>>,
     #[serde(default, rename = "material")]
@@ -89,7 +92,7 @@ fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
     let mut allowed = BTreeMap::new();
     for (key, value) in &file.allow {
         if Question::parse(key).is_none() {
-            let names = Question::ASKED.map(Question::name).join(", ");
+            let names = Question::names();
             return Err(source.error(value.span(), &format!("allow has {key}; allowed: {names}")));
         }
         allowed.insert(key.clone(), source.positive(&format!("allow.{key}"), *value.get_ref(), value.span())?);
@@ -162,6 +165,7 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         orientation: over.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: over.seed.or(file.seed).unwrap_or(1),
+        explicit: explicit(source, file, states)?,
     })
 }
 
@@ -177,6 +181,32 @@ fn allowed_name(name: &str) -> Result<String, String> {
         return Err(format!("name is \"{name}\"; allowed: up to {LONGEST_NAME} ASCII characters"));
     }
     Ok(name.to_string())
+}
+
+/// Not 1, by which energies per mass and per volume are told apart.
+const DENSITY: f64 = 2.0;
+
+fn explicit(source: &Source, file: &File, states: usize) -> Result<Explicit, Error> {
+    let density = match &file.density {
+        Some(density) => source.positive("density", *density.get_ref(), density.span())?,
+        None => DENSITY,
+    };
+    if let Some(deletion) = &file.deletion
+        && !(1..=states).contains(deletion.get_ref())
+    {
+        let message = format!("deletion is {}; allowed: a state variable, 1 to {states}", deletion.get_ref());
+        return Err(source.error(deletion.span(), &message));
+    }
+    let stretch_alone = match &file.defgrad {
+        None => false,
+        Some(frame) => match frame.get_ref().as_str() {
+            "RU" => false,
+            "U" => true,
+            other => return Err(source.error(frame.span(), &format!("defgrad is \"{other}\"; allowed: \"RU\", \"U\""))),
+        },
+    };
+    let deletion = file.deletion.as_ref().map(|deletion| *deletion.get_ref());
+    Ok(Explicit { called: false, density, deletion, stretch_alone, single: None })
 }
 
 fn allowed_components(components: usize) -> Result<usize, String> {
@@ -248,6 +278,8 @@ mod tests {
             ("statev = 1\ninitial = [1.0, 2.0]", "law.toml:2: initial has 2 numbers"),
             ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: memory, rest"),
             ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
+            ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
+            ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
             ("dtime = 0.0", "law.toml:1: dtime is 0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);

@@ -104,6 +104,11 @@ pub enum Question {
     Invalid,
     Histories,
     Runtime,
+    /// Those of a VUMAT alone.
+    DataCheck,
+    Blocks,
+    Single,
+    Deletion,
 }
 
 impl Question {
@@ -118,6 +123,28 @@ impl Question {
         Question::Energy,
         Question::Cycles,
         Question::Dissipation,
+        Question::Repeat,
+        Question::Threads,
+        Question::Outputs,
+        Question::Exceptions,
+        Question::Invalid,
+        Question::Histories,
+        Question::Runtime,
+    ];
+
+    /// Those that a VUMAT answers.
+    pub const OF_VUMAT: [Question; 18] = [
+        Question::Memory,
+        Question::Rest,
+        Question::DataCheck,
+        Question::Objectivity,
+        Question::Isotropy,
+        Question::Steps,
+        Question::Energy,
+        Question::Dissipation,
+        Question::Deletion,
+        Question::Blocks,
+        Question::Single,
         Question::Repeat,
         Question::Threads,
         Question::Outputs,
@@ -146,10 +173,20 @@ impl Question {
             Question::Invalid => "invalid",
             Question::Histories => "histories",
             Question::Runtime => "runtime",
+            Question::DataCheck => "datacheck",
+            Question::Blocks => "blocks",
+            Question::Single => "single",
+            Question::Deletion => "deletion",
         }
     }
 
+    /// Of all that may be asked, with commas.
+    pub fn names() -> String {
+        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
+        Question::ASKED.into_iter().chain(of_vumat).map(Question::name).collect::<Vec<_>>().join(", ")
+    }
+
     pub fn parse(name: &str) -> Option<Question> {
-        Question::ASKED.into_iter().find(|question| question.name() == name)
+        Question::ASKED.into_iter().chain(Question::OF_VUMAT).find(|question| question.name() == name)
     }
 }

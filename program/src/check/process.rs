@@ -223,7 +223,7 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
 }
 
 /// A NaN that no arithmetic makes.
-const UNSET: u64 = 0x7ff8_dead_beef_0001;
+pub const UNSET: u64 = 0x7ff8_dead_beef_0001;
 
 /// DDSDDE before the call is what was there before: Abaqus does not promise zeros.
 pub fn outputs(session: &mut Session) -> Line {
@@ -278,13 +278,13 @@ pub fn outputs(session: &mut Session) -> Line {
 
 /// Exceptions, in C's names of this processor.
 #[cfg(target_arch = "x86_64")]
-const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x04, "division by zero"), (0x08, "overflow")];
+pub const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x04, "division by zero"), (0x08, "overflow")];
 #[cfg(not(target_arch = "x86_64"))]
-const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x02, "division by zero"), (0x04, "overflow")];
+pub const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x02, "division by zero"), (0x04, "overflow")];
 
 unsafe extern "C" {
-    fn feclearexcept(exceptions: i32) -> i32;
-    fn fetestexcept(exceptions: i32) -> i32;
+    pub fn feclearexcept(exceptions: i32) -> i32;
+    pub fn fetestexcept(exceptions: i32) -> i32;
 }
 
 /// Floating-point exceptions that a call raises: with them trapped the job would end.

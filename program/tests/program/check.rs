@@ -228,14 +228,13 @@ impl Fault {
     }
 }
 
-/// Every fault is found by its line under its name; the document's table says the same.
-#[test]
-fn faults_are_found_and_named() {
-    let Faults { fault: faults } = parse("faults.toml");
+/// Every fault is found by its line under its name; the document's table behind this mark says the same.
+fn found_and_named(path: &str, first: usize, mark: &str) {
+    let Faults { fault: faults } = parse(path);
     let mut table = String::from("| law | fault | line | called |\n|---|---|---|---|\n");
     let mut missed = String::new();
     for (number, fault) in faults.iter().enumerate() {
-        match fault.row(number) {
+        match fault.row(first + number) {
             Ok([law, what, line, kinds]) => table += &format!("| `{law}` | {what} | {line} | {kinds} |\n"),
             Err(found) => missed += &found,
         }
@@ -244,7 +243,7 @@ fn faults_are_found_and_named() {
 
     let document = Path::new(ROOT).join(DOCUMENT);
     let text = std::fs::read_to_string(&document).expect("the document");
-    let marks = ["<!-- faults -->\n", "<!-- end -->"];
+    let marks = [mark, "<!-- end -->"];
     let (before, rest) = text.split_once(marks[0]).expect("the table begins");
     let (_, after) = rest.split_once(marks[1]).expect("the table ends");
     let current = [before, marks[0], &table, marks[1], after].concat();
@@ -253,9 +252,14 @@ fn faults_are_found_and_named() {
     } else {
         assert!(
             text == current,
-            "{DOCUMENT} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program check::faults"
+            "{DOCUMENT} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program check::faults -- --test-threads=1"
         );
     }
+}
+
+#[test]
+fn faults_are_found_and_named() {
+    found_and_named("faults.toml", 0, "<!-- faults -->\n");
 }
 
 /// Ten kinds of fault in three laws each, besides those that end the process.
@@ -268,4 +272,41 @@ fn there_are_thirty_faults_of_ten_kinds() {
         kinds.entry(&fault.kind).or_default().insert(&fault.law);
     }
     assert_eq!(kinds.values().map(|laws| laws.len()).collect::<Vec<_>>(), [3; 10], "{kinds:?}");
+}
+
+// ---- VUMAT
+
+/// With the properties beside them and others.
+#[test]
+fn right_vumats_raise_no_alarm() {
+    let others = ["--props=2,300,1.4".to_string(), "--seed=2".to_string()];
+    let hyperelastic = "vumat_neo_hooke.f";
+    let alarms = alarm(hyperelastic, &[]) + &alarm(hyperelastic, &others) + &alarm("vumat_j2.f", &[]);
+    assert!(alarms.is_empty(), "false alarms:\n{alarms}");
+    // Every line has an answer, but that this law dissipates nothing.
+    let (_, report) = check(&corpus("laws").join(hyperelastic), &[]);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    let others = lines.iter().filter(|line| line["verdict"] != "right");
+    assert_eq!(others.map(|line| &line["line"]).collect::<Vec<_>>(), ["dissipation"]);
+}
+
+/// Both laws of the libraries that Abaqus/Explicit loads, in both precisions.
+#[test]
+fn the_own_vumat_raises_no_alarm() {
+    for (scene, right) in [("vumat_yarn.toml", 16), ("vumat_linear.toml", 15)] {
+        let single = format!("--single={}", LIBRARY.join("libtoron_abaqus_sp.so").display());
+        let scene = format!("--scene={}", corpus(scene).display());
+        let arguments = ["--vumat".to_string(), single, scene];
+        let (code, report) = check(&LIBRARY.join("libtoron_abaqus.so"), &arguments);
+        let found = complaints(&report);
+        assert!(code == 0 && found.is_empty(), "exit {code}{}", listed(&found));
+        let lines = report["materials"][0]["lines"].as_array().expect("lines");
+        assert_eq!(lines.iter().filter(|line| line["verdict"] == "right").count(), right);
+    }
+}
+
+#[test]
+fn faults_of_a_vumat_are_found_and_named() {
+    // Folders beyond those of the UMATs' faults.
+    found_and_named("vumat_faults.toml", 1000, "<!-- faults of a VUMAT -->\n");
 }
