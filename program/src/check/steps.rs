@@ -12,6 +12,8 @@ use super::point::{Failure, Point};
 const HISTORIES: usize = 16;
 /// Each increment in so many parts.
 const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
+/// And where these tell no order: a threshold that is crossed within an increment makes differences uneven.
+const MORE_PARTS: [usize; 2] = [32, 64];
 /// Increments of a history.
 const INCREMENTS: usize = 12;
 /// Of the stress.
@@ -21,11 +23,18 @@ const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
+/// A path, the stress at its end with the most parts, and the largest on the way.
+struct Ended {
+    path: Vec<Matrix3<f64>>,
+    stress: Matrix3<f64>,
+    size: f64,
+}
+
 pub fn ask(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
-    let mut compared = 0;
+    let mut paths = Vec::new();
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -46,13 +55,13 @@ pub fn ask(session: &mut Session) -> Line {
         if size == 0.0 {
             continue;
         }
-        compared += 1;
         largest_change = largest_change.max((two - one).norm() / size);
         coarse += (two - one).norm() / size + (four - two).norm() / size;
         last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
+        paths.push(Ended { path, stress: sixteen, size });
     }
-    if compared == 0 {
+    if paths.is_empty() {
         return Line::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
     }
     if largest_change <= SAME {
@@ -64,8 +73,19 @@ pub fn ask(session: &mut Session) -> Line {
         return Line::new(Question::Steps, Verdict::Wrong, Some(largest_change), text).with("path matters");
     }
     // Two halvings lie between the coarse differences and the fine ones.
-    let order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
-    // Below the tolerance of a law's own iterations no order is seen, nor where a threshold is crossed within one increment.
+    let mut order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
+    if order < LOWEST_ORDER && coarse > 1e-6 && last > SETTLED {
+        match finer(session, &paths) {
+            // Four halvings lie between.
+            Ok(Some([finest, of_last])) => {
+                order = 0.25 * (coarse / f64::max(finest, f64::MIN_POSITIVE)).log2();
+                last = of_last;
+            }
+            Ok(None) => {}
+            Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
+        }
+    }
+    // Below the tolerance of a law's own iterations no order is seen.
     if order >= LOWEST_ORDER || coarse <= 1e-6 || last <= SETTLED {
         let text = format!("increments in two change the stress by up to {largest_change:.1e}; order {order:.1}");
         return Line::new(Question::Steps, Verdict::Right, Some(order), text);
@@ -73,6 +93,22 @@ pub fn ask(session: &mut Session) -> Line {
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
     Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+}
+
+/// The changes of the stress with more parts, their sum over all paths and the largest of the last; none where the law refuses all.
+fn finer(session: &mut Session, paths: &[Ended]) -> Result<Option<[f64; 2]>, String> {
+    let mut found = None;
+    for Ended { path, stress, size } in paths {
+        let [Some((more, _)), Some((most, _))] =
+            [end(session, path, MORE_PARTS[0])?, end(session, path, MORE_PARTS[1])?]
+        else {
+            continue;
+        };
+        let [first, second] = [more - stress, most - more].map(|change| change.norm() / size);
+        let [sum, last] = found.unwrap_or([0.0, 0.0]);
+        found = Some([sum + first + second, f64::max(last, second)]);
+    }
+    Ok(found)
 }
 
 /// The stress at the end of the path and the largest on the way, each of its increments in so many parts.

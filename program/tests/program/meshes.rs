@@ -35,8 +35,9 @@ const MATERIAL: &str = "[material]\npreset = \"kevlar-km2-600\"\n";
 fn figure(report: &str, name: &str) -> f64 {
     let line =
         report.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_else(|| panic!("{name}: {report}"));
-    let value =
-        line.trim_start()[name.len()..].split_whitespace().find_map(|word| word.trim_end_matches(',').parse().ok());
+    let value = line.trim_start()[name.len()..]
+        .split_whitespace()
+        .find_map(|word| word.trim_end_matches([',', '°']).parse().ok());
     value.unwrap_or_else(|| panic!("{line}"))
 }
 
