@@ -1,5 +1,7 @@
 //! Whether the answer depends on how an increment is divided.
 
+use std::time::{Duration, Instant};
+
 use fastrand::Rng;
 use nalgebra::Matrix3;
 
@@ -12,8 +14,10 @@ use super::point::{Failure, Point};
 const HISTORIES: usize = 16;
 /// Each increment in so many parts.
 const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
-/// And where these tell no order: a threshold that is crossed within an increment makes differences uneven.
-const MORE_PARTS: [usize; 2] = [32, 64];
+/// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that relaxes faster
+/// than the time passes shows none before parts are shorter than its relaxation.
+const MOST_PARTS: usize = 4096;
+const LONGEST: Duration = Duration::from_secs(10);
 /// Increments of a history.
 const INCREMENTS: usize = 12;
 /// Of the stress.
@@ -23,18 +27,19 @@ const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
 
-/// A path, the stress at its end with the most parts, and the largest on the way.
+/// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over the second.
 struct Ended {
     path: Vec<Matrix3<f64>>,
     stress: Matrix3<f64>,
     size: f64,
+    change: f64,
 }
 
 pub fn ask(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
     let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
-    let mut paths = Vec::new();
+    let (mut compared, mut worst) = (0, None::<Ended>);
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -59,9 +64,13 @@ pub fn ask(session: &mut Session) -> Line {
         coarse += (two - one).norm() / size + (four - two).norm() / size;
         last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
-        paths.push(Ended { path, stress: sixteen, size });
+        compared += 1;
+        let change = (sixteen - eight).norm() / size;
+        if worst.as_ref().is_none_or(|worst| worst.change < change) {
+            worst = Some(Ended { path, stress: sixteen, size, change });
+        }
     }
-    if paths.is_empty() {
+    if compared == 0 {
         return Line::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
     }
     if largest_change <= SAME {
@@ -75,12 +84,8 @@ pub fn ask(session: &mut Session) -> Line {
     // Two halvings lie between the coarse differences and the fine ones.
     let mut order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
     if order < LOWEST_ORDER && coarse > 1e-6 && last > SETTLED {
-        match finer(session, &paths) {
-            // Four halvings lie between.
-            Ok(Some([finest, of_last])) => {
-                order = 0.25 * (coarse / f64::max(finest, f64::MIN_POSITIVE)).log2();
-                last = of_last;
-            }
+        match worst.map_or(Ok(None), |worst| finer(session, &worst)) {
+            Ok(Some((found, change))) => (order, last) = (found, change),
             Ok(None) => {}
             Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
         }
@@ -95,18 +100,19 @@ pub fn ask(session: &mut Session) -> Line {
     Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
 }
 
-/// The changes of the stress with more parts, their sum over all paths and the largest of the last; none where the law refuses all.
-fn finer(session: &mut Session, paths: &[Ended]) -> Result<Option<[f64; 2]>, String> {
-    let mut found = None;
-    for Ended { path, stress, size } in paths {
-        let [Some((more, _)), Some((most, _))] =
-            [end(session, path, MORE_PARTS[0])?, end(session, path, MORE_PARTS[1])?]
-        else {
-            continue;
-        };
-        let [first, second] = [more - stress, most - more].map(|change| change.norm() / size);
-        let [sum, last] = found.unwrap_or([0.0, 0.0]);
-        found = Some([sum + first + second, f64::max(last, second)]);
+/// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last change; none where
+/// the law refuses them. It ends where an order is seen twice, or the stress has settled.
+fn finer(session: &mut Session, worst: &Ended) -> Result<Option<(f64, f64)>, String> {
+    let started = Instant::now();
+    let (mut stress, mut parts, mut seen) = (worst.stress, PARTS[PARTS.len() - 1], 0);
+    let (mut change, mut found) = (worst.change, None);
+    while parts < MOST_PARTS && seen < 2 && started.elapsed() < LONGEST {
+        parts *= 2;
+        let Some((next, _)) = end(session, &worst.path, parts)? else { break };
+        let of_this = (next - stress).norm() / worst.size;
+        let order = (change / f64::max(of_this, f64::MIN_POSITIVE)).log2();
+        seen = if order >= LOWEST_ORDER || of_this <= SETTLED { seen + 1 } else { 0 };
+        (stress, change, found) = (next, of_this, Some((order, of_this)));
     }
     Ok(found)
 }
