@@ -11,6 +11,8 @@ import toron
 
 #: Microseconds that NumPy takes to add three numbers to three on a machine where `evaluate` takes 2.3.
 ADDITION = 0.35
+#: Microseconds of the same call from C there.
+CALL = 0.17
 
 
 def slowness() -> float:
@@ -27,7 +29,9 @@ def test_overhead(capsys):
         table = toron.bench()
         assert list(table) == [1, 1000, 1_000_000]
         assert "microseconds a call" in capsys.readouterr().out
-        if table[1]["evaluate"] <= 3 * before and table[1_000_000]["evaluate"] <= 1.1 * table[1_000_000]["C"]:
+        # Another processor may be slower at calls than NumPy's addition shows.
+        slower = max(before, table[1]["C"] / CALL)
+        if table[1]["evaluate"] <= 3 * slower and table[1_000_000]["evaluate"] <= 1.1 * table[1_000_000]["C"]:
             break
     else:
         raise AssertionError(f"{table}")

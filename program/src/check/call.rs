@@ -17,43 +17,43 @@ type Whole = *mut i32;
 
 /// `SUBROUTINE UMAT(STRESS, STATEV, DDSDDE, SSE, ...)`, with the length of CMNAME behind the last argument.
 type Umat = unsafe extern "C" fn(
-    Reals,         // STRESS
-    Reals,         // STATEV
-    Reals,         // DDSDDE
-    Reals,         // SSE
-    Reals,         // SPD
-    Reals,         // SCD
-    Reals,         // RPL
-    Reals,         // DDSDDT
-    Reals,         // DRPLDE
-    Reals,         // DRPLDT
-    Reals,         // STRAN
-    Reals,         // DSTRAN
-    Reals,         // TIME
-    Reals,         // DTIME
-    Reals,         // TEMP
-    Reals,         // DTEMP
-    Reals,         // PREDEF
-    Reals,         // DPRED
-    *const c_char, // CMNAME
-    Whole,         // NDI
-    Whole,         // NSHR
-    Whole,         // NTENS
-    Whole,         // NSTATV
-    Reals,         // PROPS
-    Whole,         // NPROPS
-    Reals,         // COORDS
-    Reals,         // DROT
-    Reals,         // PNEWDT
-    Reals,         // CELENT
-    Reals,         // DFGRD0
-    Reals,         // DFGRD1
-    Whole,         // NOEL
-    Whole,         // NPT
-    Whole,         // LAYER
-    Whole,         // KSPT
-    Whole,         // JSTEP(4)
-    Whole,         // KINC
+    Reals,       // STRESS
+    Reals,       // STATEV
+    Reals,       // DDSDDE
+    Reals,       // SSE
+    Reals,       // SPD
+    Reals,       // SCD
+    Reals,       // RPL
+    Reals,       // DDSDDT
+    Reals,       // DRPLDE
+    Reals,       // DRPLDT
+    Reals,       // STRAN
+    Reals,       // DSTRAN
+    Reals,       // TIME
+    Reals,       // DTIME
+    Reals,       // TEMP
+    Reals,       // DTEMP
+    Reals,       // PREDEF
+    Reals,       // DPRED
+    *mut c_char, // CMNAME
+    Whole,       // NDI
+    Whole,       // NSHR
+    Whole,       // NTENS
+    Whole,       // NSTATV
+    Reals,       // PROPS
+    Whole,       // NPROPS
+    Reals,       // COORDS
+    Reals,       // DROT
+    Reals,       // PNEWDT
+    Reals,       // CELENT
+    Reals,       // DFGRD0
+    Reals,       // DFGRD1
+    Whole,       // NOEL
+    Whole,       // NPT
+    Whole,       // LAYER
+    Whole,       // KSPT
+    Whole,       // JSTEP(4)
+    Whole,       // KINC
     usize,
 );
 /// `SUBROUTINE SDVINI(STATEV, COORDS, NSTATV, NCRDS, NOEL, NPT, LAYER, KSPT)`.
@@ -79,7 +79,7 @@ impl Law {
         // SAFETY: what a library does as it is loaded is its author's affair; this process is there to bear it.
         let library = unsafe { Library::open(Some(path), RTLD_LAZY | RTLD_LOCAL) };
         let library = libloading::Library::from(library.map_err(|error| error.to_string())?);
-        let umat = symbol::<Umat>(&library, "umat").ok_or("there is no subroutine UMAT")?;
+        let umat = symbol::<Umat>(&library, "umat").ok_or_else(|| without_umat(path))?;
         let (sdvini, uexternaldb) = (symbol(&library, "sdvini"), symbol(&library, "uexternaldb"));
         Ok(Law { umat, sdvini, uexternaldb, _library: library })
     }
@@ -95,6 +95,21 @@ impl Law {
             }
         }
     }
+}
+
+/// What is said of a library without UMAT: what it has instead, by the names of its symbols.
+fn without_umat(path: &Path) -> String {
+    let bytes = std::fs::read(path).unwrap_or_default();
+    let is_name = |text: &&str| text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    let texts = bytes.split(|&byte| byte == 0).filter_map(|text| std::str::from_utf8(text).ok()).filter(is_name);
+    let mut names: Vec<String> = texts
+        .filter(|text| text.to_lowercase().contains("umat") && text.ends_with('_'))
+        .map(|text| text.trim_end_matches('_').to_uppercase())
+        .collect();
+    names.sort();
+    names.dedup();
+    let instead = if names.is_empty() { String::new() } else { format!("; there is {}", names.join(", ")) };
+    format!("there is no subroutine UMAT (symbol umat_){instead}")
 }
 
 /// The address of a subroutine, under the names that compilers give it.
@@ -155,6 +170,11 @@ impl Call {
             ("KINC", vec![f64::from(self.increment)]),
             ("DDSDDE before the call", vec![self.unset]),
         ]
+    }
+
+    /// From the bits of numbers in a row: they need not be finite.
+    pub fn from_bits(row: &[u64]) -> Option<Call> {
+        Call::from_numbers(&row.iter().map(|&bits| f64::from_bits(bits)).collect::<Vec<f64>>())
     }
 
     /// From numbers in a row.
@@ -340,6 +360,7 @@ impl<'a> Session<'a> {
         self.state.numbers_mut().copy_from_slice(&call.state);
         self.modulus.numbers_mut().fill(call.unset);
         self.properties.numbers_mut().copy_from_slice(&self.material.properties);
+        let mut name = self.name;
         let [mut elastic, mut plastic, mut creep] = call.energies;
         let (mut heat, mut heat_by_temperature) = (0.0, 0.0);
         let (mut by_temperature, mut heat_by_strain) = ([0.0; 6], [0.0; 6]);
@@ -381,7 +402,7 @@ impl<'a> Session<'a> {
                 &mut temperature_step,
                 field.as_mut_ptr(),
                 field_step.as_mut_ptr(),
-                self.name.as_ptr(),
+                name.as_mut_ptr(),
                 &mut direct,
                 &mut shear,
                 &mut all,

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use super::call::{Answer, Call, Law, Session};
 use super::guarded::Fence;
-use super::line::{Line, Question};
+use super::line::{Line, Question, Verdict};
 use super::material::{Material, Reads};
 use super::shared::{self, SIGNALLED, Seen, Shared};
-use super::{energy, objectivity, process, rest, room, steps, tangent};
+use super::{energy, objectivity, process, rest, room, steps, tangent, vumat};
 use crate::common::bound_child;
 use crate::common::error::Error;
 
@@ -27,8 +27,9 @@ const KEPT: usize = 1 << 14;
 /// Exit codes of `utilities.c`.
 const BY_XIT: i32 = 71;
 const BY_MESSAGE: i32 = 72;
-/// The child's own exit code for a library that cannot be loaded.
+/// The child's own exit codes: for a library that cannot be loaded, and for what is not the law's.
 const NOT_LOADED: i32 = 73;
+const FAILED: i32 = 75;
 /// What the loader ends a process with.
 const UNRESOLVED: i32 = 127;
 /// Rust's, after a panic.
@@ -36,6 +37,8 @@ const PANICKED: i32 = 101;
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Task {
+    /// Whether there is a VUMAT and no UMAT.
+    Alone,
     /// What the law reads.
     Reads,
     Question {
@@ -62,6 +65,7 @@ pub struct Request {
 /// What a child says if it lives.
 #[derive(Debug, Serialize, Deserialize)]
 pub enum Said {
+    Alone(bool),
     Reads(Reads),
     Line(Line),
     /// Stress, state, DDSDDE by rows, PNEWDT, as text: they need not be finite.
@@ -80,37 +84,62 @@ pub struct Ending {
 /// The child: answers a request, and ends.
 ///
 /// # Errors
-/// The request cannot be read.
+/// None that come back: its exit code tells its own failures from the law's ends.
 pub fn answer(request: &Path) -> Result<(), Error> {
+    if let Err(error) = answered(request) {
+        crate::common::console::print_error(&error.to_string());
+        std::process::exit(FAILED);
+    }
+    Ok(())
+}
+
+fn answered(request: &Path) -> Result<(), Error> {
     let io_error = |error: io::Error| Error::Input(format!("{}: {error}", request.display()));
     let text = std::fs::read(request).map_err(io_error)?;
     let Request { library, material, task, fence, shared, result } =
         serde_json::from_slice(&text).map_err(|error| Error::Input(format!("{}: {error}", request.display())))?;
     let shared = Shared::open(&shared).map_err(io_error)?;
-    let law = match Law::load(&library) {
-        Ok(law) => law,
-        Err(reason) => {
-            crate::common::console::print_error(&reason);
-            std::process::exit(NOT_LOADED);
-        }
-    };
+    if matches!(task, Task::Alone) {
+        Shared::catch_signals();
+        return say(&result, &Said::Alone(loaded(vumat::call::alone(&library))));
+    }
+    if material.explicit.called {
+        let law = loaded(vumat::call::Law::load(&library));
+        Shared::catch_signals();
+        let said = vumat::child::answer(&law, &material, &task, fence, shared).map_err(io_error)?;
+        let said = said.ok_or_else(|| Error::Input("this is asked of a UMAT alone".to_string()))?;
+        return say(&result, &said);
+    }
+    let law = loaded(Law::load(&library));
     Shared::catch_signals();
     law.begin();
     let mut session = Session::new(&law, &material, fence, Some(shared)).map_err(io_error)?;
     let said = match task {
+        Task::Alone => Said::Alone(false),
         Task::Reads => Said::Reads(process::reads(&mut session)),
         Task::Question { question, reads, allowed } => {
             Said::Line(line(question, &law, &material, &mut session, reads, allowed))
         }
         Task::LargeTurns => Said::Line(objectivity::at_large_turns(&mut session)),
         Task::Call(bits) => {
-            let numbers: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
-            let call = Call::from_numbers(&numbers).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
+            let call = Call::from_bits(&bits).ok_or_else(|| Error::Input("a call is not whole".to_string()))?;
             Said::Answer(in_words(&session.ask(&call), &material))
         }
     };
-    let text = serde_json::to_vec(&said).map_err(|error| Error::Input(error.to_string()))?;
-    std::fs::write(&result, text).map_err(io_error)?;
+    say(&result, &said)
+}
+
+/// What is loaded; where it cannot be, this process has nothing to do.
+fn loaded<T>(law: Result<T, String>) -> T {
+    law.unwrap_or_else(|reason| {
+        crate::common::console::print_error(&reason);
+        std::process::exit(NOT_LOADED)
+    })
+}
+
+fn say(result: &Path, said: &Said) -> Result<(), Error> {
+    let text = serde_json::to_vec(said).map_err(|error| Error::Input(error.to_string()))?;
+    std::fs::write(result, text).map_err(|error| Error::Input(format!("{}: {error}", result.display())))?;
     // SAFETY: it takes a number and does not return. What the library would do at the process's end is not asked about.
     unsafe { libc::_exit(0) }
 }
@@ -140,6 +169,9 @@ fn line(
         Question::Invalid => process::invalid(session, reads),
         Question::Histories => process::histories(session, reads),
         Question::Runtime => process::runtime(session),
+        Question::DataCheck | Question::Blocks | Question::Single | Question::Deletion => {
+            Line::new(question, Verdict::NotAsked, None, "asked of a VUMAT alone")
+        }
     }
 }
 
@@ -159,7 +191,7 @@ fn in_words(answer: &Answer, material: &Material) -> Vec<(String, String)> {
 /// The parent: asks in a child, in this folder.
 ///
 /// # Errors
-/// The child cannot be started, or its files cannot be written.
+/// The child cannot be started, its files cannot be written, or the library cannot be loaded or has no UMAT.
 pub fn ask(
     folder: &Path,
     library: &Path,
@@ -201,6 +233,13 @@ pub fn ask(
         && status.success()
     {
         return Ok(Ok(said));
+    }
+    if let Watched::Ended(status) = &status {
+        match status.code() {
+            Some(NOT_LOADED) => return Err(Error::Input(last_line(&messages).to_string())),
+            Some(FAILED) => return Err(Error::Input(format!("the check itself fails: {}", last_line(&messages)))),
+            _ => {}
+        }
     }
     let seen = Seen::read(&shared).map_err(io_error)?;
     Ok(Err(ending(&status, &messages, &seen)))
@@ -274,7 +313,6 @@ fn ending(status: &Watched, messages: &str, seen: &Seen) -> Ending {
         (Some(SIGNALLED), _) => at_signal(seen, &after, call),
         (Some(BY_XIT), _) => end("XIT", format!("the law calls XIT {after}")),
         (Some(BY_MESSAGE), _) => end("XIT", format!("the law ends the analysis {after}: {}", last_line(messages))),
-        (Some(NOT_LOADED), _) => end("crash", format!("the library cannot be loaded: {}", last_line(messages))),
         (Some(UNRESOLVED), _) => {
             end("missing routine", format!("a routine is nowhere, {after}: {}", last_line(messages)))
         }

@@ -7,15 +7,17 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::call::Call;
 use super::child::{self, Ending, Said, Task};
 use super::compile::{self, Built};
 use super::guarded::Fence;
 use super::input::{self, Input, Over};
-use super::line::{Line, Question, Verdict};
-use super::material::{Material, Reads};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
+use super::material::{DEFAULT_NAME, Material, Reads};
 use super::repeated::Repeated;
 use super::report::{OfMaterial, Report};
 use super::room::Room;
+use super::shared;
 use crate::common::console::print;
 use crate::common::error::Error;
 
@@ -24,6 +26,12 @@ pub struct Arguments {
     /// The subroutine: Fortran, C or C++, or a shared library with it.
     #[arg(required_unless_present = "again")]
     file: Option<PathBuf>,
+    /// Ask the file's VUMAT, not its UMAT; where there is no UMAT this is not needed.
+    #[arg(long)]
+    vumat: bool,
+    /// The library of the same VUMAT for single precision, where FILE is a library.
+    #[arg(long, requires = "file")]
+    single: Option<PathBuf>,
     /// Properties, states and traits (see docs/guides/check.md); without it, FILE's name with .toml if that is there.
     #[arg(long)]
     scene: Option<PathBuf>,
@@ -39,6 +47,12 @@ pub struct Arguments {
     /// What the law is: hyperelastic, dissipative, isotropic.
     #[arg(long, value_delimiter = ',')]
     traits: Option<Vec<String>>,
+    /// CMNAME.
+    #[arg(long)]
+    name: Option<String>,
+    /// Axes that turn with the material, as with *ORIENTATION.
+    #[arg(long)]
+    orientation: bool,
     /// Seed of the random states.
     #[arg(long)]
     seed: Option<u64>,
@@ -60,7 +74,7 @@ pub struct Arguments {
 }
 
 fn question(name: &str) -> Result<Question, String> {
-    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::ASKED.map(Question::name).join(", ")))
+    Question::parse(name).ok_or_else(|| format!("allowed: {}", Question::names()))
 }
 
 fn allowance(text: &str) -> Result<(String, f64), String> {
@@ -87,11 +101,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         states: arguments.statev,
         components: arguments.ntens,
         traits: arguments.traits.clone(),
+        name: arguments.name.clone(),
+        orientation: arguments.orientation,
         seed: arguments.seed,
     };
-    let Input { materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
+    let Input { mut materials, mut allowed } = input::input(file, arguments.scene.as_deref(), &over)?;
     allowed.extend(arguments.allow.iter().cloned());
     let built = compile::compile(file, &room.path)?;
+    if arguments.vumat || vumat_alone(&built, &room.path, materials.first())? {
+        let single = match &arguments.single {
+            Some(library) => Some(Ok(canonical(library)?)),
+            None => built.single(file, &room.path)?,
+        };
+        explicit(single.as_ref(), &mut materials)?;
+    } else if arguments.single.is_some() {
+        return Err(Error::Input("single is for a VUMAT; allowed: with one, or with --vumat".to_string()));
+    }
     let check = Check { file, built: &built, room: &room.path, allowed: &allowed, arguments };
     let materials: Result<Vec<OfMaterial>, Error> = materials.iter().map(|material| check.material(material)).collect();
     let mut report = Report { file: file.display().to_string(), verdict: Verdict::Right, materials: materials? };
@@ -107,6 +132,32 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         print(&report.as_text(colours));
     }
     if wrong.is_empty() { Ok(()) } else { Err(Error::Evaluation(format!("{}: wrong: {wrong}", file.display()))) }
+}
+
+/// Whether a library has a VUMAT and no UMAT, asked in a child as everything else.
+fn vumat_alone(built: &Built, room: &Path, material: Option<&Material>) -> Result<bool, Error> {
+    let Some(material) = material else { return Ok(false) };
+    let said = child::ask(room, &built.library, material, Task::Alone, Fence::Room, child::LONGEST_CALL)?;
+    Ok(matches!(said, Ok(Said::Alone(true))))
+}
+
+/// A path that the child finds from where it runs.
+fn canonical(path: &Path) -> Result<PathBuf, Error> {
+    path.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", path.display())))
+}
+
+/// Declares that a VUMAT is called, and where its build for single precision is.
+fn explicit(single: Option<&Result<PathBuf, String>>, materials: &mut [Material]) -> Result<(), Error> {
+    for material in materials {
+        if material.components == 3 {
+            return Err(Error::Input(
+                "ntens is 3; allowed with a VUMAT: 6 (solids), 4 (plane strain, axisymmetric)".into(),
+            ));
+        }
+        material.explicit.called = true;
+        material.explicit.single = single.cloned();
+    }
+    Ok(())
 }
 
 /// How long a law is waited for that has hung before.
@@ -130,8 +181,11 @@ impl Check<'_> {
             Ok(_) => None,
             Err(_) => None,
         };
-        let asked = Question::ASKED
-            .into_iter()
+        let explicit = material.explicit.called;
+        let questions = if explicit { &Question::OF_VUMAT[..] } else { &Question::ASKED };
+        let asked = questions
+            .iter()
+            .copied()
             .filter(|question| self.arguments.only.is_empty() || self.arguments.only.contains(question));
         let mut fence = Fence::Behind;
         let mut ended: Vec<(String, Question)> = Vec::new();
@@ -156,6 +210,7 @@ impl Check<'_> {
             }
             lines.push(line);
         }
+        seen_together(&mut lines);
         Ok(OfMaterial { name: material.name.clone(), law: reads.map(|reads| reads.name().to_string()), lines })
     }
 
@@ -168,7 +223,10 @@ impl Check<'_> {
         longest_call: Duration,
     ) -> Result<Result<Said, Ending>, Error> {
         let library = self.built.checked.as_ref().filter(|_| checked).unwrap_or(&self.built.library);
-        child::ask(self.room, library, material, task, fence, longest_call)
+        child::ask(self.room, library, material, task, fence, longest_call).map_err(|error| match error {
+            Error::Input(text) => Error::Input(format!("{}: {text}", self.file.display())),
+            other => other,
+        })
     }
 
     fn question(
@@ -197,13 +255,27 @@ impl Check<'_> {
         let mut answer = None;
         for &fence in fences {
             match self.ask(material, task.clone(), fence, checked, longest_call)? {
-                Ok(Said::Line(line)) => answer = Some(line),
+                Ok(Said::Line(mut line)) => {
+                    if let Some(call) = line.call_bits.take().and_then(|bits| Call::from_bits(&bits)) {
+                        line.call = Some(self.kept(material, question, fence, call)?);
+                    }
+                    answer = Some(line);
+                }
                 Ok(_) => {}
                 Err(ending) => return self.ended(material, question, ending, fence, ended),
             }
         }
         let line = answer.unwrap_or_else(|| Line::new(question, Verdict::NotSure, None, "no answer"));
-        if question == Question::Objectivity && line.verdict == Verdict::Right && reads != Reads::Total {
+        if checked && line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+            let unset = self.built.used_unset(self.file, self.room);
+            let unset = if unset.is_empty() { String::new() } else { format!(": by gfortran {}", unset.join(", ")) };
+            return Ok(Line { text: format!("{}{unset}", line.text), ..line });
+        }
+        if question == Question::Objectivity
+            && !material.explicit.called
+            && line.verdict == Verdict::Right
+            && reads != Reads::Total
+        {
             return self.at_large_turns(material, line, fence, longest_call);
         }
         Ok(line)
@@ -240,23 +312,133 @@ impl Check<'_> {
         if kind == "slow" {
             return Ok(Line::new(question, Verdict::NotSure, None, text));
         }
+        if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
+            let text = format!("ends as in {}", first.name());
+            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
+        }
         if question == Question::Invalid && kind == "XIT" {
             return Ok(Line::new(question, Verdict::Right, None, text));
         }
         if question == Question::Invalid && kind == "stop" {
             return Ok(Line::new(question, Verdict::Warning, None, text).with("stop"));
         }
-        if let Some((_, first)) = ended.iter().find(|(known, _)| *known == kind) {
-            let text = format!("ends as in {} does: {text}", first.name());
-            return Ok(Line::new(question, Verdict::NotSure, None, text).with(&kind));
+        if let Some(array) = old_assumed_size(&text) {
+            let text = format!(
+                "{text}: if it is an argument, {array}(1) is the old way to write {array}(*), which hides the rest from this check"
+            );
+            return Ok(Line::new(question, Verdict::Warning, None, text).with("assumed size"));
         }
         ended.push((kind.clone(), question));
-        let mut line = Line::new(question, Verdict::Wrong, None, text).with(&kind);
-        // The build with checks at run time is not the one that repeats a call.
-        if let Some(call) = call.filter(|_| question != Question::Runtime) {
-            let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
-            line.call = Some(repeated.write(&self.arguments.output, question)?.display().to_string());
+        let of_the_line = kind == "runtime check"
+            || matches!(question, Question::Threads | Question::Repeat | Question::Histories)
+            || shared::names().any(|array| kind.ends_with(array));
+        let verdict = if of_the_line { Verdict::Wrong } else { Verdict::Ended };
+        let hint = match kind.as_str() {
+            "XIT" | "stop" if material.name == DEFAULT_NAME => {
+                format!("; CMNAME is {DEFAULT_NAME} here: --name, if the law asks for it")
+            }
+            _ => String::new(),
+        };
+        let mut line = Line::new(question, verdict, None, format!("{text}{hint}")).with(&kind);
+        // The build with checks at run time is not the one that repeats a call, and of threads no call is kept.
+        if let Some(call) = call.filter(|_| !matches!(question, Question::Runtime | Question::Threads)) {
+            line.call = Some(self.kept(material, question, fence, call)?);
         }
         Ok(line)
+    }
+
+    /// The file of a call, for `--again`.
+    fn kept(&self, material: &Material, question: Question, fence: Fence, call: Call) -> Result<String, Error> {
+        let repeated = Repeated { file: self.file.to_path_buf(), material: material.clone(), fence, call };
+        Ok(repeated.write(&self.arguments.output, question)?.display().to_string())
+    }
+}
+
+/// The array of a message of gfortran's checks that has one entry by its declaration, and more by its use.
+fn old_assumed_size(message: &str) -> Option<&str> {
+    let (_, rest) = message.split_once(" of dimension 1 of array '")?;
+    let (array, rest) = rest.split_once('\'')?;
+    (rest.trim() == "above upper bound of 1").then_some(array)
+}
+
+/// What one line says of another: one cause is told once.
+fn seen_together(lines: &mut [Line]) {
+    stress_before_tangent(lines);
+    not_finite_once(lines);
+    crash_of_unset_variable(lines);
+}
+
+/// Where the stress itself is wrong, the tangent's kind may follow from it.
+fn stress_before_tangent(lines: &mut [Line]) {
+    let is_wrong =
+        |question: Question| lines.iter().any(|line| line.line == question.name() && line.verdict == Verdict::Wrong);
+    let of_stress = [Question::Objectivity, Question::Isotropy].into_iter().find(|&question| is_wrong(question));
+    let Some(of_stress) = of_stress.map(Question::name) else { return };
+    for line in lines.iter_mut().filter(|line| line.line == Question::Tangent.name()) {
+        if line.verdict == Verdict::Wrong && !line.kinds.is_empty() {
+            let kind = line.text.strip_prefix("none of the usual mistakes; ");
+            let text = kind.map_or_else(|| format!("perhaps {}", line.text), str::to_string);
+            line.text = format!("the stress itself is wrong (see {of_stress}): mend it first; {text}");
+        }
+    }
+}
+
+/// What is not finite in one line is so in others.
+fn not_finite_once(lines: &mut [Line]) {
+    let mut first: Option<String> = None;
+    for line in lines.iter_mut() {
+        if line.verdict != Verdict::Wrong || !line.kinds.iter().any(|kind| kind == NOT_FINITE) {
+            continue;
+        }
+        match &first {
+            Some(first) => {
+                line.verdict = Verdict::NotSure;
+                line.text = format!("not finite, as in {first}");
+            }
+            None => first = Some(line.line.clone()),
+        }
+    }
+}
+
+/// A crash where the build with checks has found the cause.
+fn crash_of_unset_variable(lines: &mut [Line]) {
+    let runtime = Question::Runtime.name();
+    if !lines.iter().any(|line| line.line == runtime && line.verdict == Verdict::Wrong) {
+        return;
+    }
+    for line in lines.iter_mut() {
+        if line.verdict.fails() && line.kinds.iter().any(|kind| kind == "crash") {
+            line.verdict = Verdict::NotSure;
+            line.text.push_str("; see runtime");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_of_one_entry_is_told_from_a_true_bound() {
+        let of =
+            |bound: &str| format!("umat.f:17: Index '2' of dimension 1 of array 'props' above upper bound of {bound}");
+        assert_eq!(old_assumed_size(&of("1")), Some("props"));
+        assert_eq!(old_assumed_size(&of("12")), None);
+    }
+
+    #[test]
+    fn a_wrong_stress_comes_before_the_tangent() {
+        let tangent = Line::new(Question::Tangent, Verdict::Wrong, None, "symmetrised").with("symmetrised");
+        let mut alone = [tangent.clone(), Line::new(Question::Objectivity, Verdict::Right, None, "")];
+        seen_together(&mut alone);
+        assert_eq!(alone[0].text, "symmetrised");
+        let mut both = [tangent, Line::new(Question::Objectivity, Verdict::Wrong, None, "")];
+        seen_together(&mut both);
+        assert!(both[0].text.starts_with("the stress itself is wrong (see objectivity)"));
+        let not_finite = |question| Line::new(question, Verdict::Wrong, None, "").with(NOT_FINITE);
+        let mut both = [not_finite(Question::Rest), not_finite(Question::Tangent)];
+        seen_together(&mut both);
+        assert_eq!([both[0].verdict, both[1].verdict], [Verdict::Wrong, Verdict::NotSure]);
+        assert_eq!(both[1].text, "not finite, as in rest");
     }
 }

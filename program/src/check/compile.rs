@@ -29,6 +29,37 @@ enum Language {
     Library,
 }
 
+/// How gfortran is told to read a source.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    flags: &'static [&'static str],
+    /// What is said of it in the report.
+    said: &'static str,
+}
+
+const fn form(flags: &'static [&'static str], said: &'static str) -> Form {
+    Form { flags, said }
+}
+
+/// In this order, until one compiles: what Abaqus's compiler takes comes first. `-fdec` is the dialect that it has from DEC. A leading
+/// tab counts for less there than here, so that lines may be too long.
+const FIXED_FORMS: [Form; 5] = [
+    form(&["-ffixed-form", "-ffixed-line-length-132"], ""),
+    form(&["-ffixed-form", "-ffixed-line-length-132", "-fdec"], ""),
+    form(&["-ffixed-form", "-ffixed-line-length-none", "-fdec"], ""),
+    form(&["-ffixed-form", "-ffixed-line-length-72", "-fdec"], ", in lines of 72 columns; Abaqus's have 132"),
+    form(
+        &["-ffree-form", "-ffree-line-length-none", "-fdec"],
+        ", as free form, which Abaqus takes with !DIR$ FREEFORM or -free",
+    ),
+];
+const FREE_FORMS: [Form; 2] = [
+    form(&["-ffree-form", "-ffree-line-length-none"], ""),
+    form(&["-ffree-form", "-ffree-line-length-none", "-fdec"], ""),
+];
+/// Of other compilers and languages.
+const NO_FORM: [Form; 1] = [form(&[], "")];
+
 /// What a file became.
 pub struct Built {
     pub library: PathBuf,
@@ -36,6 +67,7 @@ pub struct Built {
     pub checked: Option<PathBuf>,
     /// By which compiler.
     pub by: String,
+    form: Form,
 }
 
 /// Compiles the file into the folder, or takes it as it is.
@@ -47,7 +79,8 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let file = file.canonicalize().map_err(|error| Error::Input(format!("{}: {error}", file.display())))?;
     room::furnish(folder, &file)?;
     if language == Language::Library {
-        return Ok(Built { library: file, checked: None, by: "loaded as it is".to_string() });
+        let by = "loaded as it is".to_string();
+        return Ok(Built { library: file, checked: None, by, form: NO_FORM[0] });
     }
     includes(folder).map_err(|error| Error::Input(format!("{}: {error}", folder.display())))?;
     let compiler = compiler(language)?;
@@ -55,16 +88,91 @@ pub fn compile(file: &Path, folder: &Path) -> Result<Built, Error> {
     let mut command = Command::new("gcc");
     command.args(["-c", "-O1", "-fPIC", "-w"]).arg(folder.join("utilities.c")).arg("-o").arg(&utilities);
     run(&mut command, "utilities.c")?;
-    let build = |checked, dialect| build(&file, language, compiler, folder, &utilities, checked, dialect);
+    let build = |checked, form| build(&file, language, compiler, folder, &utilities, checked, form);
     let fortran = compiler == "gfortran";
-    // What ifort takes and gfortran does not, in the dialect that both have from DEC.
-    let (library, dialect) = match build(false, false) {
-        Err(error) if fortran => (build(false, true).map_err(|_| error)?, true),
-        library => (library?, false),
+    let forms: &[Form] = match language {
+        Language::FixedForm if fortran => &FIXED_FORMS,
+        Language::FreeForm if fortran => &FREE_FORMS,
+        _ => &NO_FORM,
+    };
+    let (first, others) = forms.split_first().ok_or_else(|| Error::Input("no form is known".to_string()))?;
+    let (library, form) = match build(false, *first) {
+        Ok(library) => (library, *first),
+        // What is said is of the form that it should have.
+        Err(error) => {
+            let other = others.iter().find_map(|form| build(false, *form).ok().map(|library| (library, *form)));
+            other.ok_or(error)?
+        }
     };
     // Where the checks do not compile there is no second build, which is said.
-    let checked = fortran.then(|| build(true, dialect).ok()).flatten();
-    Ok(Built { library, checked, by: compiler.to_string() })
+    let checked = fortran.then(|| build(true, form).ok()).flatten();
+    Ok(Built { library, checked, by: format!("{compiler}{}", form.said), form })
+}
+
+impl Built {
+    /// The variables that gfortran sees used before they are set, with their lines.
+    pub fn used_unset(&self, file: &Path, folder: &Path) -> Vec<String> {
+        let Ok(file) = file.canonicalize() else { return Vec::new() };
+        let mut command = Command::new("gfortran");
+        including(&mut command, &file, folder);
+        command.args(["-c", "-O1", "-cpp", "-std=legacy", "-fallow-argument-mismatch", "-frecursive"]);
+        command.args(["-Wuninitialized", "-Wmaybe-uninitialized", "-fdiagnostics-plain-output"]).args(self.form.flags);
+        command.arg("-x").arg("f95").arg(&file).arg("-o").arg(folder.join("unset.o"));
+        let messages = command.output().map(|output| String::from_utf8_lossy(&output.stderr).to_string());
+        unset_in(&messages.unwrap_or_default())
+    }
+
+    /// The same for single precision, where the source leaves it to `vaba_param.inc`; inside, why it does not compile so.
+    ///
+    /// # Errors
+    /// Files cannot be read or written.
+    pub fn single(&self, file: &Path, folder: &Path) -> Result<Option<Result<PathBuf, String>>, Error> {
+        let language = language(file)?;
+        if !matches!(language, Language::FixedForm | Language::FreeForm) {
+            return Ok(None);
+        }
+        let error = |error: std::io::Error| Error::Input(format!("{}: {error}", file.display()));
+        let text = String::from_utf8_lossy(&std::fs::read(file).map_err(error)?).to_lowercase();
+        if !text.contains("vaba_param.inc") {
+            return Ok(None);
+        }
+        let inner = folder.join("single");
+        std::fs::create_dir_all(&inner).map_err(error)?;
+        includes(&inner).map_err(error)?;
+        for name in ["vaba_param.inc", "VABA_PARAM.INC"] {
+            std::fs::write(inner.join(name), SINGLE).map_err(error)?;
+        }
+        std::os::unix::fs::symlink(room::in_either_case(folder), room::in_either_case(&inner)).map_err(error)?;
+        let file = file.canonicalize().map_err(error)?;
+        let compiler = compiler(language)?;
+        let utilities = folder.join("utilities.o");
+        let library = build(&file, language, compiler, &inner, &utilities, false, self.form);
+        Ok(Some(library.map_err(|error| error.to_string())))
+    }
+}
+
+/// `file.f:12:5: Warning: 'x' is used uninitialized` as `x (line 12)`, each variable once.
+fn unset_in(messages: &str) -> Vec<String> {
+    let mut found: Vec<(String, String)> = Vec::new();
+    for message in messages.lines() {
+        let Some((place, warning)) = message.split_once(": Warning: ") else { continue };
+        let line = place.rsplit(':').nth(1);
+        let name = warning.split(['\'', '‘', '’']).nth(1).filter(|_| warning.contains("uninitialized"));
+        if let (Some(line), Some(name)) = (line, name)
+            && !found.iter().any(|(known, _)| known == name)
+        {
+            found.push((name.to_string(), format!("{name} (line {line})")));
+        }
+    }
+    found.into_iter().map(|(_, said)| said).collect()
+}
+
+fn including(command: &mut Command, file: &Path, folder: &Path) {
+    command.current_dir(folder).arg("-I").arg(folder);
+    if let Some(beside) = file.parent() {
+        command.arg("-I").arg(beside);
+    }
+    command.arg("-I").arg(room::in_either_case(folder));
 }
 
 fn language(file: &Path) -> Result<Language, Error> {
@@ -139,15 +247,12 @@ fn build(
     folder: &Path,
     utilities: &Path,
     checked: bool,
-    dialect: bool,
+    form: Form,
 ) -> Result<PathBuf, Error> {
     let library = folder.join(if checked { "checked.so" } else { "law.so" });
     let mut command = Command::new(compiler);
-    command.current_dir(folder).args(["-shared", "-fPIC", "-g"]).arg("-I").arg(folder);
-    if let Some(beside) = file.parent() {
-        command.arg("-I").arg(beside);
-    }
-    command.arg("-I").arg(room::in_either_case(folder));
+    command.args(["-shared", "-fPIC", "-g"]);
+    including(&mut command, file, folder);
     match (language, compiler) {
         (Language::C, _) => {
             command.args(["-O2", "-w"]);
@@ -158,27 +263,31 @@ fn build(
         (_, "gfortran") => {
             // Without -frecursive large local arrays are static, and threads would fail for no fault of the law.
             command.args(["-std=legacy", "-fallow-argument-mismatch", "-frecursive", "-w", "-cpp"]);
-            if dialect {
-                command.arg("-fdec");
-            }
             command.args(if checked {
                 &["-O0", "-fcheck=all,no-array-temps", "-finit-real=snan", "-finit-integer=-77777777", "-fno-backtrace"]
                     [..]
             } else {
                 &["-O2"][..]
             });
-            command.args(if language == Language::FreeForm {
-                ["-ffree-form", "-ffree-line-length-none"]
-            } else {
-                ["-ffixed-form", "-ffixed-line-length-132"]
-            });
+            command.args(form.flags);
         }
         _ => {
             command.args(["-O2", "-auto", "-fpp", "-extend-source", "132", "-w"]);
             command.arg(if language == Language::FreeForm { "-free" } else { "-fixed" });
         }
     }
-    command.arg(file).arg(utilities).args(["-Wl,-z,lazy", "-o"]).arg(&library).args(["-lm", "-lpthread"]);
+    // Compilers know fewer endings than there are, and one in capitals as another.
+    match (language, compiler) {
+        (Language::C, _) => command.args(["-x", "c"]),
+        (Language::Cpp, _) => command.args(["-x", "c++"]),
+        (_, "gfortran") => command.args(["-x", "f95"]),
+        _ => command.arg("-Tf"),
+    };
+    command.arg(file);
+    if compiler != "ifx" && compiler != "ifort" {
+        command.args(["-x", "none"]);
+    }
+    command.arg(utilities).args(["-Wl,-z,lazy", "-o"]).arg(&library).args(["-lm", "-lpthread"]);
     run(&mut command, &file.display().to_string())?;
     Ok(library)
 }
@@ -203,5 +312,14 @@ mod tests {
         assert!(free_form("!DIR$ FREEFORM\n"));
         assert!(free_form("      subroutine a\n!dir$ freeform\n"));
         assert!(!free_form("C     a comment about !DIR$ FREEFORM\n"));
+    }
+
+    #[test]
+    fn variables_that_are_not_set_are_named_once() {
+        let messages = "/x/a.f:12:72: Warning: 'd0' is used uninitialized [-Wuninitialized]\n\
+                        /x/a.f:20:9: Warning: ‘d0’ may be used uninitialized [-Wmaybe-uninitialized]\n\
+                        /x/a.f:21:9: Warning: unused variable 'k' [-Wunused]\n\
+                        /x/a.f:7:1: note: 'e' was declared here\n";
+        assert_eq!(unset_in(messages), ["d0 (line 12)"]);
     }
 }

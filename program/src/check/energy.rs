@@ -8,7 +8,7 @@ use nalgebra::Matrix3;
 use super::call::Session;
 use super::histories::{direction, gradient};
 use super::kinematics::exp;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -23,6 +23,12 @@ const GAINED: f64 = 1e-3;
 const GAINED_BY_RATE: f64 = 3e-2;
 /// Increments of a straight path on which SSE is compared.
 const STRAIGHT: usize = 64;
+/// Times as many in the same time, where the first do not suffice.
+const FINER: usize = 4;
+/// Decrease of the dissipation, as a part of the work, that is rounding.
+const REGAINED: f64 = 1e-9;
+/// What is left of a difference that comes from the increments, at most; they are a quarter.
+const LEFT: f64 = 0.6;
 
 /// The work of a closed cycle.
 struct Cycle {
@@ -93,7 +99,7 @@ pub fn cycles(session: &mut Session, reads: Reads) -> Line {
         let found = match cycle(session, &mut rng, INCREMENTS) {
             Ok(Some(found)) if found.way > 0.0 => found,
             Ok(_) => continue,
-            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with("NaN"),
+            Err(text) => return Line::new(Question::Cycles, Verdict::Wrong, None, text).with(NOT_FINITE),
         };
         asked += 1;
         worst = worst.max((found.work.abs() - 10.0 * found.unsure).max(0.0) / found.way);
@@ -128,11 +134,15 @@ struct Reported {
     elastic_alone_from_work: [f64; 2],
     untouched: bool,
     dissipated_untouched: bool,
-    /// The largest decrease of SPD + SCD, as a part of W.
+    /// The largest decrease of SPD + SCD, there and back, as a part of W.
     regained: f64,
+    /// SPD + SCD at the ends of the paths, all together.
+    dissipated: f64,
 }
 
-fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
+/// Each path in so many increments, in the same time.
+fn reported(session: &mut Session, increments: usize) -> Result<Option<Reported>, String> {
+    let time_step = session.material.time_step * STRAIGHT as f64 / increments as f64;
     let mut rng = Rng::with_seed(session.material.seed ^ 0xe1);
     let zero = [0.0_f64; 2];
     let mut all = Reported {
@@ -141,6 +151,7 @@ fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
         untouched: true,
         dissipated_untouched: true,
         regained: 0.0,
+        dissipated: 0.0,
     };
     let mut asked = 0;
     for _ in 0..8 {
@@ -148,16 +159,16 @@ fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
         let mut point = Point::virgin(session, [1, 1]);
         let (mut work, mut largest, mut power_before) = (0.0, 0.0_f64, 0.0);
         let mut differences = Vec::new();
-        for k in 1..=STRAIGHT {
-            let f = exp(&(strain * (k as f64 / STRAIGHT as f64)));
+        for k in 1..=increments {
+            let f = exp(&(strain * (k as f64 / increments as f64)));
             let before = point.energies;
-            match point.advance(session, &f) {
+            match point.advance_in(session, &f, time_step) {
                 Ok(_) => {}
                 Err(Failure::Refused) => return Ok(None),
                 Err(Failure::NotFinite(_)) => return Err("not finite on a straight path".to_string()),
             }
             // τ : D along a path of constant D.
-            let power = point.global_stress(session.material).dot(&strain) * f.determinant() / STRAIGHT as f64;
+            let power = point.global_stress(session.material).dot(&strain) * f.determinant() / increments as f64;
             work += 0.5 * (power + power_before);
             power_before = power;
             largest = largest.max(work.abs());
@@ -173,8 +184,22 @@ fn reported(session: &mut Session) -> Result<Option<Reported>, String> {
                 regained,
             ));
         }
+        all.dissipated += point.energies[1] + point.energies[2];
+        let mut regained_back = 0.0_f64;
+        for k in (0..increments).rev() {
+            let before = point.energies;
+            let f = exp(&(strain * (k as f64 / increments as f64)));
+            match point.advance_in(session, &f, time_step) {
+                Ok(_) => {}
+                Err(Failure::Refused) => break,
+                Err(Failure::NotFinite(_)) => return Err("not finite on the way back to rest".to_string()),
+            }
+            let [_, plastic, creep] = point.energies;
+            regained_back = regained_back.max(before[1] + before[2] - plastic - creep);
+        }
         if largest > 0.0 {
             asked += 1;
+            all.regained = all.regained.max(regained_back / largest);
             for (elastic, sum, regained) in differences {
                 for i in 0..2 {
                     all.elastic_alone_from_work[i] = all.elastic_alone_from_work[i].max(elastic[i] / largest);
@@ -192,20 +217,23 @@ pub fn energy(session: &mut Session) -> Line {
     if session.material.components == 3 {
         return Line::new(Question::Energy, Verdict::NotAsked, None, "plane stress: the work across it is not known");
     }
-    let found = match reported(session) {
+    let found = match reported(session, STRAIGHT) {
         Ok(Some(found)) => found,
         Ok(None) => return Line::new(Question::Energy, Verdict::NotSure, None, "no path without smaller increments"),
-        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with("NaN"),
+        Err(text) => return Line::new(Question::Energy, Verdict::Wrong, None, text).with(NOT_FINITE),
     };
     if found.untouched {
         return Line::new(Question::Energy, Verdict::NotReported, None, "SSE is not set");
     }
     let hyperelastic = session.material.traits.hyperelastic;
-    let (of, differences) = if hyperelastic && found.dissipated_untouched {
-        ("SSE", found.elastic_alone_from_work)
-    } else {
-        ("SSE + SPD + SCD", found.from_work)
+    let compared = |found: &Reported| {
+        if hyperelastic && found.dissipated_untouched {
+            ("SSE", found.elastic_alone_from_work)
+        } else {
+            ("SSE + SPD + SCD", found.from_work)
+        }
     };
+    let (of, differences) = compared(&found);
     let (name, figure) = if differences[0] <= differences[1] { ("W", differences[0]) } else { ("W/J", differences[1]) };
     // The sum along the path has an error of its own, and a law that adds up work has another.
     let near = if hyperelastic { 2e-3 } else { 3e-2 };
@@ -218,6 +246,15 @@ pub fn energy(session: &mut Session) -> Line {
         // Growth, for one, brings energy along.
         let text = format!("{text}; neither hyperelastic nor dissipative is declared");
         return Line::new(Question::Energy, Verdict::NotAsked, Some(figure), text);
+    }
+    // A law that adds up work has an error of its increments.
+    if !hyperelastic && let Ok(Some(finer)) = reported(session, FINER * STRAIGHT) {
+        let (_, differences) = compared(&finer);
+        let least = differences[0].min(differences[1]);
+        if least < LEFT * figure {
+            let text = format!("{of} comes nearer to {name} with smaller increments: {least:.1e} in a quarter of them");
+            return Line::new(Question::Energy, Verdict::Right, Some(figure), text);
+        }
     }
     let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
     Line::new(Question::Energy, verdict, Some(figure), text).with("SSE")
@@ -236,19 +273,31 @@ pub fn dissipation(session: &mut Session) -> Line {
     if !session.material.traits.dissipative {
         return Line::new(Question::Dissipation, Verdict::NotAsked, None, "dissipative is not declared");
     }
-    match reported(session) {
-        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with("NaN"),
+    match reported(session, STRAIGHT) {
+        Err(text) => Line::new(Question::Dissipation, Verdict::Wrong, None, text).with(NOT_FINITE),
         Ok(None) => Line::new(Question::Dissipation, Verdict::NotSure, None, "no path without smaller increments"),
         Ok(Some(found)) if found.dissipated_untouched => {
             Line::new(Question::Dissipation, Verdict::NotReported, None, "SPD and SCD are not set")
         }
-        Ok(Some(found)) if found.regained > 1e-9 => {
-            let text = format!("SPD + SCD decrease by {:.1e} of the work done", found.regained);
-            Line::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained")
-        }
-        Ok(Some(found)) => {
-            let text = "SPD + SCD never decrease";
-            Line::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)
-        }
+        Ok(Some(found)) => accumulated(session, &found),
     }
+}
+
+/// What is said of SPD + SCD that are set.
+fn accumulated(session: &mut Session, found: &Reported) -> Line {
+    let finer = reported(session, FINER * STRAIGHT).ok().flatten().map_or(f64::NAN, |finer| finer.dissipated);
+    let part = finer / found.dissipated;
+    if part < 2.0 / FINER as f64 {
+        let text = format!(
+            "SPD + SCD are those of the increment alone (with a quarter of the increment {part:.2} of them): they are to be added to \
+             the values passed in"
+        );
+        return Line::new(Question::Dissipation, Verdict::Wrong, None, text).with("not accumulated");
+    }
+    if found.regained > REGAINED {
+        let text = format!("SPD + SCD decrease by {:.1e} of the work done", found.regained);
+        return Line::new(Question::Dissipation, Verdict::Wrong, Some(found.regained), text).with("energy gained");
+    }
+    let text = "SPD + SCD never decrease, there and back";
+    Line::new(Question::Dissipation, Verdict::Right, Some(found.regained.max(0.0)), text)
 }

@@ -72,6 +72,17 @@ impl Guarded {
         unsafe { std::slice::from_raw_parts_mut(self.first, self.length) }
     }
 
+    /// As many numbers of half the length, in the first half.
+    pub fn single(&self) -> &[f32] {
+        // SAFETY: they are within the numbers that `numbers` has, and any bits are a number.
+        unsafe { std::slice::from_raw_parts(self.first.cast(), self.length) }
+    }
+
+    pub fn single_mut(&mut self) -> &mut [f32] {
+        // SAFETY: as above, and nobody else has them.
+        unsafe { std::slice::from_raw_parts_mut(self.first.cast(), self.length) }
+    }
+
     /// The addresses of the first entry and of the one behind the last.
     pub fn addresses(&self) -> (usize, usize) {
         (self.first as usize, self.first as usize + 8 * self.length)

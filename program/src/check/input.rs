@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::line::Question;
-use super::material::{Material, Traits};
+use super::material::{DEFAULT_NAME, Explicit, Material, Traits};
 use crate::common::error::Error;
 use crate::common::toml_file::{Source, read};
 
@@ -28,6 +28,9 @@ struct File {
     orientation: Option<bool>,
     fibres: Option<Spanned<Vec<Vec<f64>>>>,
     seed: Option<u64>,
+    density: Option<Spanned<f64>>,
+    deletion: Option<Spanned<usize>>,
+    defgrad: Option<Spanned<String>>,
     #[serde(default)]
     allow: BTreeMap<String, Spanned<f64>>,
     #[serde(default, rename = "material")]
@@ -53,6 +56,8 @@ pub struct Over {
     pub states: Option<usize>,
     pub components: Option<usize>,
     pub traits: Option<Vec<String>>,
+    pub name: Option<String>,
+    pub orientation: bool,
     pub seed: Option<u64>,
 }
 
@@ -87,7 +92,7 @@ fn parse(source: &Source, over: &Over) -> Result<Input, Error> {
     let mut allowed = BTreeMap::new();
     for (key, value) in &file.allow {
         if Question::parse(key).is_none() {
-            let names = Question::ASKED.map(Question::name).join(", ");
+            let names = Question::names();
             return Err(source.error(value.span(), &format!("allow has {key}; allowed: {names}")));
         }
         allowed.insert(key.clone(), source.positive(&format!("allow.{key}"), *value.get_ref(), value.span())?);
@@ -105,13 +110,11 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         }
         (None, None) => 6,
     };
-    let name = own.name.as_ref().or(file.name.as_ref());
-    if let Some(name) = name
-        && (name.get_ref().len() > LONGEST_NAME || !name.get_ref().is_ascii())
-    {
-        let message = format!("name is \"{}\"; allowed: up to {LONGEST_NAME} ASCII characters", name.get_ref());
-        return Err(source.error(name.span(), &message));
-    }
+    let name = match (&over.name, own.name.as_ref().or(file.name.as_ref())) {
+        (Some(name), _) => allowed_name(name).map_err(Error::Input)?,
+        (None, Some(name)) => allowed_name(name.get_ref()).map_err(|message| source.error(name.span(), &message))?,
+        (None, None) => DEFAULT_NAME.to_string(),
+    };
     let given = own.initial.as_ref().or(file.initial.as_ref());
     let mut initial = given.map_or(Vec::new(), |initial| initial.get_ref().clone());
     let states = over.states.or(own.statev).or(file.statev).unwrap_or(initial.len());
@@ -128,6 +131,10 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         initial.truncate(states);
     }
     initial.resize(states, 0.0);
+    let properties = over.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default();
+    let key = if over.properties.is_some() { "--props" } else { "properties" };
+    all_finite(key, &properties)?;
+    all_finite("initial", &initial)?;
     let positive = |key: &str, value: &Option<Spanned<f64>>, default: f64| match value {
         Some(value) => source.positive(key, *value.get_ref(), value.span()),
         None => Ok(default),
@@ -143,8 +150,8 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         },
     };
     Ok(Material {
-        name: name.map_or("MATERIAL".to_string(), |name| name.get_ref().clone()),
-        properties: over.properties.clone().or(own.properties.clone()).or(file.properties.clone()).unwrap_or_default(),
+        name,
+        properties,
         initial,
         components,
         stretch,
@@ -155,10 +162,51 @@ fn material(source: &Source, file: &File, own: &Own, over: &Over) -> Result<Mate
         },
         time_step: positive("dtime", &file.dtime, 1.0)?,
         traits: traits(source, own.traits.as_ref().or(file.traits.as_ref()), over)?,
-        orientation: file.orientation.unwrap_or(false),
+        orientation: over.orientation || file.orientation.unwrap_or(false),
         fibres: fibres(source, own.fibres.as_ref().or(file.fibres.as_ref()))?,
         seed: over.seed.or(file.seed).unwrap_or(1),
+        explicit: explicit(source, file, states)?,
     })
+}
+
+fn all_finite(key: &str, numbers: &[f64]) -> Result<(), Error> {
+    match numbers.iter().position(|number| !number.is_finite()) {
+        Some(at) => Err(Error::Input(format!("{key}: number {} is {}; allowed: finite numbers", at + 1, numbers[at]))),
+        None => Ok(()),
+    }
+}
+
+fn allowed_name(name: &str) -> Result<String, String> {
+    if name.len() > LONGEST_NAME || !name.is_ascii() {
+        return Err(format!("name is \"{name}\"; allowed: up to {LONGEST_NAME} ASCII characters"));
+    }
+    Ok(name.to_string())
+}
+
+/// Not 1, by which energies per mass and per volume are told apart.
+const DENSITY: f64 = 2.0;
+
+fn explicit(source: &Source, file: &File, states: usize) -> Result<Explicit, Error> {
+    let density = match &file.density {
+        Some(density) => source.positive("density", *density.get_ref(), density.span())?,
+        None => DENSITY,
+    };
+    if let Some(deletion) = &file.deletion
+        && !(1..=states).contains(deletion.get_ref())
+    {
+        let message = format!("deletion is {}; allowed: a state variable, 1 to {states}", deletion.get_ref());
+        return Err(source.error(deletion.span(), &message));
+    }
+    let stretch_alone = match &file.defgrad {
+        None => false,
+        Some(frame) => match frame.get_ref().as_str() {
+            "RU" => false,
+            "U" => true,
+            other => return Err(source.error(frame.span(), &format!("defgrad is \"{other}\"; allowed: \"RU\", \"U\""))),
+        },
+    };
+    let deletion = file.deletion.as_ref().map(|deletion| *deletion.get_ref());
+    Ok(Explicit { called: false, density, deletion, stretch_alone, single: None })
 }
 
 fn allowed_components(components: usize) -> Result<usize, String> {
@@ -229,6 +277,9 @@ mod tests {
             ("fibres = [[0.0, 0.0, 0.0]]", "law.toml:1: a fibre is no direction"),
             ("statev = 1\ninitial = [1.0, 2.0]", "law.toml:2: initial has 2 numbers"),
             ("[allow]\ntangents = 1.0", "law.toml:2: allow has tangents; allowed: memory, rest"),
+            ("properties = [1.0, nan]", "properties: number 2 is NaN; allowed: finite numbers"),
+            ("deletion = 1", "law.toml:1: deletion is 1; allowed: a state variable, 1 to 0"),
+            ("defgrad = \"R\"", "law.toml:1: defgrad is \"R\"; allowed: \"RU\", \"U\""),
             ("dtime = 0.0", "law.toml:1: dtime is 0; allowed: a finite number > 0"),
         ] {
             let error = of(text).expect_err(text);

@@ -76,8 +76,7 @@ mod tests {
         let twice = truth.map(|row| row.map(|entry| 2.0 * entry));
         assert!((contraction(&twice, &truth, 6).expect("regular") - 0.5).abs() < 1e-2);
         assert!(contraction(&[[0.0; 6]; 6], &truth, 6).is_none());
-        let sure =
-            Derivative { value: truth, error: [[0.0; 6]; 6], kinks: [[false; 6]; 6], forward: truth, backward: truth };
+        let sure = Derivative { value: truth, error: [[0.0; 6]; 6], kinks: [[false; 6]; 6] };
         assert_eq!(compare(&twice, &truth, &sure, 6).worst, 1.0);
         assert_eq!(compare(&truth, &truth, &sure, 6).worst, 0.0);
         let unsure = Derivative { error: [[1.0; 6]; 6], ..sure };

@@ -2,12 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The kind of what is not finite.
+pub const NOT_FINITE: &str = "NaN";
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
     #[serde(rename = "right")]
     Right,
     #[serde(rename = "wrong")]
     Wrong,
+    /// The law ended the process, or did not return.
+    #[serde(rename = "ended")]
+    Ended,
     #[serde(rename = "warning")]
     Warning,
     #[serde(rename = "not sure")]
@@ -19,10 +25,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Whether it fails the check.
+    pub fn fails(self) -> bool {
+        matches!(self, Verdict::Wrong | Verdict::Ended)
+    }
+
     pub fn name(self) -> &'static str {
         match self {
             Verdict::Right => "right",
             Verdict::Wrong => "wrong",
+            Verdict::Ended => "ended",
             Verdict::Warning => "warning",
             Verdict::NotSure => "not sure",
             Verdict::NotReported => "not reported",
@@ -43,15 +55,26 @@ pub struct Line {
     pub text: String,
     /// In what way it is wrong; several where they cannot be told apart.
     pub kinds: Vec<String>,
-    /// The file of a call that ended the process, for `--again`.
+    /// The file of a call that ended the process, or that is the worst of few, for `--again`.
     pub call: Option<String>,
+    /// That call as the child says it, as bits: the parent writes the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub call_bits: Option<Vec<u64>>,
 }
 
 impl Line {
     pub fn new(question: Question, verdict: Verdict, figure: Option<f64>, text: impl Into<String>) -> Self {
         // JSON has no number that is not finite.
         let figure = figure.filter(|figure| figure.is_finite());
-        Line { line: question.name().to_string(), verdict, figure, text: text.into(), kinds: Vec::new(), call: None }
+        Line {
+            line: question.name().to_string(),
+            verdict,
+            figure,
+            text: text.into(),
+            kinds: Vec::new(),
+            call: None,
+            call_bits: None,
+        }
     }
 
     pub fn with(mut self, kind: &str) -> Self {
@@ -81,6 +104,11 @@ pub enum Question {
     Invalid,
     Histories,
     Runtime,
+    /// Those of a VUMAT alone.
+    DataCheck,
+    Blocks,
+    Single,
+    Deletion,
 }
 
 impl Question {
@@ -95,6 +123,28 @@ impl Question {
         Question::Energy,
         Question::Cycles,
         Question::Dissipation,
+        Question::Repeat,
+        Question::Threads,
+        Question::Outputs,
+        Question::Exceptions,
+        Question::Invalid,
+        Question::Histories,
+        Question::Runtime,
+    ];
+
+    /// Those that a VUMAT answers.
+    pub const OF_VUMAT: [Question; 18] = [
+        Question::Memory,
+        Question::Rest,
+        Question::DataCheck,
+        Question::Objectivity,
+        Question::Isotropy,
+        Question::Steps,
+        Question::Energy,
+        Question::Dissipation,
+        Question::Deletion,
+        Question::Blocks,
+        Question::Single,
         Question::Repeat,
         Question::Threads,
         Question::Outputs,
@@ -123,10 +173,20 @@ impl Question {
             Question::Invalid => "invalid",
             Question::Histories => "histories",
             Question::Runtime => "runtime",
+            Question::DataCheck => "datacheck",
+            Question::Blocks => "blocks",
+            Question::Single => "single",
+            Question::Deletion => "deletion",
         }
     }
 
+    /// Of all that may be asked, with commas.
+    pub fn names() -> String {
+        let of_vumat = Question::OF_VUMAT.into_iter().filter(|question| !Question::ASKED.contains(question));
+        Question::ASKED.into_iter().chain(of_vumat).map(Question::name).collect::<Vec<_>>().join(", ")
+    }
+
     pub fn parse(name: &str) -> Option<Question> {
-        Question::ASKED.into_iter().find(|question| question.name() == name)
+        Question::ASKED.into_iter().chain(Question::OF_VUMAT).find(|question| question.name() == name)
     }
 }

@@ -1,6 +1,11 @@
 //! The material that a law is asked about, and what is declared of it.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
+
+/// CMNAME, where none is given.
+pub const DEFAULT_NAME: &str = "MATERIAL";
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Material {
@@ -26,6 +31,23 @@ pub struct Material {
     pub fibres: Vec<[f64; 3]>,
     /// Of the random states.
     pub seed: u64,
+    #[serde(default)]
+    pub explicit: Explicit,
+}
+
+/// What Abaqus/Explicit alone has.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Explicit {
+    /// Whether a VUMAT is called, not a UMAT.
+    pub called: bool,
+    /// Of the undeformed material.
+    pub density: f64,
+    /// DELETE of `*DEPVAR`: the number, from 1, of the state variable that is 0 where the point is deleted.
+    pub deletion: Option<usize>,
+    /// defgradOld and defgradNew are U, not R U.
+    pub stretch_alone: bool,
+    /// The library built for single precision, or why it could not be; none where there is no question of one.
+    pub single: Option<Result<PathBuf, String>>,
 }
 
 /// What its author declares of a law.

@@ -2,7 +2,7 @@
 //!
 //! The file becomes a library ([`compile`]) that a child process loads and calls as Abaqus/Standard does ([`child`], [`call`],
 //! [`point`]). One question a module: [`tangent`] (with [`differences`], [`judgement`], [`hypotheses`]), [`objectivity`], [`steps`],
-//! [`energy`], [`rest`], [`process`]. Answers are lines ([`mod@line`]) of a [`report`].
+//! [`energy`], [`rest`], [`process`]. Answers are lines ([`mod@line`]) of a [`report`]. [`vumat`] has what differs in Abaqus/Explicit.
 
 pub mod call;
 pub mod child;
@@ -28,3 +28,4 @@ pub mod room;
 pub mod shared;
 pub mod steps;
 pub mod tangent;
+pub mod vumat;

@@ -10,7 +10,7 @@ use super::call::{Answer, Call, Law, Session};
 use super::guarded::Fence;
 use super::histories::{LARGEST_TURN, history, state};
 use super::kinematics::{Increment, name};
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::{Material, Reads};
 use super::point::{Failure, Point};
 
@@ -62,7 +62,7 @@ pub fn reads(session: &mut Session) -> Reads {
 /// A few histories: with a page at either end of the arrays, what is touched beyond ends the process.
 pub fn touch(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x6d);
-    let mut calls = 0;
+    let (mut calls, mut answered) = (0, 0);
     for _ in 0..10 {
         let mut point = Point::virgin(session, [1, 1]);
         let mut path = history(&mut rng, session.material, 2);
@@ -72,7 +72,12 @@ pub fn touch(session: &mut Session) -> Line {
             if point.advance(session, f1).is_err() {
                 break;
             }
+            answered += 1;
         }
+    }
+    if answered == 0 {
+        let text = "the law asks for ever smaller increments: nothing is computed";
+        return Line::new(Question::Memory, Verdict::NotSure, None, text);
     }
     let text = format!("{calls} increments touch nothing beyond STATEV, PROPS, STRESS, DDSDDE");
     Line::new(Question::Memory, Verdict::Right, None, text)
@@ -146,6 +151,9 @@ pub fn repeat(session: &mut Session) -> Line {
         }
     }
     let calls: usize = alone.iter().map(Vec::len).sum();
+    if calls == 0 {
+        return Line::new(Question::Repeat, Verdict::NotSure, None, "there was no answer");
+    }
     let text = format!("a second call and another order of points: the same bits, {calls} increments");
     Line::new(Question::Repeat, Verdict::Right, None, text)
 }
@@ -164,12 +172,17 @@ fn what_differs(a: &Answer, b: &Answer) -> String {
 }
 
 const THREADS: usize = 8;
+/// Of a thread: local arrays of a law may be large, and solvers' threads have room for them.
+const STACK: usize = 256 << 20;
 
 /// Eight threads at once, each with a history of its own.
 pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     let paths = paths(material, 0x7e, THREADS, 60);
     let alone: Vec<Vec<Answer>> =
         paths.iter().enumerate().map(|(k, path)| answers(session, path, [1, k as i32 + 1])).collect();
+    if alone.iter().all(Vec::is_empty) {
+        return Line::new(Question::Threads, Verdict::NotSure, None, "there was no answer");
+    }
     let started = Instant::now();
     let run = |k: usize, mut session: Session| {
         let mut rounds = 0;
@@ -186,11 +199,18 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
     let Ok(sessions) = sessions else {
         return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for eight threads");
     };
-    let found: Vec<Result<i32, ()>> = std::thread::scope(|scope| {
+    let found: std::io::Result<Vec<Result<i32, ()>>> = std::thread::scope(|scope| {
         let run = &run;
-        let threads = sessions.into_iter().enumerate().map(|(k, session)| scope.spawn(move || run(k, session)));
-        threads.collect::<Vec<_>>().into_iter().map(|thread| thread.join().unwrap_or(Err(()))).collect()
+        let threads = sessions.into_iter().enumerate().map(|(k, session)| {
+            let builder = std::thread::Builder::new().stack_size(STACK);
+            builder.spawn_scoped(scope, move || run(k, session))
+        });
+        let threads: Result<Vec<_>, _> = threads.collect();
+        threads.map(|threads| threads.into_iter().map(|thread| thread.join().unwrap_or(Err(()))).collect())
     });
+    let Ok(found) = found else {
+        return Line::new(Question::Threads, Verdict::NotSure, None, "no memory for the stacks of eight threads");
+    };
     let wrong = found.iter().filter(|found| found.is_err()).count();
     if wrong > 0 {
         let text =
@@ -203,7 +223,7 @@ pub fn threads(law: &Law, material: &Material, session: &mut Session) -> Line {
 }
 
 /// A NaN that no arithmetic makes.
-const UNSET: u64 = 0x7ff8_dead_beef_0001;
+pub const UNSET: u64 = 0x7ff8_dead_beef_0001;
 
 /// DDSDDE before the call is what was there before: Abaqus does not promise zeros.
 pub fn outputs(session: &mut Session) -> Line {
@@ -258,13 +278,13 @@ pub fn outputs(session: &mut Session) -> Line {
 
 /// Exceptions, in C's names of this processor.
 #[cfg(target_arch = "x86_64")]
-const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x04, "division by zero"), (0x08, "overflow")];
+pub const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x04, "division by zero"), (0x08, "overflow")];
 #[cfg(not(target_arch = "x86_64"))]
-const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x02, "division by zero"), (0x04, "overflow")];
+pub const EXCEPTIONS: [(i32, &str); 3] = [(0x01, "invalid"), (0x02, "division by zero"), (0x04, "overflow")];
 
 unsafe extern "C" {
-    fn feclearexcept(exceptions: i32) -> i32;
-    fn fetestexcept(exceptions: i32) -> i32;
+    pub fn feclearexcept(exceptions: i32) -> i32;
+    pub fn fetestexcept(exceptions: i32) -> i32;
 }
 
 /// Floating-point exceptions that a call raises: with them trapped the job would end.
@@ -384,14 +404,21 @@ pub fn histories(session: &mut Session, reads: Reads) -> Line {
                     let answer = session.ask(&call);
                     let text =
                         format!("{} of history {} (F = {})", not_finite(&answer, session), number + 1, rows(&call.f1));
-                    return Line::new(Question::Histories, Verdict::Wrong, None, text).with("NaN");
+                    return Line::new(Question::Histories, Verdict::Wrong, None, text).with(NOT_FINITE);
                 }
             }
         }
         done += 1;
     }
     let refusals = if refused > 0 { format!(", {refused} of which end with PNEWDT") } else { String::new() };
-    let text = format!("{done} random histories from the initial call{refusals}");
+    let time = if done < HISTORIES { format!(" in {} s", TIME.as_secs()) } else { String::new() };
+    let text = format!("{done} random histories from the initial call{time}{refusals}");
+    if refused == done {
+        return Line::new(Question::Histories, Verdict::Wrong, None, text).with("refused");
+    }
+    if 2 * refused > done {
+        return Line::new(Question::Histories, Verdict::Warning, None, text).with("refused");
+    }
     Line::new(Question::Histories, Verdict::Right, None, text)
 }
 
@@ -434,10 +461,15 @@ pub fn runtime(session: &mut Session) -> Line {
                         "{} of the build that fills unset reals with NaN: a variable is used unset",
                         not_finite(&answer, session)
                     );
-                    return Line::new(Question::Runtime, Verdict::Wrong, None, text).with("runtime check");
+                    return Line::new(Question::Runtime, Verdict::Wrong, None, text)
+                        .with("runtime check")
+                        .with(NOT_FINITE);
                 }
             }
         }
+    }
+    if line.verdict != Verdict::Right {
+        return Line { line: Question::Runtime.name().to_string(), ..line };
     }
     let text = "bounds, unset reals (-fcheck=all -finit-real=snan): nothing found";
     Line { line: Question::Runtime.name().to_string(), text: text.to_string(), ..line }

@@ -26,7 +26,7 @@ impl Report {
     pub fn wrong(&self) -> Vec<&str> {
         let lines = self.materials.iter().flat_map(|material| &material.lines);
         let mut names: Vec<&str> = Vec::new();
-        for line in lines.filter(|line| line.verdict == Verdict::Wrong) {
+        for line in lines.filter(|line| line.verdict.fails()) {
             if !names.contains(&line.line.as_str()) {
                 names.push(&line.line);
             }
@@ -41,11 +41,13 @@ impl Report {
     fn of_material(&self, material: &OfMaterial, colours: bool) -> String {
         let law = material.law.as_ref().map_or(String::new(), |law| format!(", a {law} law"));
         let mut text = format!("{}: {}{law}\n\n", self.file, material.name);
-        for line in &material.lines {
+        let shown = gathered(&material.lines);
+        for line in &shown {
             text.push_str(&written(line, colours));
         }
         let count = |verdict: Verdict| material.lines.iter().filter(|line| line.verdict == verdict).count();
-        let counts = [Verdict::Right, Verdict::Wrong, Verdict::Warning, Verdict::NotSure, Verdict::NotReported];
+        let counts =
+            [Verdict::Right, Verdict::Wrong, Verdict::Ended, Verdict::Warning, Verdict::NotSure, Verdict::NotReported];
         let counts: Vec<String> = counts
             .into_iter()
             .filter(|&verdict| count(verdict) > 0)
@@ -54,6 +56,35 @@ impl Report {
         text.push_str(&format!("\n{}\n", counts.join(", ")));
         text
     }
+}
+
+/// So many lines that are not sure for the same reason are one.
+const SAME: usize = 3;
+
+/// The lines as they are shown: what several are not sure of for one reason is said once, at the end.
+fn gathered(lines: &[Line]) -> Vec<Line> {
+    let same = |line: &Line| {
+        let of_one_reason = |other: &&Line| other.verdict == Verdict::NotSure && other.text == line.text;
+        lines.iter().filter(of_one_reason).collect::<Vec<_>>()
+    };
+    let is_one_of_many = |line: &Line| line.verdict == Verdict::NotSure && same(line).len() >= SAME;
+    let mut shown: Vec<Line> = lines.iter().filter(|line| !is_one_of_many(line)).cloned().collect();
+    let mut reasons: Vec<&str> = Vec::new();
+    for line in lines.iter().filter(|line| is_one_of_many(line)) {
+        if reasons.contains(&line.text.as_str()) {
+            continue;
+        }
+        reasons.push(&line.text);
+        let same = same(line);
+        let names = same.iter().map(|line| line.line.as_str()).collect::<Vec<_>>().join(", ");
+        shown.push(Line {
+            line: format!("{} others", same.len()),
+            text: format!("{}: {names}", line.text),
+            call: None,
+            ..line.clone()
+        });
+    }
+    shown
 }
 
 /// Columns: name, figure, verdict, words.
@@ -68,7 +99,7 @@ fn written(line: &Line, colours: bool) -> String {
     let verdict = match (colours, line.verdict) {
         (false, _) => verdict,
         (true, Verdict::Right) => format!("\x1b[32m{verdict}\x1b[0m"),
-        (true, Verdict::Wrong) => format!("\x1b[1;31m{verdict}\x1b[0m"),
+        (true, Verdict::Wrong | Verdict::Ended) => format!("\x1b[1;31m{verdict}\x1b[0m"),
         (true, Verdict::Warning) => format!("\x1b[33m{verdict}\x1b[0m"),
         (true, _) => format!("\x1b[2m{verdict}\x1b[0m"),
     };
@@ -96,6 +127,21 @@ fn short(figure: f64) -> String {
 mod tests {
     use super::super::line::Question;
     use super::*;
+
+    #[test]
+    fn what_is_not_sure_for_one_reason_is_said_once() {
+        let unsure = |question: Question| Line::new(question, Verdict::NotSure, None, "ends as in memory");
+        let mut lines = vec![Line::new(Question::Memory, Verdict::Ended, None, "STOP"), unsure(Question::Rest)];
+        lines.push(unsure(Question::Tangent));
+        assert_eq!(gathered(&lines).len(), 3);
+        lines.push(unsure(Question::Repeat));
+        let shown = gathered(&lines);
+        assert_eq!(shown.len(), 2);
+        assert_eq!(
+            (shown[1].line.as_str(), shown[1].text.as_str()),
+            ("3 others", "ends as in memory: rest, tangent, repeat")
+        );
+    }
 
     #[test]
     fn columns_stand_below_each_other_and_colours_change_no_width() {

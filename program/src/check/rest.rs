@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 
 use super::call::Session;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::point::Point;
 
 /// Of the stiffness, what counts as no stress.
@@ -14,8 +14,14 @@ pub fn ask(session: &mut Session) -> Line {
     let call = point.call(&Matrix3::identity(), session.material);
     let answer = session.ask(&call);
     if !answer.finite() {
-        let text = "stress, state or DDSDDE is not finite at rest";
-        return Line::new(Question::Rest, Verdict::Wrong, None, text).with("NaN");
+        let begins = &session.material.initial;
+        let hint = if begins.is_empty() || begins.iter().any(|state| *state != 0.0) {
+            ""
+        } else {
+            "; STATEV begins at zero: does the law need values there (initial, SDVINI)?"
+        };
+        let text = format!("stress, state or DDSDDE is not finite at rest{hint}");
+        return Line::new(Question::Rest, Verdict::Wrong, None, text).with(NOT_FINITE);
     }
     if answer.refused() {
         let text = "PNEWDT asks for a smaller increment at rest, where nothing is deformed";

@@ -12,13 +12,12 @@ impl Room {
     /// # Errors
     /// It cannot be made.
     pub fn new() -> Result<Room, Error> {
-        let path = std::env::temp_dir().join(format!("toron-check-{}", std::process::id()));
+        let name = format!("toron-check-{}-{:016x}", std::process::id(), fastrand::u64(..));
+        let path = std::env::temp_dir().join(name);
         let error = |error: std::io::Error| Error::Input(format!("{}: {error}", path.display()));
-        // What an earlier process of this number has left.
-        if path.exists() {
-            std::fs::remove_dir_all(&path).map_err(error)?;
-        }
-        std::fs::create_dir_all(running(&path)).map_err(error)?;
+        // What is there already belongs to another.
+        std::fs::create_dir(&path).map_err(error)?;
+        std::fs::create_dir(running(&path)).map_err(error)?;
         std::fs::create_dir(in_either_case(&path)).map_err(error)?;
         Ok(Room { path })
     }

@@ -10,14 +10,43 @@ use std::sync::atomic::{AtomicPtr, AtomicU64, Ordering};
 const CALLS: usize = 0;
 const FAULT: usize = 1;
 const SIGNAL: usize = 2;
-/// First and last address of each guarded array, [`ARRAYS`] of them.
+/// First and last address of each guarded array, those of [`OF_UMAT`] and then those of [`OF_VUMAT`].
 const ARRAYS_AT: usize = 4;
-const LENGTH: usize = 16;
-const RECORD: usize = 17;
+const LENGTH: usize = ARRAYS_AT + 2 * (OF_UMAT.len() + OF_VUMAT.len());
+const RECORD: usize = LENGTH + 1;
 const WORDS: usize = 1 << 16;
 
 /// The arrays between pages that must not be touched, in this order.
-pub const ARRAYS: [&str; 4] = ["STATEV", "PROPS", "STRESS", "DDSDDE"];
+pub const OF_UMAT: [&str; 4] = ["STATEV", "PROPS", "STRESS", "DDSDDE"];
+/// Those of a VUMAT, in the order of its arguments.
+pub const OF_VUMAT: [&str; 22] = [
+    "coordMp",
+    "charLength",
+    "props",
+    "density",
+    "strainInc",
+    "relSpinInc",
+    "tempOld",
+    "stretchOld",
+    "defgradOld",
+    "fieldOld",
+    "stressOld",
+    "stateOld",
+    "enerInternOld",
+    "enerInelasOld",
+    "tempNew",
+    "stretchNew",
+    "defgradNew",
+    "fieldNew",
+    "stressNew",
+    "stateNew",
+    "enerInternNew",
+    "enerInelasNew",
+];
+
+pub fn names() -> impl Iterator<Item = &'static str> {
+    OF_UMAT.into_iter().chain(OF_VUMAT)
+}
 
 /// The exit code of the child after a signal.
 pub const SIGNALLED: i32 = 74;
@@ -132,7 +161,7 @@ impl Seen {
             signal: word(SIGNAL),
             arguments: (0..length).map(|i| f64::from_bits(word(RECORD + i))).collect(),
             fault: word(FAULT),
-            arrays: (0..ARRAYS.len()).map(|i| (word(ARRAYS_AT + 2 * i), word(ARRAYS_AT + 2 * i + 1))).collect(),
+            arrays: (0..names().count()).map(|i| (word(ARRAYS_AT + 2 * i), word(ARRAYS_AT + 2 * i + 1))).collect(),
         })
     }
 
@@ -147,7 +176,7 @@ impl Seen {
     /// The array next to which the fault is, if one is near.
     pub fn beside(&self) -> Option<Beside> {
         const NEAR: u64 = 4096;
-        ARRAYS.iter().zip(&self.arrays).find_map(|(&array, &(first, end))| {
+        names().zip(&self.arrays).find_map(|(array, &(first, end))| {
             let entry = (self.fault as i64 - first as i64).div_euclid(8) + 1;
             if self.fault >= end && self.fault < end + NEAR && end != 0 {
                 return Some(Beside { array, entry, behind: true });

@@ -1,29 +1,45 @@
 //! Whether the answer depends on how an increment is divided.
 
+use std::time::{Duration, Instant};
+
 use fastrand::Rng;
 use nalgebra::Matrix3;
 
 use super::call::Session;
 use super::histories::history;
 use super::kinematics::Increment;
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::point::{Failure, Point};
 
 const HISTORIES: usize = 16;
 /// Each increment in so many parts.
 const PARTS: [usize; 5] = [1, 2, 4, 8, 16];
+/// Where these tell no order: a threshold that is crossed within an increment makes differences uneven, and a law that relaxes faster
+/// than the time passes shows none before parts are shorter than its relaxation.
+const MOST_PARTS: usize = 4096;
+const LONGEST: Duration = Duration::from_secs(10);
 /// Increments of a history.
 const INCREMENTS: usize = 12;
 /// Of the stress.
 const SAME: f64 = 1e-8;
+/// A last change of the stress that is none.
+const SETTLED: f64 = 1e-3;
 /// An order of convergence below this is none.
 const LOWEST_ORDER: f64 = 0.5;
+
+/// A path, the stress at its end with the most parts and the largest on the way, and the last change of the first over the second.
+struct Ended {
+    path: Vec<Matrix3<f64>>,
+    stress: Matrix3<f64>,
+    size: f64,
+    change: f64,
+}
 
 pub fn ask(session: &mut Session) -> Line {
     let mut rng = Rng::with_seed(session.material.seed ^ 0x57);
     let mut largest_change = 0.0_f64;
-    let (mut coarse, mut fine) = (0.0, 0.0);
-    let mut compared = 0;
+    let (mut coarse, mut fine, mut last) = (0.0, 0.0, 0.0);
+    let (mut compared, mut worst) = (0, None::<Ended>);
     for _ in 0..HISTORIES {
         let mut path = history(&mut rng, session.material, 2);
         path.truncate(INCREMENTS);
@@ -37,17 +53,22 @@ pub fn ask(session: &mut Session) -> Line {
                     size = size.max(largest);
                 }
                 Ok(None) => {}
-                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with("NaN"),
+                Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
             }
         }
         let [one, two, four, eight, sixteen] = ends[..] else { continue };
         if size == 0.0 {
             continue;
         }
-        compared += 1;
         largest_change = largest_change.max((two - one).norm() / size);
         coarse += (two - one).norm() / size + (four - two).norm() / size;
+        last = f64::max(last, (sixteen - eight).norm() / size);
         fine += (eight - four).norm() / size + (sixteen - eight).norm() / size;
+        compared += 1;
+        let change = (sixteen - eight).norm() / size;
+        if worst.as_ref().is_none_or(|worst| worst.change < change) {
+            worst = Some(Ended { path, stress: sixteen, size, change });
+        }
     }
     if compared == 0 {
         return Line::new(Question::Steps, Verdict::NotSure, None, "there was no stress");
@@ -61,15 +82,39 @@ pub fn ask(session: &mut Session) -> Line {
         return Line::new(Question::Steps, Verdict::Wrong, Some(largest_change), text).with("path matters");
     }
     // Two halvings lie between the coarse differences and the fine ones.
-    let order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
+    let mut order = 0.5 * (coarse / f64::max(fine, f64::MIN_POSITIVE)).log2();
+    if order < LOWEST_ORDER && coarse > 1e-6 && last > SETTLED {
+        match worst.map_or(Ok(None), |worst| finer(session, &worst)) {
+            Ok(Some((found, change))) => (order, last) = (found, change),
+            Ok(None) => {}
+            Err(text) => return Line::new(Question::Steps, Verdict::Wrong, None, text).with(NOT_FINITE),
+        }
+    }
     // Below the tolerance of a law's own iterations no order is seen.
-    if order >= LOWEST_ORDER || coarse <= 1e-6 {
+    if order >= LOWEST_ORDER || coarse <= 1e-6 || last <= SETTLED {
         let text = format!("increments in two change the stress by up to {largest_change:.1e}; order {order:.1}");
         return Line::new(Question::Steps, Verdict::Right, Some(order), text);
     }
     let text =
         format!("finer increments change the stress by {largest_change:.1e}, and order {order:.1} is no convergence");
     Line::new(Question::Steps, Verdict::Warning, Some(order), text).with("no convergence")
+}
+
+/// The order of the last two changes of the stress when the parts of a path are halved again and again, and the last change; none where
+/// the law refuses them. It ends where an order is seen twice, or the stress has settled.
+fn finer(session: &mut Session, worst: &Ended) -> Result<Option<(f64, f64)>, String> {
+    let started = Instant::now();
+    let (mut stress, mut parts, mut seen) = (worst.stress, PARTS[PARTS.len() - 1], 0);
+    let (mut change, mut found) = (worst.change, None);
+    while parts < MOST_PARTS && seen < 2 && started.elapsed() < LONGEST {
+        parts *= 2;
+        let Some((next, _)) = end(session, &worst.path, parts)? else { break };
+        let of_this = (next - stress).norm() / worst.size;
+        let order = (change / f64::max(of_this, f64::MIN_POSITIVE)).log2();
+        seen = if order >= LOWEST_ORDER || of_this <= SETTLED { seen + 1 } else { 0 };
+        (stress, change, found) = (next, of_this, Some((order, of_this)));
+    }
+    Ok(found)
 }
 
 /// The stress at the end of the path and the largest on the way, each of its increments in so many parts.

@@ -11,17 +11,23 @@ use super::histories::history;
 use super::hypotheses::{self, Factor, Sight, stress_by_volume};
 use super::judgement::{Difference, compare, contraction};
 use super::kinematics::{Components, Increment, Modulus, name, of_stress, rotation_of};
-use super::line::{Line, Question, Verdict};
+use super::line::{Line, NOT_FINITE, Question, Verdict};
 use super::material::Reads;
 use super::point::{Failure, Point};
 
 /// States that are asked at, if the time suffices.
 const STATES: usize = 200;
 const TIME: Duration = Duration::from_secs(14);
+/// For naming what is wrong.
+const TIME_FOR_NAMES: Duration = Duration::from_secs(14);
 /// Histories, at most; each gives some states.
 const HISTORIES: usize = 60;
 /// States on which mistakes are tried, of the wrong and of the right ones.
 const TRIED: usize = 24;
+
+/// So many wrong states of at least [`MANY`] times as many are a warning.
+const FEW: usize = 2;
+const MANY: usize = 25;
 
 /// Relative difference from which the modulus of unloading is another than that of loading.
 const TWO_MODULI: f64 = 5e-2;
@@ -94,12 +100,15 @@ impl State {
 
 /// The states of the answer. A law whose mistake has no name is asked again with 13 and 23 for each other.
 pub fn ask(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Line {
+    let started = Instant::now();
     let mut line = ask_in_order(session, reads, allowed);
-    if session.material.components == 6 && line.kinds == ["unknown"] {
+    // As long again must not be too long.
+    if session.material.components == 6 && line.kinds == ["unknown"] && started.elapsed() < TIME {
         session.exchange(true);
         let exchanged = ask_in_order(session, reads, allowed);
         session.exchange(false);
-        if exchanged.kinds != line.kinds {
+        let named = exchanged.verdict == Verdict::Wrong && exchanged.kinds != line.kinds;
+        if exchanged.verdict == Verdict::Right || named {
             line.kinds = vec![EXCHANGED.to_string()];
             line.kinds.extend(exchanged.kinds);
             let text = if exchanged.verdict == Verdict::Right { line.text } else { exchanged.text };
@@ -174,7 +183,12 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
     });
     let factor = factor.fold(0.0, f64::max);
     let slows = convergence(factor);
-    let (kinds, way) = in_what_way(session, &states, &wrong, &right, &found, Convention::of(reads, components));
+    let few = wrong.len() <= FEW && states.len() >= MANY * FEW;
+    let (kinds, way) = if few {
+        (vec!["few states".to_string()], "in few states alone, perhaps at kinks that are not seen".to_string())
+    } else {
+        in_what_way(session, &states, &wrong, &right, &found, Convention::of(reads, components))
+    };
     let where_ = states_named(&states, &wrong);
     let text = format!(
         "{way}; wrong at {} of {} states ({where_}), worst at {place} {}, {is:.5e} instead of {instead:.5e}; {slows}{aside}",
@@ -182,9 +196,12 @@ fn ask_in_order(session: &mut Session, reads: Reads, allowed: Option<f64>) -> Li
         states.len(),
         states[at].name,
     );
-    let verdict = if difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
+    let verdict = if few || difference.worst <= tolerance { Verdict::Warning } else { Verdict::Wrong };
     let mut line = Line::new(Question::Tangent, verdict, Some(difference.worst), text);
     line.kinds = kinds;
+    if few {
+        line.call_bits = Some(states[at].call.numbers().into_iter().map(f64::to_bits).collect());
+    }
     line
 }
 
@@ -238,13 +255,16 @@ fn gather(session: &mut Session, reads: Reads) -> Result<(Vec<State>, bool), Box
         let path = history(&mut rng, session.material, 3);
         let asked = [rng.usize(0..path.len()), rng.usize(0..path.len()), path.len() - 1, 0];
         for (k, f1) in path.iter().enumerate() {
+            if started.elapsed() > TIME {
+                break 'histories;
+            }
             if asked.contains(&k) && !(k == 0 && number % 4 > 0) {
                 let name = kind_of(&point, f1);
                 match state(session, &point, f1, reads, name) {
                     Ok(state) => states.push(state),
                     Err(failure) => broken |= refused(failure)?,
                 }
-                if states.len() >= STATES || started.elapsed() > TIME {
+                if states.len() >= STATES {
                     break 'histories;
                 }
             }
@@ -274,7 +294,7 @@ fn refused(failure: Failure) -> Result<bool, Box<Line>> {
         Failure::Refused => Ok(true),
         Failure::NotFinite(call) => {
             let text = format!("stress, state or DDSDDE is not finite at increment {}", call.increment);
-            Err(Box::new(Line::new(Question::Tangent, Verdict::Wrong, None, text).with("NaN")))
+            Err(Box::new(Line::new(Question::Tangent, Verdict::Wrong, None, text).with(NOT_FINITE)))
         }
     }
 }
@@ -334,12 +354,17 @@ fn in_what_way(
     let wrong: Vec<usize> = wrong.into_iter().step_by(spread).collect();
     let right: Vec<usize> = right.iter().copied().step_by(right.len().div_ceil(TRIED).max(1)).collect();
     let mut names: Vec<(Vec<&'static str>, String, Factor, bool)> = Vec::new();
+    let deadline = Instant::now() + TIME_FOR_NAMES;
     for &convention in conventions {
-        let tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = wrong
-            .iter()
-            .chain(&right)
-            .filter_map(|&k| Some((k, hypotheses::all(&sight(session, &states[k], convention)?, components))))
-            .collect();
+        let mut tried: Vec<(usize, Vec<hypotheses::Hypothesis>)> = Vec::new();
+        for &k in wrong.iter().chain(&right) {
+            if Instant::now() > deadline {
+                return (vec!["unknown".to_string()], "too slow a law to be asked in what way".to_string());
+            }
+            if let Some(sight) = sight(session, &states[k], convention) {
+                tried.push((k, hypotheses::all(&sight, components)));
+            }
+        }
         let Some(count) = tried.first().map(|(_, all)| all.len()) else { continue };
         for h in 0..count {
             let common = common_factor(states, &tried, h);

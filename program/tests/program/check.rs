@@ -8,7 +8,7 @@ use fastrand::Rng;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::library::{ROOT, folder};
+use crate::library::{LIBRARY, ROOT, folder};
 
 /// The lines that depend on the properties, and take little time.
 const OF_PROPERTIES: &str = "--only=rest,tangent,objectivity,isotropy,steps,energy,cycles,dissipation";
@@ -53,13 +53,13 @@ fn complaints(report: &Value) -> Vec<Complaint> {
         lines
     });
     let text = |value: &Value| value.as_str().expect("text").to_string();
-    let complaints =
-        lines.filter(|line| line["verdict"] == "wrong" || line["verdict"] == "warning").map(|line| Complaint {
-            line: text(&line["line"]),
-            verdict: text(&line["verdict"]),
-            kinds: line["kinds"].as_array().expect("kinds").iter().map(text).collect(),
-            text: text(&line["text"]),
-        });
+    let is_one = |line: &&Value| ["wrong", "ended", "warning"].iter().any(|verdict| line["verdict"] == *verdict);
+    let complaints = lines.filter(is_one).map(|line| Complaint {
+        line: text(&line["line"]),
+        verdict: text(&line["verdict"]),
+        kinds: line["kinds"].as_array().expect("kinds").iter().map(text).collect(),
+        text: text(&line["text"]),
+    });
     complaints.collect()
 }
 
@@ -111,10 +111,47 @@ fn alarms_of_sets(sets: usize, lines: &[&str]) -> String {
     alarms
 }
 
+/// Lines that every law has to be right in: a check that is sure of nothing raises no alarm either.
+const REQUIRED: [&str; 7] = ["memory", "rest", "tangent", "objectivity", "repeat", "threads", "histories"];
+
+/// What is not right of a law that is right: of those lines and further ones all but right, of others what is neither right nor
+/// left out.
+fn shortcomings(law: &Path, arguments: &[String], further: &[&str]) -> String {
+    let (code, report) = check(law, arguments);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    let verdict = |name: &str| {
+        let line = lines.iter().find(|line| line["line"] == name);
+        line.unwrap_or_else(|| panic!("{}: no line {name}", law.display()))["verdict"].as_str().expect("text")
+    };
+    let required = REQUIRED.iter().chain(further).filter(|name| verdict(name) != "right");
+    let missing: String = required.map(|name| format!("\n  {name}: {}", verdict(name))).collect();
+    let allowed = ["right", "not asked", "not reported"];
+    let others = lines.iter().filter(|line| !allowed.iter().any(|allowed| line["verdict"] == *allowed));
+    let others: String = others.map(|line| format!("\n  {line}")).collect();
+    match code == 0 && missing.is_empty() && others.is_empty() {
+        true => String::new(),
+        false => format!("{} {}: exit {code}{missing}{others}\n", law.display(), arguments.join(" ")),
+    }
+}
+
 #[test]
-fn right_laws_raise_no_alarm() {
-    let alarms: String = laws().keys().map(|law| alarm(law, &[])).collect();
-    assert!(alarms.is_empty(), "false alarms:\n{alarms}");
+fn right_laws_are_right() {
+    let found: String = laws().keys().map(|law| shortcomings(&corpus("laws").join(law), &[], &["steps"])).collect();
+    assert!(found.is_empty(), "not right:\n{found}");
+}
+
+/// Both laws of this library, as Abaqus loads them.
+#[test]
+fn the_own_library_is_right() {
+    let library = LIBRARY.join("libtoron_abaqus.so");
+    for (law, further) in [
+        ("hyperelastic", &["isotropy", "steps", "energy", "cycles"][..]),
+        ("linear_elastic", &["isotropy", "steps", "energy"][..]),
+    ] {
+        let scene = format!("--scene={}", corpus(&format!("libtoron_{law}.toml")).display());
+        let found = shortcomings(&library, &[scene], further);
+        assert!(found.is_empty(), "not right:\n{found}");
+    }
 }
 
 #[test]
@@ -191,14 +228,13 @@ impl Fault {
     }
 }
 
-/// Every fault is found by its line under its name; the document's table says the same.
-#[test]
-fn faults_are_found_and_named() {
-    let Faults { fault: faults } = parse("faults.toml");
+/// Every fault is found by its line under its name; the document's table behind this mark says the same.
+fn found_and_named(path: &str, first: usize, mark: &str) {
+    let Faults { fault: faults } = parse(path);
     let mut table = String::from("| law | fault | line | called |\n|---|---|---|---|\n");
     let mut missed = String::new();
     for (number, fault) in faults.iter().enumerate() {
-        match fault.row(number) {
+        match fault.row(first + number) {
             Ok([law, what, line, kinds]) => table += &format!("| `{law}` | {what} | {line} | {kinds} |\n"),
             Err(found) => missed += &found,
         }
@@ -207,7 +243,7 @@ fn faults_are_found_and_named() {
 
     let document = Path::new(ROOT).join(DOCUMENT);
     let text = std::fs::read_to_string(&document).expect("the document");
-    let marks = ["<!-- faults -->\n", "<!-- end -->"];
+    let marks = [mark, "<!-- end -->"];
     let (before, rest) = text.split_once(marks[0]).expect("the table begins");
     let (_, after) = rest.split_once(marks[1]).expect("the table ends");
     let current = [before, marks[0], &table, marks[1], after].concat();
@@ -216,9 +252,14 @@ fn faults_are_found_and_named() {
     } else {
         assert!(
             text == current,
-            "{DOCUMENT} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program check::faults"
+            "{DOCUMENT} is not current: TORON_WRITE_DOCS=1 cargo test -p toron-program check::faults -- --test-threads=1"
         );
     }
+}
+
+#[test]
+fn faults_are_found_and_named() {
+    found_and_named("faults.toml", 0, "<!-- faults -->\n");
 }
 
 /// Ten kinds of fault in three laws each, besides those that end the process.
@@ -231,4 +272,41 @@ fn there_are_thirty_faults_of_ten_kinds() {
         kinds.entry(&fault.kind).or_default().insert(&fault.law);
     }
     assert_eq!(kinds.values().map(|laws| laws.len()).collect::<Vec<_>>(), [3; 10], "{kinds:?}");
+}
+
+// ---- VUMAT
+
+/// With the properties beside them and others.
+#[test]
+fn right_vumats_raise_no_alarm() {
+    let others = ["--props=2,300,1.4".to_string(), "--seed=2".to_string()];
+    let hyperelastic = "vumat_neo_hooke.f";
+    let alarms = alarm(hyperelastic, &[]) + &alarm(hyperelastic, &others) + &alarm("vumat_j2.f", &[]);
+    assert!(alarms.is_empty(), "false alarms:\n{alarms}");
+    // Every line has an answer, but that this law dissipates nothing.
+    let (_, report) = check(&corpus("laws").join(hyperelastic), &[]);
+    let lines = report["materials"][0]["lines"].as_array().expect("lines");
+    let others = lines.iter().filter(|line| line["verdict"] != "right");
+    assert_eq!(others.map(|line| &line["line"]).collect::<Vec<_>>(), ["dissipation"]);
+}
+
+/// Both laws of the libraries that Abaqus/Explicit loads, in both precisions.
+#[test]
+fn the_own_vumat_raises_no_alarm() {
+    for (scene, right) in [("vumat_yarn.toml", 16), ("vumat_linear.toml", 15)] {
+        let single = format!("--single={}", LIBRARY.join("libtoron_abaqus_sp.so").display());
+        let scene = format!("--scene={}", corpus(scene).display());
+        let arguments = ["--vumat".to_string(), single, scene];
+        let (code, report) = check(&LIBRARY.join("libtoron_abaqus.so"), &arguments);
+        let found = complaints(&report);
+        assert!(code == 0 && found.is_empty(), "exit {code}{}", listed(&found));
+        let lines = report["materials"][0]["lines"].as_array().expect("lines");
+        assert_eq!(lines.iter().filter(|line| line["verdict"] == "right").count(), right);
+    }
+}
+
+#[test]
+fn faults_of_a_vumat_are_found_and_named() {
+    // Folders beyond those of the UMATs' faults.
+    found_and_named("vumat_faults.toml", 1000, "<!-- faults of a VUMAT -->\n");
 }

@@ -203,7 +203,10 @@ fn warp_and_weft_have_materials_of_their_own() {
         "law = \"hybrid\"\nhyperelastic-radius = 1.0\n[[case]]\nname = \"one\"\nweave.warp.material.density = 1e-3",
     );
     let error = String::from_utf8_lossy(&strike("family-hybrid", &hybrid, 1).0.stderr).into_owned();
-    assert!(error.contains("scene.toml:22: material of a family of yarns with law = \"hybrid\"; allowed: "), "{error}");
+    assert!(
+        error.contains("scene.toml:22: material of a family of yarns, or of a ply, with law = \"hybrid\"; allowed: "),
+        "{error}"
+    );
 }
 
 /// A sphere and a cylinder with a hemispherical end meet the panel alike, one with a flat end with more of it at once.

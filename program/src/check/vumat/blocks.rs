@@ -1,0 +1,151 @@
+//! Whether a point's answer depends on the points beside it, on other calls, or on other threads.
+
+use std::io;
+use std::time::{Duration, Instant};
+
+use fastrand::Rng;
+use nalgebra::Matrix3;
+
+use super::super::histories::history;
+use super::super::line::{Line, Question, Verdict};
+use super::super::material::Material;
+use super::call::{Found, Given, Law, Session};
+use super::point::{self, Point, time};
+
+/// Abaqus's own blocks have up to 136 points or so; the second size is odd, and no multiple of a vector's length.
+pub const SIZES: [usize; 3] = [1, 17, 128];
+/// Increments of a history.
+const INCREMENTS: usize = 12;
+
+/// Histories of this length.
+pub fn paths(material: &Material, seed: u64, count: usize, length: usize) -> Vec<Vec<Matrix3<f64>>> {
+    let mut rng = Rng::with_seed(material.seed ^ seed);
+    (0..count)
+        .map(|_| {
+            let mut path = Vec::new();
+            while path.len() < length {
+                path = history(&mut rng, material, 3);
+            }
+            path.truncate(length);
+            path
+        })
+        .collect()
+}
+
+/// The first difference, bit by bit: increment and what.
+fn differ(a: &[Found], b: &[Found]) -> Option<(usize, String)> {
+    let place = a.iter().zip(b).position(|(a, b)| !a.same(b))?;
+    Some((place + 1, a[place].difference(&b[place])))
+}
+
+/// The same points in blocks of 1, 17 and 128, and in the reverse order.
+///
+/// # Errors
+/// The system has no memory.
+pub fn blocks(session: &mut Session) -> io::Result<Line> {
+    let [_, some, most] = SIZES;
+    let paths = paths(session.material, 0xb1, most, INCREMENTS);
+    let wrong = |text: String| {
+        let line = Line::new(Question::Blocks, Verdict::Wrong, None, text);
+        Ok(line.with("answers depend on the block"))
+    };
+    let alone: Vec<Vec<Found>> = paths
+        .iter()
+        .map(|path| Ok(point::block(session, std::slice::from_ref(path))?.pop().unwrap_or_default()))
+        .collect::<io::Result<_>>()?;
+    for size in [some, most] {
+        for (chunk, expected) in paths.chunks(size).zip(alone.chunks(size)) {
+            let found = point::block(session, chunk)?;
+            for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+                if let Some((increment, what)) = differ(found, expected) {
+                    return wrong(format!(
+                        "point {} of a block of {} answers otherwise than alone, at increment {increment}: {what}",
+                        i + 1,
+                        chunk.len()
+                    ));
+                }
+            }
+        }
+    }
+    let reversed: Vec<Vec<Matrix3<f64>>> = paths.iter().rev().cloned().collect();
+    for (found, expected) in point::block(session, &reversed)?.iter().zip(alone.iter().rev()) {
+        if let Some((increment, what)) = differ(found, expected) {
+            return wrong(format!("another order of points changes {what}, at increment {increment}"));
+        }
+    }
+    let text = format!("blocks of 1, {some}, {most} points and the reverse order: the same bits");
+    Ok(Line::new(Question::Blocks, Verdict::Right, None, text))
+}
+
+/// A second call with another one in between.
+///
+/// # Errors
+/// The system has no memory.
+pub fn repeat(session: &mut Session) -> io::Result<Line> {
+    let paths = paths(session.material, 0x2e, SIZES[1], INCREMENTS);
+    let virgin = Point::virgin(session)?;
+    let mut points = vec![virgin; paths.len()];
+    let unturned = Matrix3::<f64>::identity();
+    let further = Matrix3::new(1.002, 0.001, 0.0, 0.0, 0.999, 0.0, 0.0, 0.0, 1.001);
+    for k in 0..INCREMENTS {
+        let given = |points: &[Point], factor: &Matrix3<f64>| -> Vec<Given> {
+            let all = points.iter().zip(&paths);
+            all.map(|(point, path)| point.given(&(path[k] * factor), &unturned, session.material)).collect()
+        };
+        let (call, between) = (given(&points, &unturned), given(&points, &further));
+        let time = time(k, session.material);
+        let first = session.ask(time, &call)?;
+        session.ask(time, &between)?;
+        let second = session.ask(time, &call)?;
+        if let Some((_, what)) = differ(&first, &second) {
+            let text = format!("the same call answers otherwise the second time, at increment {}: {what}", k + 1);
+            return Ok(Line::new(Question::Repeat, Verdict::Wrong, None, text).with("answers depend on order"));
+        }
+        for (i, found) in first.iter().enumerate() {
+            points[i] = points[i].after(&paths[i][k], &unturned, found);
+        }
+    }
+    let text = format!("a second call: the same bits, {INCREMENTS} increments of {} points", paths.len());
+    Ok(Line::new(Question::Repeat, Verdict::Right, None, text))
+}
+
+const THREADS: usize = 8;
+
+/// Eight threads at once, each with a block of its own.
+///
+/// # Errors
+/// The system has no memory.
+pub fn threads(law: &Law, session: &mut Session) -> io::Result<Line> {
+    let blocks: Vec<Vec<Vec<Matrix3<f64>>>> =
+        (0..THREADS).map(|k| paths(session.material, 0x7e + k as u64, SIZES[1], INCREMENTS)).collect();
+    let alone: Vec<Vec<Vec<Found>>> =
+        blocks.iter().map(|paths| point::block(session, paths)).collect::<io::Result<_>>()?;
+    let started = Instant::now();
+    let run = |k: usize, mut session: Session| -> io::Result<Option<usize>> {
+        let mut rounds = 0;
+        while rounds < 200 && started.elapsed() < Duration::from_secs(3) {
+            let found = point::block(&mut session, &blocks[k])?;
+            if found.iter().zip(&alone[k]).any(|(a, b)| differ(a, b).is_some()) {
+                return Ok(None);
+            }
+            rounds += 1;
+        }
+        Ok(Some(rounds))
+    };
+    let sessions: Vec<Session> = (0..THREADS).map(|_| session.for_thread(law)).collect();
+    let found: Vec<Option<usize>> = std::thread::scope(|scope| {
+        let run = &run;
+        let threads: Vec<_> =
+            sessions.into_iter().enumerate().map(|(k, session)| scope.spawn(move || run(k, session))).collect();
+        threads.into_iter().map(|thread| thread.join().unwrap_or(Ok(None))).collect::<io::Result<_>>()
+    })?;
+    let wrong = found.iter().filter(|found| found.is_none()).count();
+    if wrong > 0 {
+        let text =
+            format!("{wrong} of eight threads get other answers than alone: variables are shared (SAVE, COMMON, DATA)");
+        return Ok(Line::new(Question::Threads, Verdict::Wrong, None, text).with("answers depend on threads"));
+    }
+    let rounds: usize = found.iter().flatten().sum();
+    let text = format!("eight threads at once: the same bits, {} histories", rounds * SIZES[1]);
+    Ok(Line::new(Question::Threads, Verdict::Right, None, text))
+}

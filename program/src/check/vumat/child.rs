@@ -1,0 +1,51 @@
+//! The questions to a VUMAT, in the child process.
+
+use std::io;
+
+use super::super::child::Task;
+use super::super::guarded::Fence;
+use super::super::line::{Line, Question, Verdict};
+use super::super::material::{Material, Reads};
+use super::super::shared::Shared;
+use super::call::{Law, Precision, Session};
+use super::{blocks, deletion, energy, frame, process, single};
+use crate::check::child::Said;
+
+/// Answers what is asked of a law; none where it is asked of a UMAT alone.
+///
+/// # Errors
+/// The system has no memory.
+pub fn answer(law: &Law, material: &Material, task: &Task, fence: Fence, shared: Shared) -> io::Result<Option<Said>> {
+    let mut session = Session::new(law, material, Precision::Double, fence, Some(shared));
+    Ok(match task {
+        Task::Reads => Some(Said::Reads(frame::reads(&mut session)?)),
+        Task::Question { question, reads, .. } => Some(Said::Line(line(*question, law, &mut session, *reads)?)),
+        Task::Alone | Task::LargeTurns | Task::Call(_) => None,
+    })
+}
+
+fn line(question: Question, law: &Law, session: &mut Session, reads: Reads) -> io::Result<Line> {
+    match question {
+        Question::Build | Question::Memory => process::touch(session),
+        Question::Rest => process::rest(session),
+        Question::DataCheck => process::data_check(session),
+        Question::Objectivity => frame::objectivity(session),
+        Question::Isotropy => frame::isotropy(session),
+        Question::Steps => frame::steps(session),
+        Question::Energy => energy::energy(session),
+        Question::Dissipation => energy::dissipation(session),
+        Question::Deletion => deletion::ask(session),
+        Question::Blocks => blocks::blocks(session),
+        Question::Single => single::ask(session, reads),
+        Question::Repeat => blocks::repeat(session),
+        Question::Threads => blocks::threads(law, session),
+        Question::Outputs => process::outputs(session),
+        Question::Exceptions => process::exceptions(session),
+        Question::Invalid => process::invalid(session),
+        Question::Histories => process::histories(session, reads),
+        Question::Runtime => process::runtime(session),
+        Question::Tangent | Question::Cycles => {
+            Ok(Line::new(question, Verdict::NotAsked, None, "not asked of a VUMAT"))
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! enerInternNew is the work done per mass, and enerInelasNew never falls.
+
+use std::io;
+
+use fastrand::Rng;
+
+use super::super::histories::direction;
+use super::super::kinematics::exp;
+use super::super::line::{Line, Question, Verdict};
+use super::call::Session;
+use super::point::{self, tensor};
+
+/// Increments of a straight path, and how many of them.
+const STRAIGHT: usize = 64;
+const PATHS: usize = 8;
+/// Of the largest work: what the sums along a path may err, of a hyperelastic law and of others.
+const NEAR: f64 = 2e-3;
+const NEAR_OF_OTHERS: f64 = 3e-2;
+/// Of the largest work: what rounding may take away.
+const ROUNDING: f64 = 1e-9;
+
+/// What may be in enerInternNew: the work over these.
+const KINDS: [&str; 3] = ["per mass", "per volume of the undeformed material", "per volume of the deformed material"];
+
+struct Reported {
+    /// The largest difference of enerInternNew from each of [`KINDS`], of the largest.
+    differences: [f64; 3],
+    untouched: bool,
+    inelastic_untouched: bool,
+    /// The largest decrease of enerInelasNew, of the largest work.
+    regained: f64,
+}
+
+fn reported(session: &mut Session) -> io::Result<Option<Reported>> {
+    let mut rng = Rng::with_seed(session.material.seed ^ 0xe1);
+    let density = session.material.explicit.density;
+    let size = session.material.stretch.iter().map(|stretch| stretch.ln().abs()).fold(0.0, f64::max).clamp(1e-3, 0.3);
+    let mut all = Reported { differences: [0.0; 3], untouched: true, inelastic_untouched: true, regained: 0.0 };
+    let mut asked = 0;
+    for _ in 0..PATHS {
+        let strain = direction(&mut rng, session.material) * size;
+        let path: Vec<_> = (1..=STRAIGHT).map(|k| exp(&(strain * (k as f64 / STRAIGHT as f64)))).collect();
+        let found = point::history(session, &path)?;
+        let (mut work, mut power_before, mut inelastic_before) = (0.0, 0.0, 0.0);
+        let mut rows = Vec::new();
+        let mut largest = 0.0_f64;
+        for (found, f) in found.iter().zip(&path) {
+            let volume = f.determinant();
+            // τ : D along a path of constant D, on axes that do not turn.
+            let power = tensor(&found.stress).dot(&strain) * volume / STRAIGHT as f64;
+            work += 0.5 * (power + power_before);
+            power_before = power;
+            let [internal, inelastic] = found.energies;
+            all.untouched &= internal == 0.0;
+            all.inelastic_untouched &= inelastic == 0.0;
+            let regained: f64 = inelastic_before - inelastic;
+            inelastic_before = inelastic;
+            rows.push(([work / density, work, work / volume].map(|wanted| (internal - wanted).abs()), regained));
+            largest = largest.max(work.abs());
+        }
+        if largest > 0.0 {
+            asked += 1;
+            for (differences, regained) in rows {
+                let scales = [largest / density, largest, largest];
+                for (i, (difference, scale)) in differences.into_iter().zip(scales).enumerate() {
+                    all.differences[i] = all.differences[i].max(difference / scale);
+                }
+                all.regained = all.regained.max(regained * density / largest);
+            }
+        }
+    }
+    Ok((asked > 0).then_some(all))
+}
+
+/// # Errors
+/// The system has no memory.
+pub fn energy(session: &mut Session) -> io::Result<Line> {
+    let Some(found) = reported(session)? else {
+        return Ok(Line::new(Question::Energy, Verdict::NotSure, None, "there was no work"));
+    };
+    if found.untouched {
+        return Ok(Line::new(Question::Energy, Verdict::NotReported, None, "enerInternNew is not set"));
+    }
+    let hyperelastic = session.material.traits.hyperelastic;
+    let near = if hyperelastic { NEAR } else { NEAR_OF_OTHERS };
+    let figure = found.differences[0];
+    if figure <= near {
+        let text = "enerInternNew is the work done per mass";
+        return Ok(Line::new(Question::Energy, Verdict::Right, Some(figure), text));
+    }
+    let text = format!("enerInternNew differs from the work done per mass by {figure:.1e} of it");
+    let verdict = if hyperelastic { Verdict::Wrong } else { Verdict::Warning };
+    Ok(match (1..KINDS.len()).find(|&i| found.differences[i] <= near) {
+        Some(i) => {
+            Line::new(Question::Energy, verdict, Some(figure), format!("{text}: it is {}", KINDS[i])).with(KINDS[i])
+        }
+        None => Line::new(Question::Energy, verdict, Some(figure), text).with("enerInternNew"),
+    })
+}
+
+/// # Errors
+/// The system has no memory.
+pub fn dissipation(session: &mut Session) -> io::Result<Line> {
+    let line = |verdict, figure, text: &str| Line::new(Question::Dissipation, verdict, figure, text);
+    Ok(match reported(session)? {
+        None => line(Verdict::NotSure, None, "there was no work"),
+        Some(found) if found.inelastic_untouched => line(Verdict::NotReported, None, "enerInelasNew stays 0"),
+        Some(found) if found.regained > ROUNDING => {
+            let text = format!("enerInelasNew falls by {:.1e} of the work done", found.regained);
+            line(Verdict::Wrong, Some(found.regained), &text).with("energy gained")
+        }
+        Some(found) => line(Verdict::Right, Some(found.regained.max(0.0)), "enerInelasNew never falls"),
+    })
+}
