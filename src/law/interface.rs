@@ -69,7 +69,8 @@ pub struct Points<T> {
     pub f_new: [*const T; 9],
     /// The fibre direction of each point, of any length; null for that of the properties.
     pub fibre: [*const T; 3],
-    /// The true fibre strain at failure, ln(1 + ε_lim), of each point of the hyperelastic law; null or 0 for that of the properties.
+    /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of the linear elastic
+    /// one; null or 0 for that of the properties.
     pub limit: *const T,
     /// The law's state variables, old and new.
     pub state_old: *const T,
@@ -211,6 +212,7 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
             f_old: points.f_old,
             f_new: points.f_new,
             fibre: points.fibre,
+            limit: points.limit,
             state_old: points.state_old,
             state_new: points.state_new,
             density: points.density,
