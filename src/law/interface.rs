@@ -21,6 +21,8 @@ use super::tangent::Measure;
 /// points but what [`Points`] says.
 pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
+    /// Whether a point may have a failure limit of its own, [`Points::limit`].
+    const HAS_LIMIT: bool = false;
     /// The state variables of a point.
     type State: Copy + AsRef<[T]> + AsMut<[T]>;
 
@@ -125,6 +127,7 @@ impl<T: Precision> Points<T> {
 // SAFETY: the state is that of the description, and the block's kernels access what `Pointers` says.
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
+    const HAS_LIMIT: bool = true;
     type State = [T; HYPERELASTIC_STATE];
 
     fn fresh() -> Self::State {
@@ -186,6 +189,7 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
 // SAFETY: the state is that of the description, and the block's kernels access what `LinearPointers` says.
 unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
+    const HAS_LIMIT: bool = true;
     type State = [T; LINEAR_ELASTIC_STATE];
 
     fn fresh() -> Self::State {
