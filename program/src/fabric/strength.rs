@@ -28,7 +28,7 @@ impl<'a> PanelStrength<'a> {
     }
 
     /// The strength of each element of a yarn: the least of the cells that its section meets.
-    fn strengths(&self, panel: &Model, yarn: &Yarn) -> Vec<f64> {
+    pub fn strengths(&self, panel: &Model, yarn: &Yarn) -> Vec<f64> {
         let Ply { woven, .. } = &self.case.cloth.plies()[yarn.ply];
         let lines = &self.lines[yarn.ply][yarn.family as usize];
         let of = field::Yarn { ply: yarn.ply, family: own_family(woven.exchanged, yarn.family), number: yarn.number };

@@ -4,4 +4,6 @@ pub mod field;
 pub mod file;
 pub mod reader;
 pub mod scatter;
+#[cfg(test)]
+mod tests;
 pub mod weibull;
