@@ -92,7 +92,7 @@ impl<T: Number> Body<T> {
         }
     }
 
-    /// Gives each element a failure limit of its own, ln(1 + ε_lim).
+    /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
     pub fn limit(&mut self, limits: &[f64]) {
         for block in &mut self.blocks {
             block.limit(&limits[block.first..block.first + block.shapes.n]);
