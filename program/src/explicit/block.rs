@@ -409,7 +409,12 @@ impl<T: Number> ElementBlock<T> {
 
     /// The linear elastic law's strength of an element.
     fn strength(&self, medium: &Medium<T>, i: usize) -> f64 {
-        self.limit.get(i).map_or(medium.strength, |&limit| limit.into())
+        self.own_limit(i).filter(|&limit| limit > 0.0).unwrap_or(medium.strength)
+    }
+
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, i: usize) -> Option<f64> {
+        self.limit.get(i).map(|&limit| limit.into())
     }
 
     /// The von Mises stress of a solid; the laws do not keep theirs.

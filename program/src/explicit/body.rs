@@ -310,6 +310,12 @@ impl<T: Number> Body<T> {
         block.failure_index(&media[block.medium], i)
     }
 
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, number: usize) -> Option<f64> {
+        let (block, i) = self.element(number);
+        block.own_limit(i)
+    }
+
     /// Logarithmic strain along the fibre of an element.
     pub fn elongation(&self, media: &[Medium<T>], number: usize) -> f64 {
         let (block, i) = self.element(number);

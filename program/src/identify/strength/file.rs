@@ -272,7 +272,7 @@ mod tests {
         );
         // Strains at one length, in columns of other names.
         let strains = "Peak (%),Slip (-)\n2.0,0\n2.4,0\n2.1,1\n";
-        let keys = "name = \"warp\"\nlength = 0.2\nreference_length = 50.0\n\
+        let keys = "name = \"warp\"\nlength = 20.0\nreference_length = 50.0\n\
                     columns = { strength = \"Peak\", censored = \"Slip\" }\n";
         let job = read(keys, strains).expect("a fit");
         let table = report::table(&job, &job.sets[0]);
