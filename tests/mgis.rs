@@ -594,6 +594,28 @@ fn properties_and_failure_of_a_law_of_ones_own() {
     }
 }
 
+/// The strength is a material property, which a code may give by point, as MGIS passes an array of them: each point fails at its own,
+/// whatever others have, and one that changes counts from then on.
+#[test]
+fn strengths_by_point() {
+    let (rest, pulled) = (Matrix3::identity(), Matrix3::from_diagonal(&Vector3::new(1.05, 1.0, 1.0)));
+    for (law, place, strengths) in
+        [(LawOf::Hyperelastic, 5, [0.04, 0.0, 0.06, 0.03]), (Linear, 3, [3.5, 0.0, 4.5, 2.0])]
+    {
+        let mut points: Vec<_> = [(); 4].map(|()| Behaviour::new(law, false, [1.0, 0.0, 0.0])).to_vec();
+        points.iter_mut().zip(strengths).for_each(|(point, strength)| point.properties[place] = strength);
+        let failed = law.description().failed;
+        let mut states: Vec<_> = points.iter().map(Behaviour::fresh).collect();
+        for (point, state) in points.iter().zip(&mut states) {
+            *state = point.step(&rest, &pulled, state, CAUCHY, Some(0)).state;
+        }
+        assert_eq!(states.iter().map(|state| state[failed]).collect::<Vec<_>>(), [1.0, 0.0, 0.0, 1.0]);
+        points[2].properties[place] = strengths[0];
+        let later = points[2].step(&pulled, &pulled, &states[2], CAUCHY, Some(0));
+        assert_eq!(later.state[failed], 1.0);
+    }
+}
+
 /// Newton's method to a given uniaxial stress by dσ/dF, F without rotation: the stress that is missing is squared from one
 /// iteration to the next.
 #[test]
