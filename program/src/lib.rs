@@ -46,6 +46,7 @@ pub mod picture;
 pub mod scene_deck;
 pub mod strength;
 pub mod struck;
+pub mod v50;
 pub mod weave;
 
 pub use own_program::of_law;

@@ -1,0 +1,13 @@
+//! `toron v50`: at which speed half of the shots go through, and how sure that is.
+//!
+//! Shots at a scene of [`fabric`](crate::fabric) or [`impact`](crate::impact) differ in speed, in the point of impact and in the strength of
+//! the yarns. The statistics of what comes of them know nothing of scenes.
+
+pub mod curve;
+pub mod designs;
+pub mod lambert_jonas;
+mod likelihood;
+pub mod link;
+mod search;
+pub mod simulation;
+pub mod test_houses;
