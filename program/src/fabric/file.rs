@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::Unused;
+use crate::common::toml_file::{Numbers, Unused};
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
 use crate::weave::file::{PlyFile, WeaveFile};
@@ -30,6 +30,7 @@ with_common_keys!(case_file! {
         mesh: Spanned<MeshFile>,
         shape: ShapeName,
         length: Spanned<f64>,
+        aim: Spanned<Numbers<2>>,
         striker_density: Spanned<f64>,
         hyperelastic_radius: Spanned<f64>,
         rim: Rim,

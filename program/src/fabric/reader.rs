@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source, over};
+use crate::common::toml_file::{self, Numbers, Source, over};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
@@ -24,6 +24,7 @@ use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
+use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -124,16 +125,17 @@ impl Reader<'_> {
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
-            cloth,
-            speed: self.speed(zones.inner())?,
-            zones,
-            threads,
             sphere: Rigid {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
                 stiffness,
                 friction: self.source.zero_or_more("friction", &keys.friction, friction)?,
+                aim: self.aim(file, &cloth)?,
             },
+            cloth,
+            speed: self.speed(zones.inner())?,
+            zones,
+            threads,
             mass: self.mass(file)?,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
@@ -147,6 +149,18 @@ impl Reader<'_> {
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.
+    fn aim(&self, file: &CaseFile, cloth: &Cloth) -> Result<[f64; 2], Error> {
+        let Some(aim) = &file.aim else { return Ok([0.0; 2]) };
+        let Numbers([x, y]) = *aim.get_ref();
+        let allowed = match cloth.part() {
+            Part::Quarter => "with part = \"whole\"",
+            Part::Whole if [x, y].iter().all(|place| place.is_finite()) => return Ok([x, y]),
+            Part::Whole => "two finite numbers",
+        };
+        Err(self.source.error(aim.span(), &format!("aim is [{x}, {y}]; allowed: {allowed}")))
     }
 
     /// What the yarns of each ply are made of, warp and weft, where the tables say it.

@@ -124,6 +124,7 @@ impl Reader<'_> {
             radius: self.positive("radius", &keys.radius)?,
             stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
             friction: self.source.zero_or_more("friction", &keys.friction, 0.0)?,
+            aim: [0.0; 2],
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         let mass = if held && keys.mass.is_none() { 0.0 } else { self.positive("mass", &keys.mass)? };
