@@ -70,7 +70,7 @@ impl CaseFile {
             let message = format!("length is {}; allowed: with shape = \"flat\" or \"hemisphere\"", length.get_ref());
             (length.span(), message)
         });
-        self.keys.unused_material(&keys).or(of_sphere).or_else(|| {
+        self.keys.unused(&keys).or(of_sphere).or_else(|| {
             let radius = self.hyperelastic_radius.as_ref()?;
             let message = format!("hyperelastic-radius is {}; allowed: with law = \"hybrid\"", radius.get_ref());
             keys.iter().all(|keys| keys.law() != LawName::Hybrid).then(|| (radius.span(), message))

@@ -12,6 +12,7 @@ pub mod reader;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod strength;
 pub mod summary;
 #[cfg(test)]
 mod tests;

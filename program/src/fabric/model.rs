@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::scene::{Case, Zones};
+use super::strength::PanelStrength;
 use crate::common::error::Error;
 use crate::common::units::number;
 use crate::explicit::body::{Body, Support};
@@ -60,6 +61,7 @@ pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
 pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error> {
     let media = media(case)?;
     let (mut bodies, mut surfaces, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
+    let strength = PanelStrength::of(case);
     for yarn in &panel.yarns {
         let mut mesh = mesh_of(panel, yarn);
         let faces = &panel.faces[yarn.faces.clone()];
@@ -71,7 +73,10 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let own = case.own_material(yarn.ply, yarn.family);
         let medium = |element| own.unwrap_or_else(|| zone(&case.zones, corners(element)));
         let zones: Vec<usize> = mesh.elements.iter().map(medium).collect();
-        let body = Body::new(mesh, &media, |element| zones[element]);
+        let mut body = Body::new(mesh, &media, |element| zones[element]);
+        if let Some(limits) = strength.as_ref().and_then(|strength| strength.limits(panel, yarn)) {
+            body.limit(&limits);
+        }
         contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
         surfaces.push(surface);
         bodies.push(body);

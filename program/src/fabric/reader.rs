@@ -124,6 +124,9 @@ impl Reader<'_> {
         let [_, height] = cloth.yarn_heights();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
+        let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
+        let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
+        let strength = self.panel_strength(&cloth, &materials)?;
         Ok(Case {
             sphere: Rigid {
                 shape: shape(file),
@@ -136,6 +139,7 @@ impl Reader<'_> {
             speed: self.speed(zones.inner())?,
             zones,
             threads,
+            strength,
             mass: self.mass(file)?,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {

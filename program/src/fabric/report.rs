@@ -8,7 +8,9 @@ use super::summary::{Figures, ending, residual_speed};
 use crate::common::text_table::{Column, NONE, files, folded, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
+use crate::strength::scatter;
 use crate::struck::report::after_failure;
+use crate::weave::panel::Part;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -22,9 +24,18 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let table = table(columns(scene, results), WIDTH);
     let warnings = warnings(results.iter().map(|(case, _, figures)| (case.name.as_str(), &figures.findings[..])));
     let yarns: Vec<_> = results.iter().map(|(case, ..)| (case.name.as_str(), case.material_names())).collect();
-    let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), sliding(results));
+    let (yarns, sliding) = (yarns_of_cases(&yarns, WIDTH), strength(scene, results) + &sliding(results));
     let failed = after_failure(results.iter().map(|(case, outcome, _)| (case.name.as_str(), outcome)), WIDTH);
     format!("{}\n\n{table}\n{yarns}{sliding}{failed}{warnings}\n{}", scene.title, list_files(results, output))
+}
+
+/// The cases whose strength scatters.
+fn strength(scene: &Scene, results: &Results) -> String {
+    let quarter = results.iter().any(|(case, ..)| case.strength.is_some() && case.cloth.part() == Part::Quarter);
+    let cases = results
+        .iter()
+        .map(|(case, _, figures)| (case.name.as_str(), case.strength.as_ref(), figures.weakest.as_deref()));
+    scatter::report(cases, quarter.then_some("three quarters of a panel"), &scene.units, WIDTH)
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.

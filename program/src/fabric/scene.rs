@@ -6,6 +6,7 @@ use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
+use crate::strength::scatter::Strength;
 use crate::struck::plan::Plan;
 pub use crate::struck::zones::Zones;
 use crate::weave::cloth::Cloth;
@@ -33,6 +34,8 @@ pub struct Case {
     pub sphere: Rigid,
     pub mass: f64,
     pub speed: f64,
+    /// Where it scatters, in place of the materials'.
+    pub strength: Option<Strength>,
     /// Whether the yarns' ends at the panel's outline are fixed.
     pub held: bool,
     /// Of yarns with one another.

@@ -6,9 +6,12 @@ use super::judgement::{Measures, judge};
 use super::measure::{OfPanel, Sample};
 use super::run::{End, Outcome};
 use super::scene::{Case, Zones};
+use super::strength::PanelStrength;
+use crate::common::text_table::NONE;
 use crate::common::units::{LENGTH, SPEED, TIME, number};
 use crate::explicit::judgement::{Finding, verdict};
 use crate::explicit::lanes::{largest, smallest};
+use crate::strength::scatter;
 use crate::struck::history::{Column, title};
 use crate::struck::summary::{Cells, Line};
 use crate::weave::model::Model;
@@ -34,6 +37,8 @@ pub struct Figures {
     pub worst: [f64; 2],
     /// The largest energy densities of all times.
     pub densities: [f64; 5],
+    /// The least strength of all elements, where it scatters.
+    pub weakest: Option<String>,
     /// Up to the first failure, and what is wrong with the run.
     pub measures: Measures,
     pub findings: Vec<Finding>,
@@ -57,6 +62,8 @@ impl Figures {
             hourglass: if internal == 0.0 { 0.0 } else { most(|sample| sample.energies.hourglass) / internal },
             worst: [least(|sample| sample.own.least_volume_ratio), least(|sample| sample.own.least_scaled_jacobian)],
             densities: std::array::from_fn(|mode| samples.iter().map(|s| s.largest[mode]).fold(0.0, largest)),
+            weakest: PanelStrength::of(case)
+                .map(|strength| scatter::text(case.zones.inner(), strength.least(panel), units)),
             findings: judge(units, case, panel, outcome, &measures, front_at_rim),
             measures,
         }
@@ -115,6 +122,9 @@ pub fn line(units: &UnitSystem, case: &Case, outcome: &Outcome, figures: &Figure
     line.quantity("speed_at_end", SPEED, last.speed);
     line.add("verdict", verdict(&figures.findings));
     line.add("material", case.material_names());
+    let seed = case.strength.map(|strength| strength.field.seed.to_string());
+    line.add("strength_seed", seed.as_deref().unwrap_or(NONE));
+    line.add("strength_least", figures.weakest.as_deref().unwrap_or(NONE));
     line.quantity("deflection_max", LENGTH, *deflection);
     line.quantity("deflection_max_at", TIME, *deepest_at);
     line.quantity("front_at_rim", TIME, figures.front_at_rim);

@@ -57,7 +57,7 @@ impl CaseFile {
     /// A key of this table that none of these cases reads: its place, and the message.
     pub fn unused(&self, cases: &[&CaseFile]) -> Unused {
         let keys: Vec<&Keys> = cases.iter().map(|case| &case.keys).collect();
-        self.keys.unused_material(&keys).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
+        self.keys.unused(&keys).or_else(|| self.unused_length(cases)).or_else(|| self.unused_cylinder(cases))
     }
 
     fn unused_length(&self, cases: &[&CaseFile]) -> Unused {

@@ -9,5 +9,6 @@ pub mod reader;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod strength;
 pub mod summary;
 pub mod yarn_picture;

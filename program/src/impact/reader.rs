@@ -10,6 +10,7 @@ use crate::common::error::Error;
 use crate::common::toml_file::{self, Source};
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::mesh::{Section, Yarn};
+use crate::strength::scatter::Strength;
 use crate::struck::keys::{self, Reader};
 
 /// An element takes some 700 bytes: more do not fit most memories.
@@ -74,6 +75,7 @@ impl Reader<'_> {
         let yarn = self.yarn(file)?;
         let zones = self.zones(|| self.hyperelastic_length(file, &yarn))?;
         Ok(Case {
+            strength: self.yarn_strength(&yarn)?,
             striker: self.striker(file)?,
             speed: self.speed(zones.inner())?,
             plan,
@@ -112,6 +114,16 @@ impl Reader<'_> {
             return Err(self.source.error(self.span.clone(), &message));
         }
         Ok(yarn)
+    }
+
+    /// The strength of the whole yarn, which is twice as long as what is modelled.
+    fn yarn_strength(&self, yarn: &Yarn) -> Result<Option<Strength>, Error> {
+        let Some(table) = self.strength_table() else { return Ok(None) };
+        if let Some(family) = table.get_ref().families.iter().flatten().next() {
+            let message = "warp or weft in the strength of one yarn; allowed: their keys in the table itself";
+            return Err(self.source.error(family.span(), message));
+        }
+        self.strength(table, std::iter::once(2.0 * yarn.length)).map(Some)
     }
 
     fn striker(&self, file: &CaseFile) -> Result<Striker, Error> {

@@ -10,6 +10,7 @@ use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, 
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
 use crate::material::fibre_wave::FibreWave;
+use crate::strength::scatter;
 use crate::struck::report::after_failure;
 
 /// Columns of a terminal.
@@ -28,12 +29,20 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
     let parts = [
         table(struck(scene, results), WIDTH),
         table(driven(scene, results), WIDTH),
-        yarns_of_cases(&yarns, WIDTH) + &wave_line(&waves),
+        yarns_of_cases(&yarns, WIDTH) + &strength(scene, results) + &wave_line(&waves),
         after_failure(results.iter().map(|(case, result)| (case.name.as_str(), &result.run)), WIDTH) + &warnings,
         list_files(scene, results, output),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     format!("{}\n\n{}", scene.title, parts.join("\n"))
+}
+
+/// The cases whose strength scatters.
+fn strength(scene: &Scene, results: &Results) -> String {
+    let weakest: Vec<_> = results.iter().map(|(case, result)| case.weakest(&scene.units, &result.mesh)).collect();
+    let cases = results.iter().zip(&weakest);
+    let cases = cases.map(|((case, _), weakest)| (case.name.as_str(), case.strength.as_ref(), weakest.as_deref()));
+    scatter::report(cases, Some("the other half of a yarn"), &scene.units, WIDTH)
 }
 
 /// The waves of all the cases' materials, each once.

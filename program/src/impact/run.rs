@@ -97,7 +97,10 @@ impl Struck for StruckYarn<'_> {
             Zones::Two(_, length) => length,
         };
         let near = case.yarn.layers_to(length);
-        let yarn = Body::new(mesh, &media, |element| usize::from(element / per_layer >= near));
+        let mut yarn = Body::new(mesh, &media, |element| usize::from(element / per_layer >= near));
+        if let Some(limits) = case.limits(&yarn.mesh) {
+            yarn.limit(&limits);
+        }
         let mut solver = Solver::new(vec![yarn], media);
         solver.all_outputs = case.outputs == Outputs::Full;
         set_up(case, &mut solver);

@@ -5,6 +5,7 @@ use serde::Deserialize;
 use crate::explicit::contact::Rigid;
 use crate::explicit::medium::Control;
 use crate::explicit::mesh::Yarn;
+use crate::strength::scatter::Strength;
 use crate::struck::plan::Plan;
 pub use crate::struck::zones::Zones;
 use toron::host::units::UnitSystem;
@@ -33,6 +34,8 @@ pub struct Case {
     pub name: String,
     pub yarn: Yarn,
     pub zones: Zones,
+    /// Where it scatters, in place of the material's.
+    pub strength: Option<Strength>,
     pub striker: Striker,
     /// Speed of the projectile, or of the section that is driven.
     pub speed: f64,

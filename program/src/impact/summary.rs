@@ -6,7 +6,7 @@ use super::judgement::judge;
 use super::outcome::{End, OfYarn, Outcome};
 use super::scene::{Case, Outputs, Striker, Zones};
 use crate::common::error::Error;
-use crate::common::text_table::{or_dash, write_csv};
+use crate::common::text_table::{NONE, or_dash, write_csv};
 use crate::common::units::{CONTACT_STIFFNESS, LENGTH, SPEED, TIME, number};
 use crate::explicit::judgement::verdict;
 use crate::material::smith::Smith;
@@ -69,6 +69,9 @@ pub fn line(units: &UnitSystem, case: &Case, result: &Outcome) -> Cells {
     line.add("case", &case.name);
     line.add("law", law(case));
     line.add("material", case.zones.names());
+    let seed = case.strength.map(|strength| strength.field.seed.to_string());
+    line.add("strength_seed", seed.as_deref().unwrap_or(NONE));
+    line.add("strength_least", case.weakest(units, &result.mesh).as_deref().unwrap_or(NONE));
     line.add("verdict", verdict(&judge(units, case, result)));
     line.add("elements", result.elements);
     line.quantity("speed", SPEED, case.speed);

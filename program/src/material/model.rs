@@ -296,10 +296,24 @@ impl Material {
 
     /// Whether there is a limit of the failure index at all.
     pub fn can_fail(&self) -> bool {
+        self.strength() > 0.0
+    }
+
+    /// The nominal strain at failure, or the linear elastic law's stress; 0 without failure.
+    pub fn strength(&self) -> f64 {
         match self.law {
-            Law::Hyperelastic { properties, .. } => properties.eps_lim > 0.0,
-            Law::LinearElastic { properties, .. } => properties.sigma_lim > 0.0,
-            Law::Own(_) => false,
+            Law::Hyperelastic { properties, .. } => properties.eps_lim,
+            Law::LinearElastic { properties, .. } => properties.sigma_lim,
+            Law::Own(_) => 0.0,
+        }
+    }
+
+    /// What the law takes as the limit of a point that has this strength; 0 where the property has it.
+    pub fn limit(&self, strength: f64) -> f64 {
+        match self.law {
+            _ if strength == self.strength() => 0.0,
+            Law::Hyperelastic { .. } => strength.ln_1p(),
+            Law::LinearElastic { .. } | Law::Own(_) => strength,
         }
     }
 }

@@ -20,8 +20,20 @@ pub const SECTIONS: [usize; 8] = [0, 2, 6, 4, 1, 3, 7, 5];
 pub const WATCHED: usize = 100;
 
 /// # Errors
-/// A material that the host or the deck's units cannot have, a sphere under which there is nothing.
+/// A strength that scatters: a deck's cards have one for all elements.
+pub fn refuse_strength(case: &str, scatters: bool) -> Result<(), Error> {
+    if scatters {
+        let message =
+            format!("case {case} has a strength that scatters; allowed in a deck: no strength, the material's own");
+        return Err(Error::Input(message));
+    }
+    Ok(())
+}
+
+/// # Errors
+/// A strength that scatters, a material that the host or the deck's units cannot have, a sphere under which there is nothing.
 pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
+    refuse_strength(&case.name, case.strength.is_some())?;
     let panel = case.cloth.model();
     check(case, &panel)?;
     if case.sphere.aim != [0.0; 2] {

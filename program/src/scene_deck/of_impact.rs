@@ -1,7 +1,7 @@
 //! A case of `toron impact` as the model of a deck: half of a yarn under a cylinder.
 
 use super::model::{Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
-use super::of_fabric::{SECTIONS, WATCHED, lowest_on_axis, nearest};
+use super::of_fabric::{SECTIONS, WATCHED, lowest_on_axis, nearest, refuse_strength};
 use super::striker::Striker;
 use crate::common::error::Error;
 use crate::common::units::{LENGTH, MASS, SPEED, TIME};
@@ -23,6 +23,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         let message = format!("case {} has {what}; allowed in a deck: a cylinder that flies freely", case.name);
         return Err(Error::Input(message));
     };
+    refuse_strength(&case.name, case.strength.is_some())?;
     let Conversion { from, to } = conversion;
     let materials = case.zones.materials().iter().map(|material| Material::of_scene(material, &from, &to));
     let materials = materials.collect::<Result<Vec<_>, _>>()?;

@@ -13,6 +13,7 @@ use crate::explicit::medium::Control;
 use crate::material::file::MaterialFile;
 use crate::material::model::Material;
 use crate::material::of_law::{Choice, FailureName, HYPERELASTIC, LINEAR_ELASTIC, LawName, own_yarn, unused_material};
+use crate::strength::file::StrengthFile;
 use toron::host::units::UnitSystem;
 
 /// Files for ParaView are numbered by four digits.
@@ -43,6 +44,7 @@ macro_rules! with_common_keys {
                 name: toml::Spanned<String>,
                 law: $crate::material::of_law::LawName,
                 failure: toml::Spanned<$crate::material::of_law::FailureName>,
+                strength: toml::Spanned<$crate::strength::file::StrengthFile>,
                 hyperelastic: toml::Spanned<$crate::material::file::MaterialFile>,
                 linear_elastic: toml::Spanned<$crate::material::file::MaterialFile>,
                 speed: toml::Spanned<f64>,
@@ -129,6 +131,7 @@ impl Keys {
         Keys {
             hyperelastic: material(&self.hyperelastic, &base.hyperelastic),
             linear_elastic: material(&self.linear_elastic, &base.linear_elastic),
+            strength: over(&self.strength, &base.strength, StrengthFile::over),
             ..self.or(base)
         }
     }
@@ -152,10 +155,19 @@ impl Keys {
         table.as_ref()?.get_ref().given(name).map(Spanned::span)
     }
 
-    /// A material of this table that none of these cases has a law for.
-    pub fn unused_material(&self, cases: &[&Keys]) -> Unused {
+    /// Whether anything may fail.
+    pub fn fails(&self) -> bool {
+        self.failure.as_ref().is_some_and(|failure| *failure.get_ref() != FailureName::None)
+    }
+
+    /// A material of this table that none of these cases has a law for, or a strength where nothing fails.
+    pub fn unused(&self, cases: &[&Keys]) -> Unused {
         let laws: Vec<LawName> = cases.iter().map(|case| case.law()).collect();
-        unused_material(&self.hyperelastic, &self.linear_elastic, &laws)
+        unused_material(&self.hyperelastic, &self.linear_elastic, &laws).or_else(|| {
+            let strength = self.strength.as_ref().filter(|_| !cases.iter().any(|case| case.fails()))?;
+            let message = "strength of what does not fail; allowed: with failure = \"uniaxial\" or \"multiaxial\"";
+            Some((strength.span(), message.to_string()))
+        })
     }
 }
 

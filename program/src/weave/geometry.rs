@@ -53,6 +53,11 @@ impl Weave {
         self.thread(family.other()).pitch / self.along as f64
     }
 
+    /// The amplitude of straight yarns that lie upon each other, which needs no mesh; those that bend have hardly another.
+    pub(super) fn flat_amplitude(&self) -> f64 {
+        0.25 * (self.threads[0].height + self.threads[1].height) + 0.5 * self.clearance
+    }
+
     /// The same weave turned by a right angle, where its pattern is its own mirror image by planes normal to x and to y.
     pub fn exchanged(&self) -> Weave {
         let [warp, weft] = self.threads;
@@ -180,7 +185,7 @@ impl Geometry {
 
 /// Heights from a crossing to where the yarn is half way to the other side: along the outline of the crossed yarn, which
 /// it lies on, then along the tangent that reaches height 0 there.
-fn profile(crossed: &Thread, half_width: f64, steps: usize, amplitude: f64) -> Vec<f64> {
+pub(super) fn profile(crossed: &Thread, half_width: f64, steps: usize, amplitude: f64) -> Vec<f64> {
     let half_pitch = 0.5 * crossed.pitch;
     let outline = |x: f64| amplitude - 0.5 * crossed.height + crossed.half_height(x / half_width);
     // The tangent touches where the line to the end is steepest; the slope rises up to there, then falls.

@@ -4,6 +4,7 @@
 //! It is geometry alone: nodes, elements, fibre directions, faces that can touch, and sets of nodes. Warp yarns run along x,
 //! weft yarns along y, z goes through the thickness.
 
+pub mod centre_line;
 pub mod cloth;
 pub mod command;
 pub mod cut;

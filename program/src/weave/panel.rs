@@ -66,6 +66,11 @@ impl Turn {
     pub fn of(self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.cos * x - self.sin * y, self.sin * x + self.cos * y]
     }
+
+    /// The turn back.
+    pub fn back(self) -> Turn {
+        Turn { sin: -self.sin, ..self }
+    }
 }
 
 /// A yarn of a panel.
@@ -131,7 +136,7 @@ impl Panel {
     }
 
     /// From where to where the outline has a line along a family's yarns, at this coordinate across them.
-    fn interval(&self, family: Family, coordinate: f64) -> [f64; 2] {
+    pub fn interval(&self, family: Family, coordinate: f64) -> [f64; 2] {
         match self.outline {
             Outline::Circle(radius) => {
                 let half = (radius * radius - coordinate * coordinate).max(0.0).sqrt();

@@ -30,8 +30,8 @@ impl Weave {
             let geometry = Geometry::new(self, amplitude);
             if geometry.steepest() > STEEPEST { Err(no_room(&geometry)) } else { Ok(geometry) }
         };
-        // The second is that of straight yarns upon each other: one that bends needs more.
-        let start = [0.125 * height, 0.25 * height + 0.5 * self.clearance];
+        // One that bends needs more than the second.
+        let start = [0.125 * height, self.flat_amplitude()];
         let of_gap = root(start, accuracy, |amplitude| least(amplitude, upright_gap), &room)?;
         // The distance is hardly less than the upright gap, and takes much longer.
         let start = [of_gap, of_gap * (1.0 + STEP)];

@@ -1,0 +1,59 @@
+//! The strength of a scene's yarns.
+
+use super::field::{Cells, Field, Yarn};
+use super::weibull::Weibull;
+use crate::common::text_table::{folded, grouped};
+use crate::common::units::{LENGTH, number, unit};
+use crate::material::model::{Law, Material};
+use toron::host::units::UnitSystem;
+use toron::law::parameters::STRESS;
+
+/// Strength that scatters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strength {
+    pub field: Field,
+    /// Of warp and weft, or of the yarn: by the nominal strain at failure, or of the linear elastic law by its stress.
+    pub laws: [Weibull; 2],
+}
+
+impl Strength {
+    /// The cells of a yarn between these arc lengths.
+    pub fn cells(&self, yarn: Yarn, ends: [f64; 2]) -> Cells {
+        self.field.cells(&self.laws[yarn.family], yarn, ends)
+    }
+
+    /// For the report: `seed 1, cells of 5 mm, the weakest 3.9 %`.
+    fn text(&self, weakest: &str, units: &UnitSystem) -> String {
+        let Field { seed, cell } = self.field;
+        format!("seed {seed}, cells of {} {}, the weakest {weakest}", number(cell), unit(units, LENGTH))
+    }
+}
+
+/// A strength of this material's law: a strain in percent, or a stress with its unit.
+pub fn text(material: &Material, strength: f64, units: &UnitSystem) -> String {
+    match material.law {
+        Law::LinearElastic { .. } => format!("{} {}", number(strength), unit(units, STRESS)),
+        Law::Hyperelastic { .. } | Law::Own(_) => format!("{} %", number(100.0 * strength)),
+    }
+}
+
+/// The line of a report on the cases whose strength scatters, each with its weakest element; `mirrored` is what symmetry leaves out.
+pub fn report<'a>(
+    cases: impl Iterator<Item = (&'a str, Option<&'a Strength>, Option<&'a str>)>,
+    mirrored: Option<&str>,
+    units: &UnitSystem,
+    width: usize,
+) -> String {
+    let text = |(case, strength, weakest): (&'a str, Option<&Strength>, Option<&str>)| {
+        Some((case, strength?.text(weakest?, units)))
+    };
+    let texts: Vec<(&str, String)> = cases.filter_map(text).collect();
+    if texts.is_empty() {
+        return String::new();
+    }
+    let groups = grouped(texts.iter().map(|(case, text)| (*case, text.as_str())));
+    let groups: Vec<String> = groups.iter().map(|(text, cases)| format!("{text} ({})", cases.join(", "))).collect();
+    let mirrored =
+        mirrored.map(|what| format!(". Of {what}, which symmetry leaves out, the strengths are mirror images"));
+    folded(&format!("Strength scatters: {}{}.", groups.join("; "), mirrored.unwrap_or_default()), width) + "\n"
+}
