@@ -77,7 +77,9 @@ impl Scene {
                 reader.panel_case(file_of_case, cloth, threads, name)
             },
         )?;
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots })
     }
 }
 

@@ -49,8 +49,10 @@ impl Scene {
             CaseFile::unused,
             |reader, [file, _], name| reader.yarn_case(file, name),
         )?;
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots, abscissa })
     }
 }
 
