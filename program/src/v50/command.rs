@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::designs::Design;
 use super::link::Link;
 use super::records::Records;
-use super::run::{self, Range};
+use super::run::{self, FiringRange};
 use super::scene::Scene;
 use super::series::Series;
 use super::simulation::{Experiment, Truth};
@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     let numbers = numbers(&scene, arguments.shots.as_deref())?;
     let findings = shot::before(&scene)?;
     let directory = RunDirectory::open(&arguments.output)?;
-    print_error(&warnings([("of all shots", &findings[..])]));
+    print_error(&warnings([(scene.target.name(), &findings[..])]));
     let records = open(&scene, arguments, if arguments.limit { LIMIT } else { SHOTS })?;
     print_error("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
     let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
@@ -87,7 +87,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
         return find_limit(&scene, threads, records, arguments);
     }
     let ended = records.shots.values().filter(|ended| run::stays(&scene, ended)).count();
-    let range = Range::new(&scene, threads, numbers.clone().count().saturating_sub(ended))?;
+    let range = FiringRange::new(&scene, threads, numbers.clone().count().saturating_sub(ended))?;
     let records = Mutex::new(records);
     let done = run::series(&range, numbers, &records);
     range.finish();
@@ -183,7 +183,7 @@ fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
 fn find_limit(scene: &Scene, threads: usize, records: Records, arguments: &Arguments) -> Result<(), Error> {
     let Shots { speeds: [low, high], tolerance, .. } = scene.shots;
     let shots = limit::shots(high - low, tolerance);
-    let range = Range::new(scene, threads, shots.saturating_sub(records.shots.len()))?;
+    let range = FiringRange::new(scene, threads, shots.saturating_sub(records.shots.len()))?;
     let found = limit::find(&range, &Mutex::new(records));
     range.finish();
     let Some(found) = found? else { return Err(interrupted(arguments)) };

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::curve::{Fate, Mix, mix};
 use super::records::Records;
-use super::run::{Range, stays};
+use super::run::{FiringRange, stays};
 use super::scene::Shot;
 use super::shot::{Ended, Ending};
 use crate::common::error::Error;
@@ -33,7 +33,7 @@ pub fn shots(range: f64, tolerance: f64) -> usize {
 ///
 /// # Errors
 /// The ends of the range have one fate; a shot is undecided, or ends with an error.
-pub fn find(range: &Range, records: &Mutex<Records>) -> Result<Option<Limit>, Error> {
+pub fn find(range: &FiringRange, records: &Mutex<Records>) -> Result<Option<Limit>, Error> {
     let mut search = Search { range, records, fates: Vec::new() };
     let [mut low, mut high] = range.scene.shots.speeds;
     let tolerance = range.scene.shots.tolerance;
@@ -76,7 +76,7 @@ pub fn find(range: &Range, records: &Mutex<Records>) -> Result<Option<Limit>, Er
 }
 
 struct Search<'a> {
-    range: &'a Range<'a>,
+    range: &'a FiringRange<'a>,
     records: &'a Mutex<Records>,
     fates: Vec<Fate>,
 }
@@ -132,8 +132,9 @@ impl Search<'_> {
             (None, Ending::Error(message)) => Err(Error::Evaluation(format!("the shot at {speed}: {message}"))),
             (None, _) => {
                 let time = number(ended.time);
-                let message =
-                    format!("the shot at {speed} is undecided at {time}; allowed: a later end, or a larger extension");
+                let message = format!(
+                    "the shot at {speed} is undecided at time {time}; allowed: a later end, or a larger extension"
+                );
                 Err(Error::Evaluation(message))
             }
         }

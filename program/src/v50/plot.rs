@@ -175,10 +175,11 @@ fn draw_residuals(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
             Some((fate.speed, ended.residual().unwrap_or(0.0), fate.through))
         })
         .collect();
-    let most = points.iter().map(|point| point.1).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let fastest = series.residual.map_or(0.0, |curve| curve.residual(high));
+    let most = points.iter().map(|point| point.1).fold(fastest, f64::max).max(f64::MIN_POSITIVE);
     let x_label = |x: &f64| tick(*x, high - low);
     let y_label = |y: &f64| tick(*y, most);
-    let range = -AIR * most..(1.0 + 2.0 * AIR) * most;
+    let range = -AIR * most..(1.0 + AIR) * most;
     let mut chart = chart(&body, low..high, range, &format!("striking speed ({speed})"), [&x_label, &y_label])?;
     if let Some(curve) = series.residual {
         let points = (0..=POINTS).map(|i| low + (high - low) * i as f64 / POINTS as f64);

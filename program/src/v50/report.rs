@@ -167,7 +167,10 @@ fn unsound(series: &Series) -> String {
         series.unsound().map(|ended| (ended.shot.number.to_string(), ended.verdict.as_str())).collect();
     let groups = grouped(named.iter().map(|(number, verdict)| (number.as_str(), *verdict)));
     let group = |(verdict, numbers): (&str, Vec<&str>)| {
-        folded(&format!("warning: shots {}: {verdict} (see docs/guides/fabric.md)", numbers.join(", ")), WIDTH) + "\n"
+        let shots = if numbers.len() == 1 { "shot" } else { "shots" };
+        let text =
+            format!("warning: {shots} {}: {verdict} (docs/guides/fabric.md says what to do)", numbers.join(", "));
+        folded(&text, WIDTH) + "\n"
     };
     groups.into_iter().map(group).collect()
 }
@@ -244,9 +247,9 @@ pub fn simulated(lines: &[Simulated]) -> String {
         column("separated", "share", &|(.., found)| share(found.separated)),
         column("level", "share", &|(.., found)| share(found.level)),
         column("one fate", "share", &|(.., found)| share(found.one_fate)),
-        column("V50 off", "deviations", &|(.., found)| format!("{:+.3}", found.bias)),
-        column("scatter", "deviations", &|(.., found)| share(found.error)),
-        column("interval", "deviations", &|(.., found)| or_dash(found.width, |width| format!("{width:.2}"))),
+        column("V50 off", "σ", &|(.., found)| format!("{:+.3}", found.bias)),
+        column("scatter", "σ", &|(.., found)| share(found.error)),
+        column("width", "σ", &|(.., found)| or_dash(found.width, |width| format!("{width:.2}"))),
     ]);
     table(columns, WIDTH)
 }

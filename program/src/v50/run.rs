@@ -24,7 +24,7 @@ const TICKS: u64 = 1000;
 const ROUNDING: f64 = 1e-9;
 
 /// Shots on their way.
-pub struct Range<'a> {
+pub struct FiringRange<'a> {
     pub scene: &'a Scene,
     pub threads: usize,
     interrupt: Interrupt,
@@ -37,7 +37,7 @@ pub struct Range<'a> {
     ticks: Mutex<Vec<(usize, u64)>>,
 }
 
-impl Watch for Range<'_> {
+impl Watch for FiringRange<'_> {
     fn progress(&self, shot: &Shot, fraction: f64) {
         let now = (fraction.clamp(0.0, 1.0) * TICKS as f64) as u64;
         let mut ticks = self.ticks.lock().unwrap_or_else(PoisonError::into_inner);
@@ -58,17 +58,17 @@ impl Watch for Range<'_> {
     }
 }
 
-impl<'a> Range<'a> {
+impl<'a> FiringRange<'a> {
     /// For so many shots.
     ///
     /// # Errors
     /// Interrupts cannot be listened for.
-    pub fn new(scene: &'a Scene, threads: usize, all: usize) -> Result<Range<'a>, Error> {
+    pub fn new(scene: &'a Scene, threads: usize, all: usize) -> Result<FiringRange<'a>, Error> {
         let interrupt = Interrupt::listen()?;
         let template = "{msg} {wide_bar} {percent} %, {eta} left";
         let bar = progress::bar(TICKS * all as u64, template, ProgressDrawTarget::stderr());
         let (begun, ended, ticks) = (Instant::now(), AtomicUsize::new(0), Mutex::new(Vec::new()));
-        Ok(Range { scene, threads, interrupt, bar, begun, ended, all, ticks })
+        Ok(FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks })
     }
 
     pub fn is_interrupted(&self) -> bool {
@@ -160,8 +160,8 @@ fn due(scene: &Scene, records: &Records, numbers: RangeInclusive<usize>) -> Vec<
 /// Fires the shots of these numbers that have to be fired; whether none is left.
 ///
 /// # Errors
-/// As for [`Range::fire_all`].
-pub fn series(range: &Range, numbers: RangeInclusive<usize>, records: &Mutex<Records>) -> Result<bool, Error> {
+/// As for [`FiringRange::fire_all`].
+pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mutex<Records>) -> Result<bool, Error> {
     let (scene, design) = (range.scene, range.scene.design());
     let speeds = scene.shots.speeds;
     if design.is_sequential() {

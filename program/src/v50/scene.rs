@@ -203,6 +203,14 @@ impl Target {
         target
     }
 
+    /// The case's.
+    pub fn name(&self) -> &str {
+        match self {
+            Target::Panel(case) => &case.name,
+            Target::Yarn(case) => &case.name,
+        }
+    }
+
     fn aim(&self) -> [f64; 2] {
         match self {
             Target::Panel(case) => case.sphere.aim,
