@@ -24,7 +24,6 @@
 
 use core::cell::Cell;
 use core::ffi::c_char;
-use core::ptr::null;
 
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
@@ -180,11 +179,11 @@ impl Arguments<'_> {
         usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0)
     }
 
-    /// The point's own failure limit, or null.
+    /// The point's own failure limit, or 0.
     ///
     /// # Errors
     /// The card names no variable that may hold it, or it means nothing.
-    fn limit<L: Law<f64>>(&self) -> Result<Option<f64>, Error> {
+    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
         let (kept, variables) = (L::DESCRIPTION.history(), usize::try_from(self.state_count).unwrap_or(0));
         // SAFETY: as many constants as kode says, and as many variables: see `Behaviour`.
         unsafe {
@@ -260,7 +259,7 @@ impl Arguments<'_> {
         let point = Points {
             f_old: components(f_old.as_ptr(), 1),
             f_new: components(f_new.as_ptr(), 1),
-            limit: limit.as_ref().map_or(null(), |limit| &raw const *limit),
+            limit: &raw const limit,
             state_old: old.as_ref().as_ptr(),
             state_new: answer.state.as_mut().as_mut_ptr(),
             stress: components_mut(cauchy.as_mut_ptr(), 1),

@@ -62,11 +62,11 @@ pub(super) fn at<T>(variables: *const T, place: Option<usize>) -> *const T {
 ///
 /// # Safety
 /// `limit` is null or points to a value.
-pub(super) unsafe fn check<T: Precision>(limit: *const T) -> Result<Option<T>, Error> {
+pub(super) unsafe fn check<T: Precision>(limit: *const T) -> Result<T, Error> {
     // SAFETY: as the caller promises.
-    let Some(&limit) = (unsafe { limit.as_ref() }) else { return Ok(None) };
+    let Some(&limit) = (unsafe { limit.as_ref() }) else { return Ok(T::splat(0.0)) };
     if Failure::is_limit(limit) {
-        return Ok(Some(limit));
+        return Ok(limit);
     }
     let name = "failure limit of a point (state variable limit_variable)";
     Err(Error::Argument {

@@ -89,11 +89,11 @@ impl Umat {
         Ok(law)
     }
 
-    /// The point's own failure limit, if there is one.
+    /// The point's own failure limit, or 0.
     ///
     /// # Errors
     /// The card names no variable that may hold it, or it means nothing.
-    fn limit<L: Law<f64>>(&self) -> Result<Option<f64>, Error> {
+    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
         let (count, kept) = (property_count(self.nprops, L::DESCRIPTION.properties)?, L::DESCRIPTION.state.len());
         // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and `nstatv` values.
         unsafe {
@@ -133,7 +133,7 @@ impl StandardLaw for Hyperelastic<f64> {
         let message = Message { text: message, capacity };
         // SAFETY: as above.
         unsafe {
-            let mut limit = None;
+            let mut limit = 0.0;
             if !call.is_usual() {
                 let code = check(call, &mut limit, message);
                 if code != status::OK {
@@ -165,7 +165,7 @@ impl Umat {
 /// As for [`StandardLaw::umat`].
 #[cold]
 #[inline(never)]
-unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
+unsafe fn check(call: &Umat, limit: &mut f64, message: Message) -> i32 {
     let body = || {
         call.law::<Hyperelastic>()?;
         *limit = call.limit::<Hyperelastic>()?;
@@ -178,7 +178,7 @@ unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked.
 #[inline(never)]
-unsafe fn without_tangent(call: &Umat, limit: Option<f64>, message: Message) -> i32 {
+unsafe fn without_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
     // SAFETY: the caller's arrays and message.
     unsafe { hyperelastic(call, limit, message, Stress::<true>) }
 }
@@ -186,7 +186,7 @@ unsafe fn without_tangent(call: &Umat, limit: Option<f64>, message: Message) -> 
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is not null.
 #[inline(never)]
-unsafe fn with_tangent(call: &Umat, limit: Option<f64>, message: Message) -> i32 {
+unsafe fn with_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
     // SAFETY: as above.
     unsafe { hyperelastic(call, limit, message, JaumannModulus) }
 }
@@ -196,12 +196,7 @@ unsafe fn with_tangent(call: &Umat, limit: Option<f64>, message: Message) -> i32
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is there if `tangent` is that.
 #[inline(always)]
-unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(
-    call: &Umat,
-    limit: Option<f64>,
-    message: Message,
-    tangent: D,
-) -> i32
+unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, limit: f64, message: Message, tangent: D) -> i32
 where
     for<'a> &'a Results<'a>: Sink<f64, N>,
 {
@@ -338,7 +333,7 @@ unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
     let point = Points {
         f_old: components(if L::DESCRIPTION.reads_old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
         f_new: components(call.dfgrd1, 1),
-        limit: limit.as_ref().map_or(core::ptr::null(), |limit| &raw const *limit),
+        limit: &raw const limit,
         state_old: call.statev.cast_const(),
         state_new: state.as_mut().as_mut_ptr(),
         stress: components_mut(sigma.as_mut_ptr(), 1),
