@@ -44,6 +44,7 @@ module toron
   integer(c_int32_t), parameter :: toron_status_fibre_direction = -305
   integer(c_int32_t), parameter :: toron_status_increment_too_large = -306
   integer(c_int32_t), parameter :: toron_status_material_axes = -307
+  integer(c_int32_t), parameter :: toron_status_limit = -308
   integer(c_int32_t), parameter :: toron_module_abi_version = 2
   integer(c_int32_t), parameter :: toron_hyperelastic = 0
   integer(c_int32_t), parameter :: toron_linear_elastic = 1
@@ -96,7 +97,7 @@ module toron
   end type
 
   type, bind(c) :: toron_point_f64
-    integer(c_size_t) :: size = 88
+    integer(c_size_t) :: size = 96
     integer(c_int32_t) :: measure = 0
     integer(c_int32_t) :: level = 0
     real(c_double) :: density = 0
@@ -108,10 +109,11 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: tangent = c_null_ptr
+    type(c_ptr) :: limit = c_null_ptr
   end type
 
   type, bind(c) :: toron_point_f32
-    integer(c_size_t) :: size = 88
+    integer(c_size_t) :: size = 96
     integer(c_int32_t) :: measure = 0
     integer(c_int32_t) :: level = 0
     real(c_double) :: density = 0
@@ -123,6 +125,7 @@ module toron
     type(c_ptr) :: modes = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: tangent = c_null_ptr
+    type(c_ptr) :: limit = c_null_ptr
   end type
 
   type, bind(c) :: toron_layout
@@ -131,7 +134,7 @@ module toron
   end type
 
   type, bind(c) :: toron_block_f64
-    integer(c_size_t) :: size = 368
+    integer(c_size_t) :: size = 392
     integer(c_size_t) :: n = 0
     integer(c_size_t) :: leading_dimension = 0
     integer(c_int32_t) :: measure = 0
@@ -157,10 +160,12 @@ module toron
     type(toron_layout) :: stress_layout
     type(toron_layout) :: modes_layout
     type(toron_layout) :: tangent_layout
+    type(c_ptr) :: limit = c_null_ptr
+    type(toron_layout) :: limit_layout
   end type
 
   type, bind(c) :: toron_block_f32
-    integer(c_size_t) :: size = 368
+    integer(c_size_t) :: size = 392
     integer(c_size_t) :: n = 0
     integer(c_size_t) :: leading_dimension = 0
     integer(c_int32_t) :: measure = 0
@@ -186,6 +191,8 @@ module toron
     type(toron_layout) :: stress_layout
     type(toron_layout) :: modes_layout
     type(toron_layout) :: tangent_layout
+    type(c_ptr) :: limit = c_null_ptr
+    type(toron_layout) :: limit_layout
   end type
 
   type, bind(c) :: toron_linear_elastic_f64
@@ -201,7 +208,7 @@ module toron
   end type
 
   type, bind(c) :: toron_linear_point_f64
-    integer(c_size_t) :: size = 112
+    integer(c_size_t) :: size = 120
     integer(c_int32_t) :: rotation = 0
     integer(c_int32_t) :: criterion = 0
     integer(c_int32_t) :: measure = 0
@@ -217,10 +224,11 @@ module toron
     type(c_ptr) :: stress = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: tangent = c_null_ptr
+    type(c_ptr) :: limit = c_null_ptr
   end type
 
   type, bind(c) :: toron_linear_point_f32
-    integer(c_size_t) :: size = 112
+    integer(c_size_t) :: size = 120
     integer(c_int32_t) :: rotation = 0
     integer(c_int32_t) :: criterion = 0
     integer(c_int32_t) :: measure = 0
@@ -236,6 +244,7 @@ module toron
     type(c_ptr) :: stress = c_null_ptr
     type(c_ptr) :: wave_speed = c_null_ptr
     type(c_ptr) :: tangent = c_null_ptr
+    type(c_ptr) :: limit = c_null_ptr
   end type
 
   type, bind(c) :: toron_linear_increment_f64
@@ -261,7 +270,7 @@ module toron
   end type
 
   type, bind(c) :: toron_linear_block_f64
-    integer(c_size_t) :: size = 440
+    integer(c_size_t) :: size = 464
     integer(c_size_t) :: n = 0
     integer(c_size_t) :: leading_dimension = 0
     integer(c_int32_t) :: rotation = 0
@@ -287,10 +296,12 @@ module toron
     type(toron_layout) :: state_layout
     type(toron_layout) :: stress_layout
     type(toron_layout) :: tangent_layout
+    type(c_ptr) :: limit = c_null_ptr
+    type(toron_layout) :: limit_layout
   end type
 
   type, bind(c) :: toron_linear_block_f32
-    integer(c_size_t) :: size = 440
+    integer(c_size_t) :: size = 464
     integer(c_size_t) :: n = 0
     integer(c_size_t) :: leading_dimension = 0
     integer(c_int32_t) :: rotation = 0
@@ -316,6 +327,8 @@ module toron
     type(toron_layout) :: state_layout
     type(toron_layout) :: stress_layout
     type(toron_layout) :: tangent_layout
+    type(c_ptr) :: limit = c_null_ptr
+    type(toron_layout) :: limit_layout
   end type
 
   type, bind(c) :: toron_vumat_f64

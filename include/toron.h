@@ -137,6 +137,11 @@
 #define TORON_MATERIAL_AXES -307
 
 /*
+ The failure limit given for this point is negative, NaN or infinite.
+ */
+#define TORON_LIMIT -308
+
+/*
  Version of the binary interface. A program built against it runs with every later library of the same number.
  */
 #define TORON_ABI_VERSION 2
@@ -363,6 +368,11 @@ typedef struct toron_point_f64 {
    0) it is that of loading.
    */
   double *tangent;
+  /*
+   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
+   properties. Read if `state_new` is not null.
+   */
+  const double *limit;
 } toron_point_f64;
 
 /*
@@ -424,6 +434,11 @@ typedef struct toron_point_f32 {
    0) it is that of loading.
    */
   float *tangent;
+  /*
+   In, 1: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; if null or 0, that of the
+   properties. Read if `state_new` is not null.
+   */
+  const float *limit;
 } toron_point_f32;
 
 /*
@@ -537,6 +552,12 @@ typedef struct toron_block_f64 {
   struct toron_layout stress_layout;
   struct toron_layout modes_layout;
   struct toron_layout tangent_layout;
+  /*
+   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
+   properties. If null, that of the properties. Read if `failure` is not null.
+   */
+  const double *limit;
+  struct toron_layout limit_layout;
 } toron_block_f64;
 
 /*
@@ -634,6 +655,12 @@ typedef struct toron_block_f32 {
   struct toron_layout stress_layout;
   struct toron_layout modes_layout;
   struct toron_layout tangent_layout;
+  /*
+   In, a number for each point: the true fibre strain at failure, ln(1 + eps_lim), in place of that of the properties; 0: that of the
+   properties. If null, that of the properties. Read if `failure` is not null.
+   */
+  const float *limit;
+  struct toron_layout limit_layout;
 } toron_block_f32;
 
 /*
@@ -727,6 +754,10 @@ typedef struct toron_linear_point_f64 {
    precision, and so are then all other results.
    */
   double *tangent;
+  /*
+   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+   */
+  const double *limit;
 } toron_linear_point_f64;
 
 /*
@@ -796,6 +827,10 @@ typedef struct toron_linear_point_f32 {
    precision, and so are then all other results.
    */
   float *tangent;
+  /*
+   In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+   */
+  const float *limit;
 } toron_linear_point_f32;
 
 /*
@@ -959,6 +994,11 @@ typedef struct toron_linear_block_f64 {
   struct toron_layout state_layout;
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
+  /*
+   In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+   */
+  const double *limit;
+  struct toron_layout limit_layout;
 } toron_linear_block_f64;
 
 /*
@@ -1044,6 +1084,11 @@ typedef struct toron_linear_block_f32 {
   struct toron_layout state_layout;
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
+  /*
+   In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+   */
+  const float *limit;
+  struct toron_layout limit_layout;
 } toron_linear_block_f32;
 
 /*
@@ -1057,7 +1102,8 @@ typedef struct toron_vumat_f64 {
   /*
    Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
    caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-   more) and of properties (the law's).
+   more) and of properties (the law's, or
+   one more).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1074,7 +1120,7 @@ typedef struct toron_vumat_f64 {
   double step_time;
   double total_time;
   /*
-   In: properties, nprops.
+   In: properties, nprops; behind them may stand the number of the state variable with each point's failure limit.
    */
   const double *props;
   /*
@@ -1117,7 +1163,8 @@ typedef struct toron_vumat_f32 {
   /*
    Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
    caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-   more) and of properties (the law's).
+   more) and of properties (the law's, or
+   one more).
    */
   int32_t nblock;
   int32_t ndir;
@@ -1134,7 +1181,7 @@ typedef struct toron_vumat_f32 {
   double step_time;
   double total_time;
   /*
-   In: properties, nprops.
+   In: properties, nprops; behind them may stand the number of the state variable with each point's failure limit.
    */
   const float *props;
   /*

@@ -87,6 +87,8 @@ enum {
     REINFORCED_STATUS_INCREMENT_TOO_LARGE = -306,
     /* the material axes of this point are not orthonormal: start with the law's own, and keep those that each step returns */
     REINFORCED_STATUS_MATERIAL_AXES = -307,
+    /* the failure limit of this point is negative, NaN or infinite; 0 stands for that of the properties */
+    REINFORCED_STATUS_LIMIT = -308,
     /* room for any message */
     REINFORCED_MESSAGE_CAPACITY = 512
 };

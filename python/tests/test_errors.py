@@ -144,7 +144,7 @@ def calls(law) -> dict:
     """Ways to pass an argument, by what it is."""
     kind, one = type(law), np.eye(3)
     F = (one,) if kind is toron.Hyperelastic else (one, one)
-    names = ("outputs", "out", "state", "state_old", "fibre", "tangent", "points", "level") + (("second_axis", "axes") if len(F) > 1 else ("limit",))
+    names = ("outputs", "out", "state", "state_old", "fibre", "tangent", "points", "level", "limit") + ("second_axis", "axes") * (len(F) - 1)
     found = {f"evaluate {name}": lambda value, name=name: law.evaluate(*F, **{name: value}) for name in names}
     found |= {f"bind {name}": lambda value, name=name: law.bind(*F, **{name: value})() for name in names}
     found |= {f"out {name}": lambda value, name=name: law.evaluate(*F, out={name: value}) for name in ("stress", "tangent", "status")}

@@ -178,6 +178,22 @@ def test_limits_of_points(yarn, gradients):
         yarn.evaluate(F, outputs="state", limit=np.nan)
 
 
+def test_strengths_of_points(linear, gradients):
+    F = gradients(30)
+    limit = np.resize([0.0, 1.0, 500.0, 1e5], 30)
+    rest = np.tile(np.eye(3), (30, 1, 1))
+    found = linear.evaluate(rest, F, outputs="state", limit=limit)["state"]
+    for value in np.unique(limit):
+        own = linear.replace(sigma_lim=value) if value else linear
+        expected = own.evaluate(rest, F, outputs="state")["state"]
+        np.testing.assert_array_equal(found[limit == value], expected[limit == value])
+    one = linear.evaluate(rest, F, outputs="state", limit=500.0)["state"]
+    np.testing.assert_array_equal(one[limit == 500.0], found[limit == 500.0])
+    assert 0 < found[:, linear.state_index("failed")].sum() < 30
+    with pytest.raises(toron.PointError, match="failure limit of this point"):
+        linear.evaluate(rest, F, outputs="state", limit=-1.0)
+
+
 @pytest.mark.parametrize("shape", [(), (3,), (2, 4)])
 def test_one_direction_is_that_of_all_points(yarn, linear, shape):
     F = np.tile(np.diag([1.01, 1.02, 0.97]), (*shape, 1, 1))

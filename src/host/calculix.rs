@@ -4,7 +4,7 @@
 //! | | hyperelastic law | linear elastic law | any law |
 //! |---|---|---|---|
 //! | found as | `HYPERELASTIC` | `LINEARELASTIC`, both in `libTORON.so`, a link to `libtoron_calculix.so` | its name |
-//! | properties, elconloc | 11 | 10 | those of its table |
+//! | properties, elconloc | 11, or 12 | 10, or 11 | those of its table |
 //! | state, nstate_ ≥ | 11 | 19: 10 state variables, then F of the last increment, by columns | its table, and F where it reads that |
 //! | stiff | dS/dE | its symmetric part | its symmetric part |
 //!
@@ -15,6 +15,7 @@
 //! | state | xstateini, xstate: (nstate_, mi(1), elements) |
 //! | stress | stre(6): second Piola–Kirchhoff 11 22 33 **12 13 23** |
 //! | tangent | stiff(21): dS/dE, tensor components, the upper triangle of that order by columns; on every call |
+//! | limit | the constant behind the properties is the number of the state variable, behind those above, that holds the point's own; or 0 |
 //! | failure | stress 0; stiff is 1e-6 of the bulk modulus on its diagonal, since nodes between failed elements would have no stiffness |
 //! | F inverted or not finite | state kept, pnewdt ≤ ¼ |
 //!
@@ -26,7 +27,7 @@ use core::ffi::c_char;
 
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
-use crate::law::description::{self, Description};
+use crate::law::description::Description;
 use crate::law::error::Error;
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
@@ -43,6 +44,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::entry_points::{properties, start_at_rest};
 use super::environment::in_default_environment;
+use super::limit_variable;
 
 /// The value that pnewdt is lowered to if a point cannot be evaluated. CalculiX passes −1 for no limit.
 const CUTBACK: f64 = 0.25;
@@ -151,8 +153,9 @@ impl Arguments<'_> {
     ///
     /// # Errors
     /// The errors of a deck that the arguments show.
-    fn properties(&self, law: &Description) -> Result<&[f64], Error> {
-        let count = usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0);
+    fn properties<L: Law<f64>>(&self) -> Result<&[f64], Error> {
+        let law = &L::DESCRIPTION;
+        let count = limit_variable::properties_of::<f64, L>(self.count());
         // SAFETY: as many constants as kode says: see `Behaviour`.
         let properties = unsafe { properties(self.constants, count, law.properties) }?;
         let state = law.history();
@@ -169,6 +172,24 @@ impl Arguments<'_> {
             return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
         Ok(properties)
+    }
+
+    /// The number of constants.
+    fn count(&self) -> usize {
+        usize::try_from(-100 - i64::from(self.kode)).unwrap_or(0)
+    }
+
+    /// The point's own failure limit, or 0.
+    ///
+    /// # Errors
+    /// The card names no variable that may hold it, or it means nothing.
+    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
+        let (kept, variables) = (L::DESCRIPTION.history(), usize::try_from(self.state_count).unwrap_or(0));
+        // SAFETY: as many constants as kode says, and as many variables: see `Behaviour`.
+        unsafe {
+            let place = limit_variable::place::<f64, L>(self.constants, self.count(), kept, variables)?;
+            limit_variable::check(limit_variable::at(self.old_state, place))
+        }
     }
 
     /// Completes the answer: pnewdt, and a stiffness where there is none, relative to the bulk modulus.
@@ -196,18 +217,19 @@ impl Arguments<'_> {
     /// # Errors
     /// The errors of a deck that the arguments show.
     fn hyperelastic(&self) -> Result<Answer<[f64; HYPERELASTIC_STATE]>, Error> {
-        let properties = self.properties(&description::HYPERELASTIC)?;
+        let properties = self.properties::<Hyperelastic>()?;
         let fibre = match (self.orientation, properties) {
             (Some((axes, place)), &[.., m_1, m_2, m_3]) => Some(turned([m_1, m_2, m_3], axes, place)),
             _ => None,
         };
+        let limit = self.limit::<Hyperelastic>()?;
         let mut answer = Answer::new([0.0; HYPERELASTIC_STATE]);
         let request = Request { stress: false, wave_modulus: false, ..Request::ALL };
         let tangent = SixBySix(request, Measure::Material);
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(
-            Call { source: properties, f: self.f, fibre, limit: None, state, tangent, sink: &mut answer },
+            Call { source: properties, f: self.f, fibre, limit, state, tangent, sink: &mut answer },
             Level::Avx512,
         )?;
         self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())
@@ -218,7 +240,7 @@ impl Arguments<'_> {
     /// # Errors
     /// The errors of a deck that the arguments show.
     fn step<L: CalculixLaw>(&self) -> Result<Answer<L::State>, Error> {
-        let values = self.properties(&L::DESCRIPTION)?;
+        let values = self.properties::<L>()?;
         let law = self.oriented::<L>(values)?;
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let old = unsafe { *self.old_state.cast::<L::State>() };
@@ -231,11 +253,13 @@ impl Arguments<'_> {
                 start_at_rest(components_mut(f_old.as_mut_ptr(), 1), 1);
             }
         }
+        let limit = self.limit::<L>()?;
         let mut answer = Answer::new(old);
         let (mut cauchy, mut entries) = ([0.0; 6], [[0.0; 6]; 6]);
         let point = Points {
             f_old: components(f_old.as_ptr(), 1),
             f_new: components(f_new.as_ptr(), 1),
+            limit: &raw const limit,
             state_old: old.as_ref().as_ptr(),
             state_new: answer.state.as_mut().as_mut_ptr(),
             stress: components_mut(cauchy.as_mut_ptr(), 1),

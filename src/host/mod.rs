@@ -5,6 +5,7 @@ pub mod c;
 pub mod calculix;
 mod entry_points;
 pub mod environment;
+mod limit_variable;
 pub mod lsdyna;
 pub mod mgis;
 pub mod openradioss;

@@ -21,6 +21,8 @@ use super::tangent::Measure;
 /// points but what [`Points`] says.
 pub unsafe trait Law<T: Precision>: Copy {
     const DESCRIPTION: Description;
+    /// Whether a point may have a failure limit of its own, [`Points::limit`].
+    const HAS_LIMIT: bool = false;
     /// The state variables of a point.
     type State: Copy + AsRef<[T]> + AsMut<[T]>;
 
@@ -69,7 +71,8 @@ pub struct Points<T> {
     pub f_new: [*const T; 9],
     /// The fibre direction of each point, of any length; null for that of the properties.
     pub fibre: [*const T; 3],
-    /// The true fibre strain at failure, ln(1 + ε_lim), of each point of the hyperelastic law; null or 0 for that of the properties.
+    /// A failure limit of each point: the true fibre strain, ln(1 + ε_lim), of the hyperelastic law, or the strength of the linear elastic
+    /// one; null or 0 for that of the properties.
     pub limit: *const T,
     /// The law's state variables, old and new.
     pub state_old: *const T,
@@ -124,6 +127,7 @@ impl<T: Precision> Points<T> {
 // SAFETY: the state is that of the description, and the block's kernels access what `Pointers` says.
 unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
     const DESCRIPTION: Description = description::HYPERELASTIC;
+    const HAS_LIMIT: bool = true;
     type State = [T; HYPERELASTIC_STATE];
 
     fn fresh() -> Self::State {
@@ -185,6 +189,7 @@ unsafe impl<T: Precision> Law<T> for Hyperelastic<T> {
 // SAFETY: the state is that of the description, and the block's kernels access what `LinearPointers` says.
 unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
     const DESCRIPTION: Description = description::LINEAR_ELASTIC;
+    const HAS_LIMIT: bool = true;
     type State = [T; LINEAR_ELASTIC_STATE];
 
     fn fresh() -> Self::State {
@@ -211,6 +216,7 @@ unsafe impl<T: Precision> Law<T> for LinearElastic<T> {
             f_old: points.f_old,
             f_new: points.f_new,
             fibre: points.fibre,
+            limit: points.limit,
             state_old: points.state_old,
             state_new: points.state_new,
             density: points.density,

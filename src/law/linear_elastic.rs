@@ -146,7 +146,7 @@ impl LinearElastic {
         axes: &mut Matrix3<f64>,
     ) -> LinearPoint {
         let columns = (*axes).into();
-        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, rotation, criterion };
+        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, limit: None, rotation, criterion };
         let answer = self.respond(step, &self.axes, true, state, Wanted::STRESS_AND_STATE);
         if rotation == Rotation::Spin {
             *axes = answer.q1.into();
@@ -167,7 +167,7 @@ impl LinearElastic {
         state: &[f64; LINEAR_ELASTIC_STATE],
         criterion: Criterion,
     ) -> LinearPoint {
-        let (stress, new) = self.advance(strain, jacobian, state, criterion, Wanted::STRESS_AND_STATE);
+        let (stress, new) = self.advance(strain, jacobian, state, (criterion, self.limit), Wanted::STRESS_AND_STATE);
         let nowhere = [[0.0; 3]; 3];
         let wave_modulus = self.wave_modulus();
         let mut answer = Answer {
@@ -220,6 +220,8 @@ pub(super) struct Step<'a, R> {
     pub f1: &'a Matrix<R>,
     /// The material axes in space at the start, orthonormal; read for [`Rotation::Spin`] only.
     pub axes: &'a Matrix<R>,
+    /// The strength of a point that has one of its own; `None` or 0 for that of the properties.
+    pub limit: Option<R>,
     pub rotation: Rotation,
     pub criterion: Criterion,
 }
@@ -277,7 +279,7 @@ impl<R: Real> LinearElastic<R> {
     where
         R: Lanes<T>,
     {
-        let Step { f0, f1, axes, rotation, criterion } = step;
+        let Step { f0, f1, axes, limit, rotation, criterion } = step;
         let (zero, half) = (R::splat(0.0), R::splat(0.5));
         let ((j0, minors), (j1, _)) = (cofactors(f0), cofactors(f1));
         let upright = zero.lt(j0) & zero.lt(j1);
@@ -288,7 +290,11 @@ impl<R: Real> LinearElastic<R> {
             }
             Rotation::Fibre | Rotation::Polar => (*axes, usable, status::FIBRE_DIRECTION),
         };
-        let able = upright & usable & Failure::intact(old[LINEAR_FAILED]);
+        let (strength, may_have) = match limit {
+            Some(limit) => (R::select(zero.lt(limit), limit, self.limit), Failure::is_limit(limit)),
+            None => (self.limit, zero.le(zero)),
+        };
+        let able = upright & usable & may_have & Failure::intact(old[LINEAR_FAILED]);
         // F1 F0⁻¹ − 1.
         let inverse = j0.reciprocal();
         let change = product(&difference(f1, f0), &transposed(&minors));
@@ -315,20 +321,21 @@ impl<R: Real> LinearElastic<R> {
             half * (rate[1][2] + rate[2][1]),
             half * (rate[2][0] + rate[0][2]),
         ];
-        let (stress, state) = self.advance(&strain, half * (j0 + j1), old, criterion, wanted);
+        let (stress, state) = self.advance(&strain, half * (j0 + j1), old, (criterion, strength), wanted);
         // Its size is the same in the material axes.
         let wave_modulus = if wanted.wave_modulus { self.wave_modulus_at(j1, &stress) } else { zero };
         let stress = if wanted.stress { turned(&q1, &stress) } else { stress };
         let mut answer = Answer { stress, state, wave_modulus, axes: *axes, q0, q1, status: zero, taken: able };
         // If squares of lengths overflow, there are no axes; if a determinant does, its reciprocal is not the same in all lanes.
         let in_range = (square_norm(f0) + square_norm(f1) + (j0.abs() + j1.abs())).lt(R::splat(f64::INFINITY));
-        answer.taken = upright & usable & converged & in_range & answer.sound(old);
+        answer.taken = upright & usable & may_have & converged & in_range & answer.sound(old);
         answer.taken = answer.taken & wave_modulus.lt(R::splat(f64::INFINITY));
         if R::any(!answer.taken) {
             let code = |code: i32| R::splat(f64::from(code));
             let why = R::select(converged, zero, code(status::INCREMENT_TOO_LARGE));
             let why = R::select(in_range, why, code(status::OVERFLOW));
             let why = R::select(upright, why, code(status::INVERTED));
+            let why = R::select(may_have, why, code(status::LIMIT));
             let why = R::select(usable, why, code(unusable));
             let finite = is_finite(f0) & is_finite(f1);
             answer.keep(old, R::select(finite, why, code(status::NOT_FINITE)));
@@ -344,7 +351,7 @@ impl<R: Real> LinearElastic<R> {
         strain: &[R; 6],
         jacobian: R,
         old: &[R; LINEAR_ELASTIC_STATE],
-        criterion: Criterion,
+        (criterion, limit): (Criterion, R),
         wanted: Wanted,
     ) -> ([R; 6], [R; LINEAR_ELASTIC_STATE]) {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
@@ -362,7 +369,7 @@ impl<R: Real> LinearElastic<R> {
         };
         let work = (R::splat(0.5) * jacobian).mul_add(twice_work, old[LINEAR_WORK]);
         // Without a new state no point fails.
-        let reached = zero.lt(self.limit) & self.limit.le(measure);
+        let reached = zero.lt(limit) & limit.le(measure);
         let failed = if wanted.state { R::select(reached, one, zero) } else { zero };
         (stress, [s_11, s_22, s_33, s_12, s_23, s_31, largest, work, failed, one - failed])
     }

@@ -23,7 +23,7 @@ impl LinearElastic {
         axes: &mut Matrix3<f64>,
     ) -> (LinearPoint, LinearTangent) {
         let columns = (*axes).into();
-        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, rotation, criterion };
+        let step = Step { f0: &(*f0).into(), f1: &(*f1).into(), axes: &columns, limit: None, rotation, criterion };
         let (answer, tangent) = self.respond_with_tangent(step, &self.axes, true, state, Wanted::STRESS_AND_STATE);
         if rotation == Rotation::Spin {
             *axes = answer.q1.into();

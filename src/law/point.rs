@@ -85,16 +85,16 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
-        self.point_limited(f, fibre, None, state, tangent)
+        self.point_limited(f, fibre, T::splat(0.0), state, tangent)
     }
 
-    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim).
+    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim), or 0.
     #[inline(never)]
     pub(super) fn point_limited<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
         fibre: Option<[T; 3]>,
-        limit: Option<T>,
+        limit: T,
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
@@ -272,7 +272,7 @@ fn evaluate<
     source: L,
     f: F,
     fibre: Option<[T; 3]>,
-    limit: Option<T>,
+    limit: T,
     state: O,
     tangent: D,
     sink: S,
@@ -302,8 +302,8 @@ pub(crate) struct Call<T, L, F, O, D, S, const N: usize> {
     pub f: F,
     /// A fibre direction of any length, or `None` for that of the properties.
     pub fibre: Option<[T; 3]>,
-    /// ln(1 + ε_lim) of a point that has a limit of its own; `None` or 0 for that of the properties.
-    pub limit: Option<T>,
+    /// ln(1 + ε_lim) of a point that has a limit of its own; 0 for that of the properties.
+    pub limit: T,
     /// If it is an array, in cells, since the sink may overwrite it with the new one.
     pub state: O,
     pub tangent: D,
@@ -447,7 +447,7 @@ fn point_in<
     own: &PropertyFrame<T>,
     f: &[[R; 3]; 3],
     &MaterialAxes { ref axes, ref frame, usable }: &MaterialAxes<A, R>,
-    limit: Option<T>,
+    limit: T,
     state: &O,
     tangent: D,
     sink: S,
@@ -463,7 +463,9 @@ fn point_in<
     let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
     let (power, mut failure) = source.power_and_failure(&law, &strain);
     let mut may_have = R::splat(0.0).le(R::splat(0.0));
-    if let Some(limit) = limit.map(|limit| R::of(limit)) {
+    let given: f64 = limit.into();
+    if given != 0.0 {
+        let limit = R::of(limit);
         (failure, may_have) = (failure.at(limit), Failure::is_limit(limit));
     }
     law.failure = failure;

@@ -6,9 +6,11 @@ use crate::common::block::levels;
 use crate::common::deformations::{Ranges, deformation, samples};
 use nalgebra::Matrix3;
 use toron::host::c::{
-    Block, Layout, Point, hyperelastic_block_with_properties_f64, hyperelastic_point_with_properties_f64,
+    Block, Layout, LinearBlock, Point, hyperelastic_block_with_properties_f64, hyperelastic_point_with_properties_f64,
+    linear_elastic_block_with_properties_f64,
 };
 use toron::law::block::{Pointers, Strides, components, components_mut};
+use toron::law::parameters::SIGMA_LIM;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
 use toron::{Arrays, Hyperelastic, Level, Request};
@@ -272,4 +274,73 @@ fn a_limit_that_means_nothing_is_an_error_of_its_point() {
     };
     let error = law.block(short).expect_err("eight limits of nine").to_string();
     assert!(error.contains("entries of limit"), "{error}");
+}
+
+const LINEAR: [f64; 10] = [79414.0, 794.14, 126.0, 3637.0, 1.0, 0.2, 0.0, 0.0, 0.0, 1.0];
+const STRENGTHS: [f64; 5] = [0.0, 40.0, 3637.0, 1e-3, 900.0];
+
+/// State and status of all points of the linear elastic law after a step from rest, as bits.
+fn linear_block(
+    sigma_lim: f64,
+    f: &[Matrix3<f64>],
+    limits: Option<&[f64]>,
+    level: i32,
+    tangent: bool,
+) -> Vec<Vec<u64>> {
+    let n = f.len();
+    let properties: [f64; 10] = std::array::from_fn(|c| if c == SIGMA_LIM { sigma_lim } else { LINEAR[c] });
+    let columns =
+        |f: &dyn Fn(usize) -> Matrix3<f64>| -> Vec<f64> { (0..9).flat_map(|c| (0..n).map(move |i| f(i)[c])).collect() };
+    let (old, new) = (columns(&|_| Matrix3::identity()), columns(&|i| f[i]));
+    let (mut state, mut moduli) = (vec![0.0; 10 * n], vec![0.0; 36 * n]);
+    let mut codes = vec![0; n];
+    let first = |array: &[f64]| std::array::from_fn(|c| if c == 0 { array.as_ptr() } else { null() });
+    let block = LinearBlock {
+        n,
+        level,
+        f_old: first(&old),
+        f_new: first(&new),
+        limit: limits.map_or(null(), <[f64]>::as_ptr),
+        state_new: state.as_mut_ptr(),
+        tangent: if tangent { moduli.as_mut_ptr() } else { null_mut() },
+        status: codes.as_mut_ptr(),
+        ..LinearBlock::empty()
+    };
+    // SAFETY: component-major arrays of n points.
+    unsafe { linear_elastic_block_with_properties_f64(properties.as_ptr(), 10, &block, null_mut(), 0) };
+    let numbers = |i: usize| state[i..].iter().step_by(n).map(|x| x.to_bits()).chain([codes[i] as u64]).collect();
+    (0..n).map(numbers).collect()
+}
+
+/// As for the hyperelastic law: the strength of a point is that of a law with it, with and without a tangent; what means nothing is an
+/// error of its point alone.
+#[test]
+fn points_of_the_linear_law_have_strengths_of_their_own() {
+    let mut failed = [0; 2];
+    for level in 0..4 {
+        for n in [1, 3, 8, 21] {
+            let f = gradients(n);
+            let own = |i: usize| STRENGTHS[i % STRENGTHS.len()];
+            let limits: Vec<f64> = (0..n).map(own).collect();
+            for tangent in [false, true] {
+                let found = linear_block(LINEAR[SIGMA_LIM], &f, Some(&limits), level, tangent);
+                for strength in STRENGTHS {
+                    let sigma_lim = if strength > 0.0 { strength } else { LINEAR[SIGMA_LIM] };
+                    let wanted = linear_block(sigma_lim, &f, None, level, tangent);
+                    for i in (0..n).filter(|&i| own(i) == strength) {
+                        assert_eq!(found[i], wanted[i], "point {i} of {n}, level {level}, strength {strength}");
+                        failed[f64::from_bits(found[i][8]) as usize] += 1;
+                    }
+                }
+                for wrong in [-1.0, f64::NAN, f64::INFINITY] {
+                    let mut limits = limits.clone();
+                    limits[n / 2] = wrong;
+                    let other = linear_block(LINEAR[SIGMA_LIM], &f, Some(&limits), level, tangent);
+                    assert_eq!(other[n / 2].last(), Some(&(status::LIMIT as u64)), "{wrong}");
+                    assert!((0..n).filter(|&i| i != n / 2).all(|i| other[i] == found[i]), "{wrong}");
+                }
+            }
+        }
+    }
+    assert!(failed.iter().all(|&count| count > 50), "{failed:?}");
 }

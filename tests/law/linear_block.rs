@@ -490,6 +490,7 @@ fn points_with_axes_of_their_own() {
             strides: LinearStrides {
                 deformation_gradient: of(9),
                 fibre: of(3),
+                limit: 1,
                 axes: of(9),
                 state: of(STATE),
                 stress: of(6),

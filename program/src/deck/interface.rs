@@ -20,7 +20,7 @@ pub struct Interface {
     /// OpenRadioss: nn of `/MAT/USERnn`, how many options stand behind the properties, and whether that of the step follows them.
     pub openradioss: i32,
     pub options: usize,
-    pub has_step: bool,
+    pub has_last: bool,
 }
 
 impl Interface {
@@ -33,7 +33,7 @@ impl Interface {
             behaviour,
             openradioss: layout.number,
             options: layout.options,
-            has_step: layout.has_step,
+            has_last: layout.has_last,
         };
         match law {
             LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
@@ -47,7 +47,7 @@ impl Interface {
                 openradioss: law.number,
                 // Where the fibre direction comes from.
                 options: usize::from(law.description.fibre.is_some()),
-                has_step: false,
+                has_last: false,
             },
         }
     }

@@ -150,6 +150,8 @@ pub struct LinearSolverBlock<'a, T> {
     pub f_new: &'a [T],
     /// In and out, 10: the state variables.
     pub state: &'a mut [T],
+    /// In: the strength of each point, 0 for that of the law.
+    pub limit: Option<&'a [T]>,
     /// Out, 6: Cauchy stress 11 22 33 12 23 31.
     pub stress: &'a mut [T],
     /// Out: a status code for each point.
@@ -167,10 +169,11 @@ pub fn linear_elastic_block<T: BlockPrecision>(
     frame: LinearFrame,
     criterion: i32,
 ) -> i32 {
-    let LinearSolverBlock { n, leading_dimension: stride, f_old, f_new, state, stress, status } = block;
+    let LinearSolverBlock { n, leading_dimension: stride, f_old, f_new, state, limit, stress, status } = block;
     let holds = |length: usize, components: usize| length >= (components - 1) * stride + n;
     assert!(n <= stride && holds(f_old.len(), 9) && holds(f_new.len(), 9));
     assert!(holds(state.len(), LINEAR_ELASTIC_STATE) && holds(stress.len(), 6) && status.len() >= n);
+    assert!(limit.is_none_or(|limit| limit.len() >= n));
     let state = state.as_mut_ptr();
     let mut arrays = LinearBlock {
         n,
@@ -183,6 +186,7 @@ pub fn linear_elastic_block<T: BlockPrecision>(
         state_old: state,
         state_new: state,
         status: status.as_mut_ptr(),
+        limit: limit.map_or(null(), <[T]>::as_ptr),
         ..LinearBlock::empty()
     };
     (arrays.f_old[0], arrays.f_new[0]) = (f_old.as_ptr(), f_new.as_ptr());

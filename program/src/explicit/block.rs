@@ -138,7 +138,7 @@ pub struct ElementBlock<T> {
     pub first: usize,
     pub medium: usize,
     pub history: History<T>,
-    /// ln(1 + ε_lim) of each element, where they have limits of their own; else empty.
+    /// ln(1 + ε_lim), or the linear elastic law's strength, of each element where they have limits of their own; else empty.
     limit: Vec<T>,
 }
 
@@ -179,7 +179,7 @@ impl<T: Number> ElementBlock<T> {
         }
     }
 
-    /// Gives each element a failure limit of its own, ln(1 + ε_lim), which only the hyperelastic law reads.
+    /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
     pub fn limit(&mut self, limits: &[f64]) {
         self.limit = limits.iter().map(|&limit| T::from_f64(limit)).collect();
     }
@@ -278,6 +278,7 @@ impl<T: Number> ElementBlock<T> {
             f_old: &self.history.f_old,
             f_new: &scratch.deformation_gradient,
             state: &mut self.history.state,
+            limit: (!self.limit.is_empty()).then_some(&self.limit),
             stress: &mut scratch.stress,
             status: &mut scratch.status,
         };
@@ -400,10 +401,20 @@ impl<T: Number> ElementBlock<T> {
             Entry::LinearElastic { .. } if !medium.fails => 0.0,
             Entry::Solid(_) => 0.0,
             Entry::LinearElastic { criterion: TORON_CRITERION_FIBRE, .. } => {
-                self.variable(LINEAR_STRESS, i) / medium.strength
+                self.variable(LINEAR_STRESS, i) / self.strength(medium, i)
             }
-            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / medium.strength,
+            Entry::LinearElastic { .. } => self.variable(LINEAR_LARGEST, i) / self.strength(medium, i),
         }
+    }
+
+    /// The linear elastic law's strength of an element.
+    fn strength(&self, medium: &Medium<T>, i: usize) -> f64 {
+        self.own_limit(i).filter(|&limit| limit > 0.0).unwrap_or(medium.strength)
+    }
+
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, i: usize) -> Option<f64> {
+        self.limit.get(i).map(|&limit| limit.into())
     }
 
     /// The von Mises stress of a solid; the laws do not keep theirs.

@@ -92,7 +92,7 @@ impl<T: Number> Body<T> {
         }
     }
 
-    /// Gives each element a failure limit of its own, ln(1 + ε_lim).
+    /// Gives each element a failure limit of its own: ln(1 + ε_lim), or the linear elastic law's strength.
     pub fn limit(&mut self, limits: &[f64]) {
         for block in &mut self.blocks {
             block.limit(&limits[block.first..block.first + block.shapes.n]);
@@ -308,6 +308,12 @@ impl<T: Number> Body<T> {
     pub fn failure_index(&self, media: &[Medium<T>], number: usize) -> f64 {
         let (block, i) = self.element(number);
         block.failure_index(&media[block.medium], i)
+    }
+
+    /// The failure limit that an element has of its own, 0 where it is the property's; none where no element has one.
+    pub fn own_limit(&self, number: usize) -> Option<f64> {
+        let (block, i) = self.element(number);
+        block.own_limit(i)
     }
 
     /// Logarithmic strain along the fibre of an element.

@@ -20,11 +20,12 @@ struct Cell {
     stress: [f64; 6],
     invariants: [f64; 4],
     failure_index: f64,
+    limit: Option<f64>,
 }
 
 /// The bodies as they stand, as the text of a VTU file: intact elements only, with displacement and velocity of the nodes, and
 /// of the elements the energy densities, the law's Cauchy stress, the invariants and the failure index, by the names of the laws'
-/// tables; of several bodies, which are yarns, also their numbers from 0.
+/// tables, and the failure limits where elements have their own; of several bodies, which are yarns, also their numbers from 0.
 ///
 /// # Errors
 /// The law refuses its call.
@@ -43,6 +44,7 @@ pub fn unstructured_grid<T: Number>(solver: &Solver<T>) -> Result<String, Error>
             stress: stress[i],
             invariants: body.invariants(media, i),
             failure_index: body.failure_index(media, i),
+            limit: body.own_limit(i),
         }));
     }
     let (mut point_data, mut cell_data) = (String::new(), String::new());
@@ -62,6 +64,9 @@ pub fn unstructured_grid<T: Number>(solver: &Solver<T>) -> Result<String, Error>
         scalar(HYPERELASTIC[INVARIANTS + mode].name, &|cell| cell.invariants[mode]);
     }
     scalar(HYPERELASTIC[FAILURE_INDEX].name, &|cell| cell.failure_index);
+    if cells.iter().any(|cell| cell.limit.is_some()) {
+        scalar("failure_limit", &|cell| cell.limit.unwrap_or_default());
+    }
     components(&mut cell_data, "cauchy", STRESS, cells.iter().map(|cell| cell.stress));
     if bodies.len() > 1 {
         array(&mut cell_data, "yarn", "Int32", 1, cells.iter().map(|cell| cell.yarn));

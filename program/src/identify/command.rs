@@ -1,9 +1,10 @@
 //! `toron fit`: from the file of a fit to its preset, tables, plot and summary.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::file::Job;
-use super::{output, plot, region, report, worth};
+use super::strength::file::StrengthJob;
+use super::{output, plot, region, report, strength, worth};
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::folder;
@@ -15,11 +16,14 @@ use crate::impact::scene::Scene;
 /// # Errors
 /// The input, data that do not suffice, a file that cannot be written, or a scene that cannot be run.
 pub fn run(path: &Path, output: &Path, scene: Option<&Path>) -> Result<(), Error> {
+    if let Some(strengths) = StrengthJob::read(path)? {
+        return strength::command::run(&strengths, output, scene);
+    }
     let job = Job::read(path)?;
     let scene = scene.map(Scene::read).transpose()?;
     let fit = job.problem.fit()?;
     let files = names(&job);
-    require_new(&job, output, &files)?;
+    require_new(&job.inputs, output, &files)?;
     folder::create(output)?;
     let file = output.join(&files[0]);
     std::fs::write(&file, output::preset(&job, &fit))
@@ -64,10 +68,10 @@ fn names(job: &Job) -> Vec<String> {
 }
 
 /// No file that was read is overwritten.
-fn require_new(job: &Job, output: &Path, files: &[String]) -> Result<(), Error> {
+pub(super) fn require_new(inputs: &[PathBuf], output: &Path, files: &[String]) -> Result<(), Error> {
     let real = |path: &Path| std::fs::canonicalize(path).ok();
     for file in files.iter().map(String::as_str).chain([WORTH]).map(|name| output.join(name)) {
-        if real(&file).is_some_and(|file| job.inputs.iter().any(|input| real(input).as_ref() == Some(&file))) {
+        if real(&file).is_some_and(|file| inputs.iter().any(|input| real(input).as_ref() == Some(&file))) {
             let message =
                 format!("{} would be overwritten, and is read; allowed: another -o, or other names", file.display());
             return Err(Error::Input(message));

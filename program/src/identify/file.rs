@@ -13,6 +13,7 @@ use super::equivalence::{Constant, Fibre};
 use super::fit::Problem;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
 use super::reader::{Reader, plain_name};
+use super::strength::file::SetFile;
 use crate::common::error::Error;
 use crate::common::toml_file::{Numbers, Source};
 use crate::material::laws::{LawName, Laws};
@@ -25,19 +26,28 @@ const SAME_DENSITY: f64 = 0.005;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FitFile {
-    title: Option<String>,
-    units: Spanned<String>,
+pub(super) struct FitFile {
+    pub title: Option<String>,
+    pub units: Spanned<String>,
     #[serde(default)]
     yarn: YarnFile,
     fibre: Option<Spanned<FibreFile>>,
     data_sheet: Option<Spanned<DataSheetFile>>,
     #[serde(default)]
     data: Vec<Spanned<DataFile>>,
+    #[serde(default)]
+    pub strength: Vec<Spanned<SetFile>>,
+}
+
+impl FitFile {
+    /// Whether anything in it is of the law's properties.
+    pub fn has_properties(&self) -> bool {
+        self.yarn != YarnFile::default() || self.fibre.is_some() || self.data_sheet.is_some() || !self.data.is_empty()
+    }
 }
 
 /// The yarn: what the preset that comes out says of it, and the values that are known.
-#[derive(Default, Deserialize)]
+#[derive(Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct YarnFile {
     name: Option<Spanned<String>>,
@@ -134,7 +144,10 @@ impl Job {
         let units = source.units(&file.units)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         if file.data.is_empty() && file.fibre.is_none() && file.data_sheet.is_none() {
-            return Err(source.error(0..0, "neither [[data]] nor [fibre] nor [data_sheet]: nothing tells a parameter"));
+            return Err(source.error(
+                0..0,
+                "neither [[data]] nor [fibre] nor [data_sheet] nor [[strength]]: nothing tells a parameter",
+            ));
         }
         if let (Some(_), Some(sheet)) = (&file.fibre, &file.data_sheet) {
             let message = "[fibre] and [data_sheet] both tell k_el and eps_lim; allowed: one of them";

@@ -1,4 +1,4 @@
-//! `toron fit`: the parameters of the hyperelastic law from measured data, and how sure they are.
+//! `toron fit`: the parameters of the hyperelastic law, and of Weibull's, from measured data, and how sure they are.
 
 pub mod checks;
 pub mod command;
@@ -20,6 +20,7 @@ pub mod reader;
 pub mod region;
 pub mod report;
 pub mod response;
+pub mod strength;
 pub mod toe;
 pub mod uncertainty;
 pub mod worth;

@@ -49,6 +49,11 @@ pub fn trials(job: &Job, fit: &Fit, scene: &Scene) -> Result<Vec<Trial>, Error> 
                 format!("case {}: not hyperelastic throughout; allowed with --scene: yarns that are", case.name);
             return Err(Error::Input(message));
         }
+        if case.strength.is_some() {
+            let message =
+                format!("case {}: strength, in place of eps_lim; allowed with --scene: no strength", case.name);
+            return Err(Error::Input(message));
+        }
     }
     let sets = sets(job, fit);
     let acts = |case: &Case, set: &Set| set.moved.is_none_or(|moved| !kept(case.zones.inner(), moved));

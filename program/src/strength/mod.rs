@@ -2,7 +2,9 @@
 
 pub mod field;
 pub mod file;
+pub mod fit;
 pub mod reader;
+pub mod scales;
 pub mod scatter;
 #[cfg(test)]
 mod tests;

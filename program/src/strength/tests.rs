@@ -118,6 +118,34 @@ fn without_scatter_the_run_is_that_of_the_property_to_the_bit() {
     }
 }
 
+/// As above, of the linear elastic law, whose strength is a stress.
+#[test]
+fn the_linear_elastic_law_s_strength_scatters_too() {
+    let keys = |table: &str| format!("law = \"linear-elastic\"\nfailure = \"uniaxial\"\n{table}");
+    let plain = yarn(&keys("")).expect("a scene");
+    let stress = plain.cases[0].zones.inner().strength();
+    assert!(stress > 3000.0, "{stress}");
+    let of = |modulus: &str, stress: f64| {
+        let strength =
+            format!("cell = 0.8\nreference-length = 50.0\nweibull-modulus = {modulus}\nstress = {stress:?}\n");
+        history(&keys(&format!("[scene.strength]\n{strength}")))
+    };
+    let property = history(&keys(""));
+    assert!(property.last().is_some_and(|sample| sample.deleted > 0));
+    assert_eq!(of("inf", stress), property);
+    let weaker = format!("linear-elastic.properties = {{ sigma_lim = {:?} }}\n", 0.9 * stress);
+    assert_eq!(of("inf", 0.9 * stress), history(&keys(&weaker)));
+    assert_ne!(of("10.0", stress), property);
+    for (table, message) in [
+        ("strain = 0.04", "strain with the linear elastic law, which fails at a stress; allowed: stress"),
+        ("stress = 3e3\nelastic-modulus = 8e4", "elastic-modulus with the linear elastic law"),
+    ] {
+        let table = format!("[scene.strength]\ncell = 0.8\nreference-length = 1.0\nweibull-modulus = 9.0\n{table}\n");
+        let error = yarn(&keys(&table)).map(|_| ()).expect_err(message);
+        assert!(error.contains(message), "{message}: {error}");
+    }
+}
+
 /// A weaker yarn breaks earlier; the weakest element of all says so.
 #[test]
 fn a_seed_moves_the_break() {

@@ -199,18 +199,23 @@ fn printed(arguments: &str) -> String {
     fenced(&String::from_utf8(output.stdout).expect("UTF-8"))
 }
 
-/// What `toron fit` prints of an example.
-fn fit_of_energies() -> String {
-    let output = folder("fit-of-energies");
-    let arguments = ["fit", "examples/identification/energies.toml", "-o"];
+/// What `toron fit` prints of an example, whose files go to this folder.
+fn fit(example: &str, output: &Path) -> String {
     let mut program = Command::new(env!("CARGO_BIN_EXE_toron"));
-    let printed = run(program.args(arguments).arg(&output).current_dir(ROOT), "");
+    let arguments = ["fit", &format!("examples/identification/{example}.toml"), "-o"];
+    let printed = run(program.args(arguments).arg(output).current_dir(ROOT), "");
     let text = String::from_utf8(printed.stdout).expect("UTF-8");
     let (report, _) = text.split_once("  written ").expect("the files are named last");
+    fenced(report)
+}
+
+fn fit_of_energies() -> String {
+    let output = folder("fit-of-energies");
+    let report = fit("energies", &output);
     if std::env::var_os("TORON_WRITE_PICTURES").is_some() {
         std::fs::copy(output.join("fit.png"), document("images/fit.png")).expect("docs/images/fit.png");
     }
-    fenced(report)
+    report
 }
 
 /// What `toron weave` prints of its example.
@@ -301,6 +306,7 @@ fn generate(name: &str) -> String {
         "mistakes" => mistakes(),
         "figures" => figures(),
         "fit of energies" => fit_of_energies(),
+        "fit of strengths" => fit("strength-kevlar-49", &folder("fit-of-strengths")),
         "figures of the weave" => figures_of_the_weave(),
         name => match name.strip_prefix("toron ") {
             Some(arguments) => printed(arguments),
@@ -469,13 +475,13 @@ fn the_guides_have_the_keys_that_the_program_reads() {
     const NONE: &str = "no-such-key = 1";
     let rows: [(&str, &str, &[&str]); 8] = [
         ("run", "guides/load-paths.md", &["", "[material]", "[[point]]", "[[step]]", "[plot]"]),
-        ("fit", "guides/identification.md", &["", "[yarn]", "[fibre]", "[[data]]"]),
+        ("fit", "guides/identification.md", &["", "[yarn]", "[fibre]", "[[data]]", "[[strength]]"]),
         ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
         ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
         ("v50", "guides/v50.md", &["[shots]"]),
         ("fibres", "guides/fibres.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
         ("weave", "guides/fabric.md", &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]", "[mesh]"]),
-        ("fabric", "guides/fabric.md", &["", "[scene]", "[[case]]"]),
+        ("fabric", "guides/fabric.md", &["", "[scene]", "[[case]]", "[scene.strength]", "[scene.strength.warp]"]),
     ];
     let mut keys = 0;
     for (command, page, tables) in rows {

@@ -24,6 +24,7 @@ _NEW = Member("f_new", (3, 3), "deformation_gradient", separate=True, order=(1, 
 _OLD = Member("f_old", (3, 3), "deformation_gradient", separate=True, order=(1, 0))
 _FIBRE = Member("fibre", (3,), "fibre", separate=True)
 _SECOND_AXIS = Member("second_axis", (3,), "fibre", separate=True)
+_LIMIT = Member("limit", (), "limit")
 _AXES = Member("axes", (3, 3), "axes", written=True)
 _STATE_OLD = Member("state_old", (lib.TORON_LINEAR_ELASTIC_STATE,), "state")
 _OUTPUTS = {
@@ -81,6 +82,7 @@ class LinearElastic(Law):
         state_old: ArrayLike | None = None,
         fibre: ArrayLike | None = None,
         second_axis: ArrayLike | None = None,
+        limit: ArrayLike | None = None,
         axes: np.ndarray | None = None,
         tangent: Tangent = "jaumann",
         density: float | None = None,
@@ -95,13 +97,14 @@ class LinearElastic(Law):
         - `state`, `state_old` and the output "state": (10,) at every point; the law needs it, since the stress is in it:
           without it every step starts without stress;
         - `fibre`, `second_axis`: (3,) at every point, or one for all, reference directions in place of the law's own;
+        - `limit`: (), the strength of every point, or one for all, in place of sigma_lim; 0 for that of the law;
         - `axes`: (3, 3) at every point, the current material axes one after the other, updated in place, for the frame "spin";
           `reference_axes` gives those at the start.
 
         The outputs are stress (6,), state (10,), tangent (6, 6) or (3, 3, 3, 3), not symmetric, wave_speed (), active () and status ().
         """
         return self._evaluate(
-            (f_old, f_new, state, state_old, fibre, second_axis, axes), out, outputs, (tangent, density, points, level)
+            (f_old, f_new, state, state_old, fibre, second_axis, limit, axes), out, outputs, (tangent, density, points, level)
         )
 
     def bind(
@@ -115,6 +118,7 @@ class LinearElastic(Law):
         state_old: np.ndarray | None = None,
         fibre: np.ndarray | None = None,
         second_axis: np.ndarray | None = None,
+        limit: np.ndarray | None = None,
         axes: np.ndarray | None = None,
         tangent: Tangent = "jaumann",
         density: float | None = None,
@@ -122,7 +126,7 @@ class LinearElastic(Law):
         level: Level = "best",
     ) -> Call:
         """As `evaluate`, but returns a call to be made as often as you like, as `Hyperelastic.bind`."""
-        inputs = (f_old, f_new, state, state_old, fibre, second_axis, axes)
+        inputs = (f_old, f_new, state, state_old, fibre, second_axis, limit, axes)
         return self._bind(inputs, out, outputs, (tangent, density, points, level), frozen=False).for_later()
 
     def increment(self, strain: ArrayLike, state: np.ndarray, jacobian: float | None = None) -> NDArray[np.float64]:
@@ -167,14 +171,14 @@ class LinearElastic(Law):
         return found
 
     def _bind(self, inputs: tuple[Any, ...], out: Any, outputs: Any, options: tuple[Any, ...], frozen: bool = True) -> Call:
-        f_old, f_new, state, state_old, fibre, second_axis, axes = inputs
+        f_old, f_new, state, state_old, fibre, second_axis, limit, axes = inputs
         tangent, density, points, level = options
         wanted = arrays.names(outputs, out, _OUTPUTS)
         given = dict(out or {})
         placed = arrays.Arrays("f_new", _NEW, f_new, choice("points", points, POINTS) == 1, frozen)
         if f_old is not None:
             placed.put(_OLD, placed.input("f_old", _OLD, f_old))
-        for name, member, values in (("fibre", _FIBRE, fibre), ("second_axis", _SECOND_AXIS, second_axis)):
+        for name, member, values in (("fibre", _FIBRE, fibre), ("second_axis", _SECOND_AXIS, second_axis), ("limit", _LIMIT, limit)):
             if values is not None:
                 placed.put(member, placed.one_for_all(name, member, values))
         if axes is not None:

@@ -7,6 +7,7 @@ use libc::{c_char, size_t};
 
 use super::{UMAT_COUNTS, check_counts, property_count};
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties};
+use crate::host::limit_variable;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::{Derivative, JaumannModulus, Stress};
 use crate::law::error::Error;
@@ -43,7 +44,8 @@ pub struct Umat {
     /// In, 9: F by columns at the start of the increment, for a law that reads it, and at its end.
     pub dfgrd0: *const f64,
     pub dfgrd1: *const f64,
-    /// In, `nprops`: the law's properties.
+    /// In, `nprops`: the law's properties, and behind them the number of the state variable with the point's failure limit, if there is
+    /// one.
     pub props: *const f64,
     pub nprops: i32,
     pub nstatv: i32,
@@ -77,13 +79,27 @@ impl Umat {
         }
         check_counts(self.ndi, self.nshr, UMAT_COUNTS, self.nstatv, L::DESCRIPTION.state.len())?;
         let table = L::DESCRIPTION.properties;
+        let count = limit_variable::properties_of::<f64, L>(property_count(self.nprops, table)?);
         // SAFETY: `props` is not null, as just checked, and has `nprops` values.
-        let values = unsafe { properties(self.props, property_count(self.nprops, table)?, table) }?;
+        let values = unsafe { properties(self.props, count, table) }?;
         let law = L::new(values)?;
         if self.nshr == 1 {
             check_plane(&law, values)?;
         }
         Ok(law)
+    }
+
+    /// The point's own failure limit, or 0.
+    ///
+    /// # Errors
+    /// The card names no variable that may hold it, or it means nothing.
+    fn limit<L: Law<f64>>(&self) -> Result<f64, Error> {
+        let (count, kept) = (property_count(self.nprops, L::DESCRIPTION.properties)?, L::DESCRIPTION.state.len());
+        // SAFETY: `law` has found that neither array is null and that the counts are not negative: `nprops` and `nstatv` values.
+        unsafe {
+            let place = limit_variable::place::<f64, L>(self.props, count, kept, self.nstatv as usize)?;
+            limit_variable::check(limit_variable::at(self.statev.cast_const(), place))
+        }
     }
 }
 
@@ -117,13 +133,18 @@ impl StandardLaw for Hyperelastic<f64> {
         let message = Message { text: message, capacity };
         // SAFETY: as above.
         unsafe {
+            let mut limit = 0.0;
             if !call.is_usual() {
-                let code = check(call, message);
+                let code = check(call, &mut limit, message);
                 if code != status::OK {
                     return code;
                 }
             }
-            if call.ddsdde.is_null() { without_tangent(call, message) } else { with_tangent(call, message) }
+            if call.ddsdde.is_null() {
+                without_tangent(call, limit, message)
+            } else {
+                with_tangent(call, limit, message)
+            }
         }
     }
 }
@@ -144,25 +165,30 @@ impl Umat {
 /// As for [`StandardLaw::umat`].
 #[cold]
 #[inline(never)]
-unsafe fn check(call: &Umat, message: Message) -> i32 {
+unsafe fn check(call: &Umat, limit: &mut f64, message: Message) -> i32 {
+    let body = || {
+        call.law::<Hyperelastic>()?;
+        *limit = call.limit::<Hyperelastic>()?;
+        Ok(status::OK)
+    };
     // SAFETY: the message is the caller's.
-    unsafe { entry(message, || call.law::<Hyperelastic>().map(|_| status::OK)) }
+    unsafe { entry(message, body) }
 }
 
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked.
 #[inline(never)]
-unsafe fn without_tangent(call: &Umat, message: Message) -> i32 {
+unsafe fn without_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
     // SAFETY: the caller's arrays and message.
-    unsafe { hyperelastic(call, message, Stress::<true>) }
+    unsafe { hyperelastic(call, limit, message, Stress::<true>) }
 }
 
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is not null.
 #[inline(never)]
-unsafe fn with_tangent(call: &Umat, message: Message) -> i32 {
+unsafe fn with_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
     // SAFETY: as above.
-    unsafe { hyperelastic(call, message, JaumannModulus) }
+    unsafe { hyperelastic(call, limit, message, JaumannModulus) }
 }
 
 /// The UMAT of the hyperelastic law, by its kernel of one point.
@@ -170,7 +196,7 @@ unsafe fn with_tangent(call: &Umat, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is there if `tangent` is that.
 #[inline(always)]
-unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, message: Message, tangent: D) -> i32
+unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, limit: f64, message: Message, tangent: D) -> i32
 where
     for<'a> &'a Results<'a>: Sink<f64, N>,
 {
@@ -186,7 +212,7 @@ where
                 &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )
         };
-        evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent, sink }, Level::Avx512)?;
+        evaluate_call(Call { source, f, fibre: None, limit, state, tangent, sink }, Level::Avx512)?;
         Ok(sink.status.get())
     };
     // SAFETY: the message is the caller's; what `body` reads and writes is not null.
@@ -301,11 +327,13 @@ fn current_density(energy: f64, jacobian: f64) -> f64 {
 /// As for [`StandardLaw::umat`].
 unsafe fn step<L: Law<f64>>(call: &Umat) -> Result<i32, Error> {
     let law: L = call.law()?;
+    let limit = call.limit::<L>()?;
     let (mut sigma, mut state, mut tangent) = ([0.0; 6], L::fresh(), [[0.0; 6]; 6]);
     let wanted = !call.ddsdde.is_null();
     let point = Points {
         f_old: components(if L::DESCRIPTION.reads_old_gradient { call.dfgrd0 } else { call.dfgrd1 }, 1),
         f_new: components(call.dfgrd1, 1),
+        limit: &raw const limit,
         state_old: call.statev.cast_const(),
         state_new: state.as_mut().as_mut_ptr(),
         stress: components_mut(sigma.as_mut_ptr(), 1),

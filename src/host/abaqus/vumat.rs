@@ -7,6 +7,7 @@ use libc::{c_char, size_t};
 use super::{VUMAT_COUNTS, check_counts, property_count};
 use crate::host::c::level;
 use crate::host::entry_points::{Message, check_plane, check_pointers, entry, properties, stiffness_at_rest};
+use crate::host::limit_variable;
 use crate::host::structures::{read, structures};
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
@@ -25,7 +26,8 @@ pub struct Vumat<T> {
     pub size: size_t,
     /// Numbers of points, of direct components (3), of shear components (3; 1 for plane strain and axisymmetric solids, which the
     /// caller has to tell from plane stress: Abaqus passes the same numbers), of state variables (the law's, or
-    /// more) and of properties (the law's).
+    /// more) and of properties (the law's, or
+    /// one more).
     pub nblock: i32,
     pub ndir: i32,
     pub nshr: i32,
@@ -36,7 +38,7 @@ pub struct Vumat<T> {
     /// If both are 0, this is Abaqus's data check, and an elastic stress for `strain_inc` is returned.
     pub step_time: f64,
     pub total_time: f64,
-    /// In: properties, nprops.
+    /// In: properties, nprops; behind them may stand the number of the state variable with each point's failure limit.
     pub props: *const T,
     /// In, 1: current density at the middle of the step.
     pub density: *const T,
@@ -97,8 +99,12 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     };
     let level = level(block.level)?;
     let table = L::DESCRIPTION.properties;
+    let (count, kept) = (property_count(block.nprops, table)?, L::DESCRIPTION.state.len());
     // SAFETY: `props` is not null, as just checked, and has `nprops` values.
-    let values = unsafe { properties(block.props, property_count(block.nprops, table)?, table) }?;
+    let (values, limit) = unsafe {
+        let values = properties(block.props, limit_variable::properties_of::<T, L>(count), table)?;
+        (values, limit_variable::place::<T, L>(block.props, count, kept, block.nstatev as usize)?)
+    };
     let law = L::new(values)?;
     if block.nshr == 1 {
         check_plane(&law, values)?;
@@ -116,10 +122,30 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
             *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
         }
         if checks {
+            check_limits(block, limit, n)?;
             return Ok(elastic_check::<L, T>(moduli, block, n));
         }
-        stretched(&law, block, n, level)
+        stretched(&law, block, limit, n, level)
     }
+}
+
+/// Refuses failure limits that mean nothing, before there is any deformation.
+///
+/// # Errors
+/// The first point that has one.
+///
+/// # Safety
+/// As for [`vumat`], with `n` points.
+unsafe fn check_limits<T: Precision>(block: &Vumat<T>, limit: Option<usize>, n: usize) -> Result<(), Error> {
+    let limits = limit_variable::at(block.state_old, limit.map(|place| place * n));
+    if limits.is_null() {
+        return Ok(());
+    }
+    for index in 0..n {
+        // SAFETY: a row of the state variables, of `n` points.
+        unsafe { limit_variable::check(limits.wrapping_add(index)) }?;
+    }
+    Ok(())
 }
 
 /// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
@@ -181,6 +207,7 @@ const CHUNK: usize = 64;
 unsafe fn stretched<L: Law<T>, T: Precision>(
     law: &L,
     block: &Vumat<T>,
+    limit: Option<usize>,
     n: usize,
     level: Option<Level>,
 ) -> Result<i32, Error> {
@@ -204,6 +231,7 @@ unsafe fn stretched<L: Law<T>, T: Precision>(
         let points = Points {
             f_old: columns(block.stretch_old),
             f_new: columns(block.stretch_new),
+            limit: limit_variable::at(block.state_old.wrapping_add(start), limit.map(|place| place * n)),
             state_old: block.state_old.wrapping_add(start),
             state_new: block.state_new.wrapping_add(start),
             stress,

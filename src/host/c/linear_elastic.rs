@@ -62,6 +62,8 @@ pub struct LinearPoint<T> {
     /// `TORON_TANGENT_JAUMANN` gives the entries of Abaqus's DDSDDE, but in the order 11 22 33 12 23 31. It is computed in double
     /// precision, and so are then all other results.
     pub tangent: *mut T,
+    /// In, 1: the strength, in place of that of the properties; if null or 0, that of the properties. Read if `state_new` is not null.
+    pub limit: *const T,
 }
 
 /// A block of points of the linear elastic law. Set `size`, `n`, and what is wanted; the rest is 0: an array that is null is left
@@ -115,6 +117,9 @@ pub struct LinearBlock<T> {
     pub state_layout: Layout,
     pub stress_layout: Layout,
     pub tangent_layout: Layout,
+    /// In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+    pub limit: *const T,
+    pub limit_layout: Layout,
 }
 
 /// A strain increment of the linear elastic law, in material axes that the caller updates. Set `size`, and what is wanted; the rest
@@ -148,8 +153,8 @@ structures! {
 
 #[cfg(target_pointer_width = "64")]
 const _: () = {
-    assert!(size_of::<LinearPoint<f64>>() == 4 * 8 + 10 * 8 && size_of::<LinearPoint<f32>>() == 4 * 8 + 10 * 8);
-    assert!(size_of::<LinearBlock<f64>>() == 6 * 8 + 37 * 8 + 12 * 8);
+    assert!(size_of::<LinearPoint<f64>>() == 4 * 8 + 11 * 8 && size_of::<LinearPoint<f32>>() == 4 * 8 + 11 * 8);
+    assert!(size_of::<LinearBlock<f64>>() == 6 * 8 + 38 * 8 + 14 * 8);
     assert!(size_of::<LinearBlock<f32>>() == size_of::<LinearBlock<f64>>());
     assert!(size_of::<LinearIncrement<f64>>() == 7 * 8 && size_of::<LinearIncrement<f32>>() == 7 * 8);
 };
@@ -169,6 +174,7 @@ unsafe fn point<T: Precision>(law: &LinearElastic<T>, point: *const LinearPoint<
             f_new: components(point.f_new, 1),
             fibre: components(point.fibre, 1),
             second_axis: components(point.second_axis, 1),
+            limit: if point.state_new.is_null() { null() } else { point.limit },
             axes: point.axes,
             state_old: point.state_old,
             state_new: point.state_new,
@@ -209,6 +215,7 @@ impl<T: Scalar> LinearBlock<T> {
             strides: LinearStrides {
                 deformation_gradient: f.stride,
                 fibre: fibre.stride,
+                limit: self.limit_layout.stride.max(1),
                 axes: axes.stride,
                 state: state.stride,
                 stress: stress.stride,
@@ -218,6 +225,7 @@ impl<T: Scalar> LinearBlock<T> {
             f_new: f.components(&self.f_new),
             fibre: fibre.components(&self.fibre),
             second_axis: fibre.components(&self.second_axis),
+            limit: if self.state_new.is_null() { null() } else { self.limit },
             axes: self.axes,
             state_old: self.state_old,
             state_new: self.state_new,

@@ -190,7 +190,7 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
         None => fresh.write(cells([T::splat(0.0); HYPERELASTIC_STATE])),
     };
     // SAFETY: null or one number.
-    let limit = unsafe { point.limit.as_ref() }.copied().filter(|_| !state_new.is_null());
+    let limit = if point.limit.is_null() | state_new.is_null() { T::splat(0.0) } else { unsafe { *point.limit } };
     let mut status = status::OK;
     let nothing_else = modes.is_null() && wave_speed.is_null() && tangent.is_null();
     if nothing_else && !stress.is_null() {

@@ -43,12 +43,19 @@ pub static OPTIONS: [CardOption; 3] = [
     },
 ];
 
-/// The last option of toron's own laws.
-pub static STEP: CardOption = CardOption {
-    name: "step",
-    greatest: 1,
-    allowed: "0 (SOUNDSP from the fastest wave of any direction), 1 (from waves by their direction, where that is possible)",
-};
+/// The last options of toron's own laws.
+pub static LAST: [CardOption; 2] = [
+    CardOption {
+        name: "step",
+        greatest: 1,
+        allowed: "0 (SOUNDSP from the fastest wave of any direction), 1 (from waves by their direction, where that is possible)",
+    },
+    CardOption {
+        name: "limit_from",
+        greatest: 1,
+        allowed: "0 (the failure limit of the card), 1 (of each element, from its last initial user variable; 0 there is that of the card)",
+    },
+];
 
 /// Where the fibre direction of a point comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,8 +76,8 @@ pub struct Layout {
     pub law: &'static Description,
     /// How many of [`OPTIONS`] it has.
     pub options: usize,
-    /// Whether [`STEP`] follows them.
-    pub has_step: bool,
+    /// Whether [`LAST`] follow them.
+    pub has_last: bool,
 }
 
 pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
@@ -80,17 +87,17 @@ pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
 impl Layout {
     /// The law as `/MAT/USERnn`.
     pub const fn of<T: Precision, L: SolidLaw<T>>(number: i32) -> Self {
-        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_step: L::HAS_STEP }
+        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_last: L::HAS_LAST }
     }
 
     /// NUPARAM.
     pub const fn parameters(&self) -> usize {
-        1 + self.law.properties.len() + self.options + self.has_step as usize
+        1 + self.law.properties.len() + self.options + if self.has_last { LAST.len() } else { 0 }
     }
 
     /// The options of the card, in their order.
     pub fn options(&self) -> impl Iterator<Item = &'static CardOption> {
-        OPTIONS.iter().take(self.options).chain(self.has_step.then_some(&STEP))
+        OPTIONS.iter().take(self.options).chain(LAST.iter().filter(|_| self.has_last))
     }
 
     /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
@@ -107,13 +114,13 @@ impl Layout {
         self.deleted() + 1
     }
 
-    /// NUVAR.
+    /// NUVAR, but for the limit that stands behind them where the card says so.
     pub fn variables(&self) -> usize {
         self.f_old() + self.law.kept()
     }
 
     /// The names of the variables behind the state, in order.
-    pub fn other_variables(&self) -> &'static [&'static str] {
+    fn other_variables(&self) -> &'static [&'static str] {
         const NAMES: [&str; 13] = [
             "fibre_1", "fibre_2", "fibre_3", "deleted", "F11_old", "F21_old", "F31_old", "F12_old", "F22_old",
             "F32_old", "F13_old", "F23_old", "F33_old",
@@ -133,6 +140,8 @@ pub struct Card<'a, T: Precision> {
     pub criterion: Criterion,
     /// Whether SOUNDSP is to be computed from waves by their direction.
     pub by_direction: bool,
+    /// Whether each element has a failure limit of its own.
+    pub has_limits: bool,
 }
 
 impl<'a, T: Precision> Card<'a, T> {
@@ -158,6 +167,18 @@ impl<'a, T: Precision> Card<'a, T> {
         &self.material.layout
     }
 
+    /// NUVAR.
+    pub fn variables(&self) -> usize {
+        self.layout().variables() + usize::from(self.has_limits)
+    }
+
+    /// The name of a variable, from 0.
+    pub fn variable(&self, place: usize) -> &'static str {
+        let layout = self.layout();
+        let state = layout.law.state.iter().map(|row| row.name);
+        state.chain(layout.other_variables().iter().copied()).nth(place).unwrap_or("limit")
+    }
+
     /// # Errors
     /// An option that has no meaning.
     fn with_options(material: &'static Material<T>, properties: &'a [T], options: &[T]) -> Result<Self, Error> {
@@ -168,6 +189,8 @@ impl<'a, T: Precision> Card<'a, T> {
             }
         }
         let chosen = |i: usize| if i < layout.options { options.get(i).map_or(0, |&value| whole(value)) } else { 0 };
+        let last =
+            |i: usize| layout.has_last && options.get(layout.options + i).is_some_and(|&value| whole(value) == 1);
         let (fibre_from, frame, criterion) = (chosen(0), chosen(1), chosen(2));
         Ok(Card {
             material,
@@ -179,7 +202,8 @@ impl<'a, T: Precision> Card<'a, T> {
             },
             rotation: if frame == 0 { Rotation::Fibre } else { Rotation::Polar },
             criterion: if criterion == 0 { Criterion::LargestPrincipal } else { Criterion::FibreStress },
-            by_direction: layout.has_step && options.last().is_some_and(|&step| whole(step) == 1),
+            by_direction: last(0),
+            has_limits: last(1),
         })
     }
 }

@@ -94,8 +94,8 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
         group.check(laws)?;
         let parameters = slice::from_raw_parts(group.uparam, group.parameters as usize);
         let card = Card::of(laws, parameters)?;
-        if group.variables != card.layout().variables() as i32 {
-            let (found, wanted) = (i64::from(group.variables), card.layout().variables() as i64);
+        if group.variables != card.variables() as i32 {
+            let (found, wanted) = (i64::from(group.variables), card.variables() as i64);
             return Err(Error::Count { code: status::STATE_COUNT, what: "NUVAR", found, wanted });
         }
         if group.elements == 0 {
@@ -404,6 +404,7 @@ impl<T: Precision> Group<T> {
                 f_old: components(row(card.layout().f_old()).cast_const(), n),
                 f_new: self.columns(first),
                 fibre: self.fibre(card, first),
+                limit: if card.has_limits { row(card.layout().variables()) } else { ptr::null_mut() },
                 state_old: row(0),
                 state_new: row(0),
                 // SAFETY: RHO0 has a value.
@@ -502,7 +503,7 @@ impl<T: Precision> Group<T> {
     /// Latches the points that have failed or could not be evaluated in this cycle, from element `first` on.
     ///
     /// # Errors
-    /// A fibre direction that has no length: nothing has deformed it, so that the model is wrong.
+    /// A fibre direction that has no length, a limit that means nothing: nothing has deformed them, so that the model is wrong.
     #[cold]
     unsafe fn mark(&self, layout: &Layout, first: usize, codes: &[i32]) -> Result<(), Error> {
         for (i, &code) in (first..).zip(codes) {
@@ -513,7 +514,7 @@ impl<T: Precision> Group<T> {
                     continue;
                 }
                 match code {
-                    status::FIBRE_DIRECTION => return Err(self.error_of(i, code)),
+                    status::FIBRE_DIRECTION | status::LIMIT => return Err(self.error_of(i, code)),
                     status::OK => *self.row(layout.deleted()).add(i) = T::splat(BY_FAILURE),
                     _ => self.latch(layout, i, f64::from(code)),
                 }

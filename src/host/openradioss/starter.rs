@@ -48,11 +48,13 @@ pub fn read<T: Precision>(laws: &Laws<T>, number: i32, values: &[T], uparam: &mu
         *first = T::splat(f64::from(layout.number));
         rest.iter_mut().zip(values).for_each(|(to, &value)| *to = value);
     }
-    if Card::of(laws, own)?.fibre_from != FibreFrom::Card {
+    let card = Card::of(laws, own)?;
+    let variables = card.variables();
+    if card.fibre_from != FibreFrom::Card {
         give_a_direction(layout, own);
     }
     let modulus = (material.modulus_at_rest)(Card::of(laws, own)?.properties)?;
-    Ok(Read { parameters: wanted, variables: layout.variables(), modulus })
+    Ok(Read { parameters: wanted, variables, modulus })
 }
 
 /// Sets a fibre direction that is 0 0 0 to an axis that is not along the second axis: elements have their own.
@@ -76,8 +78,9 @@ pub fn listing<T: Precision>(
     line: usize,
     sink: &mut dyn FnMut(&str),
 ) -> Result<bool, Error> {
-    let layout = Card::of(laws, uparam)?.layout();
-    let (values, variables) = (layout.parameters() - 1, layout.variables());
+    let card = Card::of(laws, uparam)?;
+    let (layout, variables) = (card.layout(), card.variables());
+    let values = layout.parameters() - 1;
     const HEAD: usize = 3;
     if line < HEAD {
         match line {
@@ -99,10 +102,7 @@ pub fn listing<T: Precision>(
         sink("       ");
         describe_integer(i as i64 + 1, sink);
         sink(" ");
-        let others = layout.other_variables();
-        let name =
-            layout.law.state.get(i).map(|row| row.name).or_else(|| others.get(i - layout.law.state.len()).copied());
-        sink(name.unwrap_or_default());
+        sink(card.variable(i));
     } else {
         return Ok(false);
     }

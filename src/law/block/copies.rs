@@ -27,8 +27,8 @@ const TANGENT: usize = MODES + 24;
 /// With the largest tangent.
 const LIMIT: usize = TANGENT + 81;
 const COMPONENTS: usize = LIMIT + 1;
-/// F at both ends, fibre, second axis, axes, state at both ends, stress, wave speed and active of the linear elastic law.
-const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
+/// F at both ends, fibre, second axis, limit, axes, state at both ends, stress, wave speed and active of the linear elastic law.
+const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 1 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
 /// The index in the block of each of `COUNT` copies; the last ones repeat if there are fewer points.
 struct Copies<const COUNT: usize>([usize; COUNT]);
@@ -354,6 +354,7 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
         f_new: components(f_new, COUNT),
         fibre: components(fibre, COUNT),
         second_axis: components(second_axis, COUNT),
+        limit: buffer.array(!block.limit.is_null(), 1),
         axes: buffer.array(!block.axes.is_null(), 9),
         state_old: buffer.array(!block.state_old.is_null(), LINEAR_ELASTIC_STATE),
         state_new: buffer.array(!block.state_new.is_null(), LINEAR_ELASTIC_STATE),
@@ -368,7 +369,8 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
         criterion: block.criterion,
         level: block.level,
     };
-    let LinearStrides { deformation_gradient, fibre: of_fibre, axes, state, stress: of_stress, .. } = block.strides;
+    let LinearStrides { deformation_gradient, fibre: of_fibre, limit, axes, state, stress: of_stress, .. } =
+        block.strides;
     let (of_f, of_fibre) = (copies.group(deformation_gradient, 0), copies.group(of_fibre, 0));
     let (of_stress, single) = (copies.group(of_stress, 0), copies.group(1, 0));
     let of_axes = copies.group(axes, block.axes_leading_dimension);
@@ -384,6 +386,7 @@ pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
             of_fibre.copy_in(block.fibre[c], of_copies.fibre[c].cast_mut(), 1);
             of_fibre.copy_in(block.second_axis[c], of_copies.second_axis[c].cast_mut(), 1);
         }
+        copies.group(limit, 0).copy_in(block.limit, of_copies.limit.cast_mut(), 1);
         of_axes.copy_in(block.axes, of_copies.axes, 9);
         of_state.copy_in(block.state_old, of_copies.state_old.cast_mut(), LINEAR_ELASTIC_STATE);
         let worst = run(&of_copies);

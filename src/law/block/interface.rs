@@ -300,6 +300,7 @@ impl<T: Precision> LinearElastic<T> {
                 f_new: block.f_new.map(|c| from(c, strides.deformation_gradient, first)),
                 fibre: block.fibre.map(|c| from(c, strides.fibre, first)),
                 second_axis: block.second_axis.map(|c| from(c, strides.fibre, first)),
+                limit: from(block.limit, strides.limit, first),
                 state_old: from(block.state_old, strides.state, first),
                 rotation: block.rotation,
                 criterion: block.criterion,

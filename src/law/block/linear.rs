@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `f_old`, `f_new` | F11 F21 F31 F12 F22 F32 F13 F23 F33 (columns of F) at both ends of the step |
 //! | `fibre`, `second_axis` | a fibre direction and a second axis for each point, any length, or those of the properties; not read for [`Rotation::Spin`] |
+//! | `limit` | the strength of each point, or 0 for that of the properties |
 //! | `axes` | the three material axes in space, one after the other, in and out; for [`Rotation::Spin`] only |
 //! | `state_old`, `state_new` | the rows of [`state::LINEAR_ELASTIC`](crate::law::state::LINEAR_ELASTIC) |
 //! | `stress` | σ11 σ22 σ33 σ12 σ23 σ31 (Cauchy) |
@@ -49,6 +50,7 @@ pub struct LinearPointers<T> {
     pub f_new: [*const T; 9],
     pub fibre: [*const T; 3],
     pub second_axis: [*const T; 3],
+    pub limit: *const T,
     pub axes: *mut T,
     pub state_old: *const T,
     pub state_new: *mut T,
@@ -75,6 +77,7 @@ pub struct LinearStrides {
     pub deformation_gradient: usize,
     /// Of fibre and second axis.
     pub fibre: usize,
+    pub limit: usize,
     pub axes: usize,
     /// Of the state, old and new.
     pub state: usize,
@@ -85,7 +88,7 @@ pub struct LinearStrides {
 impl LinearStrides {
     /// Points next to each other: component-major arrays.
     pub(crate) const UNIT: LinearStrides =
-        LinearStrides { deformation_gradient: 1, fibre: 1, axes: 1, state: 1, stress: 1, tangent: 1 };
+        LinearStrides { deformation_gradient: 1, fibre: 1, limit: 1, axes: 1, state: 1, stress: 1, tangent: 1 };
 }
 
 impl<T: Scalar> LinearPointers<T> {
@@ -102,6 +105,7 @@ impl<T: Scalar> LinearPointers<T> {
             f_new: [null(); 9],
             fibre: [null(); 3],
             second_axis: [null(); 3],
+            limit: null(),
             axes: null_mut(),
             state_old: null(),
             state_new: null_mut(),
@@ -134,7 +138,10 @@ impl<T: Scalar> LinearPointers<T> {
         if spin && missing(&[self.axes.cast_const()]) {
             return Err(Error::Null { name: "axes" });
         }
-        let LinearStrides { axes, state, tangent, .. } = self.strides;
+        let LinearStrides { limit, axes, state, tangent, .. } = self.strides;
+        if !self.limit.is_null() {
+            check_layout(self.n, 1, self.n, limit, distances!("limit"))?;
+        }
         if !self.state_old.is_null() || !self.state_new.is_null() {
             check_layout(self.n, LINEAR_ELASTIC_STATE, self.leading_dimension, state, distances!("the state"))?;
         }
@@ -210,7 +217,8 @@ unsafe fn evaluate<T: Scalar, R: Lanes<T>>(law: &LinearElastic<R>, block: &Linea
                 *value = R::load(block.state_old.add(c * state + i));
             }
         }
-        let step = Step { f0: &f0, f1: &f1, axes: &axes, rotation: block.rotation, criterion: block.criterion };
+        let limit = if block.limit.is_null() { None } else { Some(R::load(block.limit.add(i))) };
+        let step = Step { f0: &f0, f1: &f1, axes: &axes, limit, rotation: block.rotation, criterion: block.criterion };
         let answer = law.respond(step, &reference, usable, &old, wanted);
         if wanted.stress {
             let mut c = 0;
@@ -330,7 +338,8 @@ unsafe fn point_with_tangent<T: Scalar>(law: &LinearElastic, block: &LinearPoint
     };
     let state_wanted = !block.state_new.is_null();
     let wanted = Wanted { stress: true, state: state_wanted, wave_modulus: !block.wave_speed.is_null() };
-    let step = Step { f0: &f0, f1: &f1, axes: &axes, rotation: block.rotation, criterion: block.criterion };
+    let limit = if block.limit.is_null() { None } else { Some(load(block.limit, i * strides.limit)) };
+    let step = Step { f0: &f0, f1: &f1, axes: &axes, limit, rotation: block.rotation, criterion: block.criterion };
     let (mut answer, tangent) = law.respond_with_tangent(step, &reference, usable, &state, wanted);
     let (mut entries, size) = by_rows(&tangent, block.measure, &f1.into(), &answer.stress);
     let speed = |answer: &Answer<f64>| wave_speed::wave_speed(answer.wave_modulus, block.density.into());

@@ -1,0 +1,38 @@
+//! `toron fit` of strengths: to the terminal, a table of the figures, and the tables that scenes take.
+
+use std::path::Path;
+
+use super::file::{Set, StrengthJob};
+use super::report;
+use crate::common::console::print;
+use crate::common::error::Error;
+use crate::common::folder;
+use crate::common::text_table::write_csv;
+use crate::identify::command::require_new;
+use crate::identify::report::line;
+
+const FIGURES: &str = "strengths.csv";
+
+/// Writes what came of the sets to the directory `output`.
+///
+/// # Errors
+/// A scene, or a file that cannot be written.
+pub fn run(job: &StrengthJob, output: &Path, scene: Option<&Path>) -> Result<(), Error> {
+    if scene.is_some() {
+        let message = "--scene with [[strength]]; allowed: with the law's properties. A scene takes a strength as [scene.strength]";
+        return Err(Error::Input(message.to_string()));
+    }
+    let table = |set: &Set| format!("{}.toml", set.name);
+    let files: Vec<String> = std::iter::once(FIGURES.to_string()).chain(job.sets.iter().map(table)).collect();
+    require_new(&job.inputs, output, &files)?;
+    folder::create(output)?;
+    print(&report::report(job));
+    for set in &job.sets {
+        let place = output.join(table(set));
+        std::fs::write(&place, report::table(job, set))
+            .map_err(|error| Error::Input(format!("{}: {error}", place.display())))?;
+    }
+    write_csv(&output.join(FIGURES), &report::lines(job))?;
+    print(&line("written", &format!("{} in {}", files.join(", "), output.display())));
+    Ok(())
+}
