@@ -16,6 +16,7 @@
 //! - a woven panel struck by a sphere (`toron fabric`): [`fabric`], on the same solver;
 //! - the fibres of a yarn under impact, as rows of beads in LAMMPS (`toron fibres`): [`fibres`];
 //! - a yarn under impact (`toron impact`): [`impact`], on the explicit solver in [`explicit`];
+//! - at which speed half of the shots go through (`toron v50`), on scenes of either: [`v50`];
 //! - what those two have in common, from their keys to their checkpoints: [`struck`];
 //! - woven panels as meshes of hexahedra (`toron weave`): [`weave`];
 //! - `run`, `params`, `deck` and `eval` for a law of one's own, in a program of three lines: [`of_law`];
@@ -46,6 +47,7 @@ pub mod picture;
 pub mod scene_deck;
 pub mod strength;
 pub mod struck;
+pub mod v50;
 pub mod weave;
 
 pub use own_program::of_law;

@@ -13,7 +13,7 @@ use toron_program::eval::command::Entry;
 use toron_program::material::laws::Laws;
 use toron_program::{
     bench, cell, command_line, compare, deck, eval, fabric, fibres, identify, impact, load_path, params, scene_deck,
-    weave,
+    v50, weave,
 };
 
 /// A user-material library for yarns and dry fabrics: load paths on one element, struck yarns and panels, property tables, decks.
@@ -104,6 +104,8 @@ enum Command {
         #[arg(long)]
         restart: bool,
     },
+    /// Fire a series of shots at a scene: V50, V5, V95 and slope with their intervals, and how sure the answer is.
+    V50(v50::command::Arguments),
     /// Mesh a woven panel with hexahedra; write it for ParaView, with figures and a picture.
     Weave {
         /// The weave (see docs/guides/fabric.md and examples/fabric_impact/).
@@ -162,6 +164,7 @@ fn run(command: Command) -> Result<(), Error> {
         },
         Command::Cell { scene, output, ccx, restart } => cell::command::run(&scene, &output, ccx.as_deref(), restart)
             .and_then(|fit| identify::command::run(&fit, &output, None)),
+        Command::V50(arguments) => v50::command::run(&arguments),
         Command::Weave { scene, output, deck } => match deck.host {
             Some(host) => scene_deck::command::weave(&scene, &output, host, &deck),
             None => weave::command::run(&scene, &output),

@@ -1,7 +1,8 @@
 //! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
-//! measured data.
+//! measured data, numbers of chance.
 
 pub mod bound_child;
+pub mod chance;
 pub mod console;
 pub mod data_table;
 pub mod error;

@@ -36,7 +36,7 @@ impl Shape {
     }
 }
 
-/// What strikes, and the parameters of its contact. It moves along one axis, through the origin.
+/// What strikes, and the parameters of its contact. It moves along one axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rigid {
     pub shape: Shape,
@@ -45,6 +45,9 @@ pub struct Rigid {
     pub stiffness: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
+    /// Where its axis of motion passes the plane across it: x and y of what moves along z. That of a cylinder across a yarn passes the
+    /// origin.
+    pub aim: [f64; 2],
 }
 
 /// A node that may be touched.
@@ -155,6 +158,8 @@ impl Rigid {
         let direction = self.shape.direction();
         let mut from = place;
         from[direction] -= centre;
+        from[0] -= self.aim[0];
+        from[1] -= self.aim[1];
         match self.shape {
             Shape::Cylinder => from[2] = 0.0,
             Shape::Hemisphere => from[2] = from[2].min(0.0),
@@ -209,7 +214,8 @@ impl Node {
 mod tests {
     use super::*;
 
-    const CYLINDER: Rigid = Rigid { shape: Shape::Cylinder, radius: 1.0, stiffness: 100.0, friction: 0.5 };
+    const CYLINDER: Rigid =
+        Rigid { shape: Shape::Cylinder, radius: 1.0, stiffness: 100.0, friction: 0.5, aim: [0.0; 2] };
 
     /// A node of unit surface and mass, a tenth inside the cylinder, whose axis is at this height.
     const AXIS: f64 = 0.9;
@@ -289,6 +295,21 @@ mod tests {
         assert_close(on_sphere, -16.0);
         let (force, _) = node.step(0.0, 0.0, [0.0, 1e-3, 0.0]);
         assert!(f64::abs(force[1] + 0.1 - 0.025) < 1e-3, "spring less what presses outwards: {force:?}");
+    }
+
+    /// Wherever it aims, what lies there meets it as what lies at the origin meets one that aims there.
+    #[test]
+    fn a_striker_meets_what_it_aims_at() {
+        for shape in [Shape::Sphere, Shape::Flat, Shape::Hemisphere] {
+            let force = |aim: [f64; 2], [x, y, z]: [f64; 3]| {
+                let striker = Rigid { shape, aim, ..CYLINDER };
+                Node::new(striker, [x + aim[0], y + aim[1], z]).step(0.0, 0.0, [0.0; 3]).0
+            };
+            let place = [0.3, -0.2, -0.85];
+            let [centred, aside] = [[0.0; 2], [0.25, -0.5]].map(|aim| force(aim, place));
+            assert!(centred[2] < 0.0);
+            (0..3).for_each(|i| assert_close(aside[i], centred[i]));
+        }
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::common::toml_file::Unused;
+use crate::common::toml_file::{Numbers, Unused};
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
+use crate::struck::shots::ShotsFile;
 use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 
@@ -19,6 +20,7 @@ pub struct SceneFile {
     pub ply: Vec<Spanned<PlyFile>>,
     pub mesh: Option<Spanned<MeshFile>>,
     pub scene: Spanned<CaseFile>,
+    pub shots: Option<ShotsFile>,
     #[serde(default)]
     pub case: Vec<Spanned<CaseFile>>,
 }
@@ -30,6 +32,7 @@ with_common_keys!(case_file! {
         mesh: Spanned<MeshFile>,
         shape: ShapeName,
         length: Spanned<f64>,
+        aim: Spanned<Numbers<2>>,
         striker_density: Spanned<f64>,
         hyperelastic_radius: Spanned<f64>,
         rim: Rim,

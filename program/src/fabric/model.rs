@@ -46,9 +46,9 @@ fn media<T: Number>(case: &Case) -> Result<Vec<Medium<T>>, Error> {
 pub fn start(case: &Case, panel: &Model) -> Result<f64, Error> {
     let start = first_touch(panel, &case.sphere);
     if !start.is_finite() {
-        let radius = number(case.sphere.radius);
-        let allowed = "allowed: one under which some node of the panel lies";
-        let name = case.sphere.shape.name();
+        let (name, radius) = (case.sphere.shape.name(), number(case.sphere.radius));
+        let [x, y] = case.sphere.aim.map(number);
+        let allowed = format!("allowed: one under which some node of the panel lies, with aim = [{x}, {y}]");
         return Err(Error::Input(format!("the {name}'s radius is {radius} in case {}; {allowed}", case.name)));
     }
     Ok(start)
@@ -151,9 +151,9 @@ fn hold<T: Number>(panel: &Model, rim: bool, bodies: &mut [Body<T>]) {
 
 /// The height of a striker's centre at which it touches the panel from above.
 fn first_touch(panel: &Model, striker: &Rigid) -> f64 {
-    let radius = striker.radius;
+    let Rigid { radius, aim, .. } = *striker;
     let height = |[x, y, z]: [f64; 3]| {
-        let under = radius * radius - x * x - y * y;
+        let under = radius * radius - (x - aim[0]).powi(2) - (y - aim[1]).powi(2);
         match striker.shape {
             _ if under <= 0.0 => f64::NEG_INFINITY,
             Shape::Flat => z + radius,

@@ -123,7 +123,10 @@ struct Seen<'a> {
 impl<'a> Drawing<'a> {
     fn new(scene: &'a Scene, case: &'a Case, panel: &Model, snapshot: &'a Snapshot, unit: &'a str) -> Self {
         let modes = modes(case);
-        let middles: Vec<[f64; 2]> = (0..panel.elements.len()).map(|element| middle(panel, element)).collect();
+        // From where the panel is struck.
+        let aim = case.sphere.aim;
+        let from_aim = |[x, y]: [f64; 2]| [x - aim[0], y - aim[1]];
+        let middles: Vec<[f64; 2]> = (0..panel.elements.len()).map(|i| from_aim(middle(panel, i))).collect();
         let quarter = !panel.on_x.is_empty();
         let size = middles.iter().map(farthest).fold(0.0, f64::max);
         let reach = reach(&middles, size, case, snapshot, modes.len());
@@ -143,7 +146,11 @@ impl<'a> Drawing<'a> {
             // The whole sphere is shown where it is small beside the panel.
             let top = if reach == blow || size < LEAST_RADII * case.sphere.radius { SPHERE_SHOWN } else { 2.0 };
             let sphere = snapshot.projectile.filter(|_| cut);
-            let sphere = sphere.map_or(Vec::new(), |(height, radius)| half_of(case.sphere.shape, height, radius, top));
+            let mut sphere =
+                sphere.map_or(Vec::new(), |(height, radius)| half_of(case.sphere.shape, height, radius, top));
+            for corner in sphere.iter_mut().flat_map(|face| &mut face.0) {
+                (corner[0], corner[1]) = (corner[0] + aim[0], corner[1] + aim[1]);
+            }
             let (scale, most) = scale(mode, modes[mode], snapshot, &shown, unit);
             let name = if most > scale.largest {
                 format!("{name}; the largest is {}", number(most))
@@ -279,7 +286,7 @@ fn farthest([x, y]: &[f64; 2]) -> f64 {
     x.abs().max(y.abs())
 }
 
-/// How far from the centre the panel has an energy to show, or the sphere is; infinite where that is nearly the whole panel.
+/// How far from where it is struck the panel has an energy to show, or the sphere is; infinite where that is nearly the whole panel.
 fn reach(middles: &[[f64; 2]], size: f64, case: &Case, snapshot: &Snapshot, modes: usize) -> f64 {
     let least = LEAST_RADII * case.sphere.radius;
     let most: Vec<f64> = (0..modes).map(|mode| snapshot.largest(|densities| density(mode, densities))).collect();

@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::file::{CaseFile, Rim, SceneFile, ShapeName};
 use super::scene::{Case, Scene};
 use crate::common::error::Error;
-use crate::common::toml_file::{self, Source, over};
+use crate::common::toml_file::{self, Numbers, Source, over};
 use crate::common::units::number;
 use crate::explicit::contact::{Rigid, Shape};
 use crate::explicit::medium::Control;
@@ -24,6 +24,7 @@ use crate::weave::file::{PlyFile, WeaveFile};
 use crate::weave::foreign::file::MeshFile;
 use crate::weave::geometry::Family;
 use crate::weave::layup::Ply;
+use crate::weave::panel::Part;
 use toron::law::parameters::DENSITY;
 
 /// Between a case's name and the number of a picture.
@@ -76,7 +77,9 @@ impl Scene {
                 reader.panel_case(file_of_case, cloth, threads, name)
             },
         )?;
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases })
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots })
     }
 }
 
@@ -127,17 +130,18 @@ impl Reader<'_> {
         let materials: Vec<[String; 2]> = threads.iter().map(|ply| ply.each_ref().map(material)).collect();
         let strength = self.panel_strength(&cloth, &materials)?;
         Ok(Case {
-            cloth,
-            speed: self.speed(zones.inner())?,
-            zones,
-            threads,
-            strength,
             sphere: Rigid {
                 shape: shape(file),
                 radius: self.positive("radius", &keys.radius)?,
                 stiffness,
                 friction: self.source.zero_or_more("friction", &keys.friction, friction)?,
+                aim: self.aim(file, &cloth)?,
             },
+            cloth,
+            speed: self.speed(zones.inner())?,
+            zones,
+            threads,
+            strength,
             mass: self.mass(file)?,
             held: file.rim != Some(Rim::Free),
             mutual: Parameters {
@@ -151,6 +155,18 @@ impl Reader<'_> {
             single_precision: keys.is_single_precision(),
             name,
         })
+    }
+
+    /// Where the panel is struck; a part of one is struck where its planes of symmetry meet.
+    fn aim(&self, file: &CaseFile, cloth: &Cloth) -> Result<[f64; 2], Error> {
+        let Some(aim) = &file.aim else { return Ok([0.0; 2]) };
+        let Numbers([x, y]) = *aim.get_ref();
+        let allowed = match cloth.part() {
+            Part::Quarter => "with part = \"whole\"",
+            Part::Whole if [x, y].iter().all(|place| place.is_finite()) => return Ok([x, y]),
+            Part::Whole => "two finite numbers",
+        };
+        Err(self.source.error(aim.span(), &format!("aim is [{x}, {y}]; allowed: {allowed}")))
     }
 
     /// What the yarns of each ply are made of, warp and weft, where the tables say it.

@@ -8,6 +8,7 @@ use crate::explicit::mutual_contact::Parameters;
 use crate::material::model::Material;
 use crate::strength::scatter::Strength;
 use crate::struck::plan::Plan;
+use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
@@ -19,6 +20,8 @@ pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
     pub cases: Vec<Case>,
+    /// The series that `toron v50` fires.
+    pub shots: Option<Shots>,
 }
 
 /// One run.

@@ -197,6 +197,46 @@ fn a_ply_counts_from_when_it_is_touched() {
     assert!(of_both > 1.3 * of_one && of_both < 2.1 * of_one, "{one:?} {near:?}");
 }
 
+/// A plain weave struck beside a crossing is its own mirror image; another place is another strike, and a quarter has but one.
+#[test]
+fn a_panel_is_struck_where_it_is_aimed_at() {
+    let struck = |aim: &str, part: &str| {
+        let text = format!(
+            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+             [weave.panel]\nshape = \"rectangle\"\nhalf = [1.6, 1.6]\npart = \"{part}\"\n\
+             [scene]\nspeed = 100.0\nmass = 0.01\nradius = 0.8\ncontact-stiffness = 1e5\nend = 1.0\naim = {aim}\n\
+             hyperelastic.properties = {{ k_ld = 126.0 }}\n"
+        );
+        Scene::parse("aim.toml", &text).map_err(|error| error.to_string())
+    };
+    let speed = |aim: &str| {
+        let scene = struck(aim, "whole").expect("a scene");
+        let case = &scene.cases[0];
+        let mut solver: Solver<f64> = model::solver(case, &case.cloth.model()).expect("a panel");
+        while solver.state.time < 2e-3 {
+            solver.accelerate(false, 1.0).expect("stable");
+            solver.displace();
+        }
+        let sphere = solver.projectile.as_ref().expect("a sphere");
+        (-sphere.velocity, sphere.position)
+    };
+    let [one, mirrored, centre] = ["[0.2, 0.3]", "[-0.2, 0.3]", "[0, 0]"].map(speed);
+    assert!(one.0 < 99.9, "{one:?}");
+    assert!((one.0 / mirrored.0 - 1.0).abs() < 1e-9 && (one.1 - mirrored.1).abs() < 1e-9, "{one:?} {mirrored:?}");
+    assert!((one.1 - centre.1).abs() > 1e-3, "{one:?} {centre:?}");
+    for (aim, part, message) in [
+        ("[0.2, 0.3]", "quarter", "aim is [0.2, 0.3]; allowed: with part = \"whole\""),
+        ("[nan, 0]", "whole", "aim is [NaN, 0]; allowed: two finite numbers"),
+        ("[0.2]", "whole", "aim is [0.2]; allowed: a list of 2 numbers"),
+    ] {
+        let error = struck(aim, part).map(|_| ()).expect_err(message);
+        assert!(error.contains(message), "{message}: {error}");
+    }
+    let scene = struck("[9.0, 0]", "whole").expect("a scene");
+    let outside = model::check(&scene.cases[0], &scene.cases[0].cloth.model()).expect_err("nothing lies there");
+    assert!(outside.to_string().contains("aim"), "{outside}");
+}
+
 /// The yarns of a ply are of the ply's material, which its own families' go before, and those before the weave's.
 #[test]
 fn plies_have_materials_of_their_own() {

@@ -7,6 +7,7 @@ use super::scene::{Abscissa, Outputs};
 use crate::common::toml_file::Unused;
 use crate::material::of_law::LawName;
 use crate::struck::keys::{Keys, case_file, with_common_keys};
+use crate::struck::shots::ShotsFile;
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -29,6 +30,7 @@ pub struct SceneFile {
     pub units: Spanned<String>,
     pub abscissa: Option<Spanned<Abscissa>>,
     pub scene: Spanned<CaseFile>,
+    pub shots: Option<ShotsFile>,
     #[serde(default)]
     pub case: Vec<Spanned<CaseFile>>,
 }

@@ -49,8 +49,10 @@ impl Scene {
             CaseFile::unused,
             |reader, [file, _], name| reader.yarn_case(file, name),
         )?;
+        let inner = || cases.iter().map(|case| case.zones.inner());
+        let shots = file.shots.as_ref().map(|shots| source.shots(shots, &units, inner())).transpose()?;
         let abscissa = file.abscissa.map(|abscissa| source.abscissa_of(&abscissa, &cases)).transpose()?;
-        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, abscissa })
+        Ok(Scene { title: file.title.unwrap_or_else(|| name.to_string()), units, cases, shots, abscissa })
     }
 }
 
@@ -136,6 +138,7 @@ impl Reader<'_> {
             radius: self.positive("radius", &keys.radius)?,
             stiffness: self.positive("contact-stiffness", &keys.contact_stiffness)?,
             friction: self.source.zero_or_more("friction", &keys.friction, 0.0)?,
+            aim: [0.0; 2],
         };
         let held = file.held.as_ref().is_some_and(|held| *held.get_ref());
         let mass = if held && keys.mass.is_none() { 0.0 } else { self.positive("mass", &keys.mass)? };

@@ -7,6 +7,7 @@ use crate::explicit::medium::Control;
 use crate::explicit::mesh::Yarn;
 use crate::strength::scatter::Strength;
 use crate::struck::plan::Plan;
+use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use toron::host::units::UnitSystem;
 
@@ -16,6 +17,8 @@ pub struct Scene {
     pub title: String,
     pub units: UnitSystem,
     pub cases: Vec<Case>,
+    /// The series that `toron v50` fires.
+    pub shots: Option<Shots>,
     /// The quantity that the cases' residual speeds are plotted over.
     pub abscissa: Option<Abscissa>,
 }

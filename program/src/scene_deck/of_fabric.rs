@@ -36,6 +36,10 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
     refuse_strength(&case.name, case.strength.is_some())?;
     let panel = case.cloth.model();
     check(case, &panel)?;
+    if case.sphere.aim != [0.0; 2] {
+        let [x, y] = case.sphere.aim;
+        return Err(Error::Input(format!("aim is [{x}, {y}] in case {}; allowed in a deck: none", case.name)));
+    }
     let clearance = case.cloth.clearance();
     if clearance <= 0.0 {
         let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";

@@ -6,6 +6,7 @@
 //! would have one in the middle, under the blow.
 
 use super::weibull::Weibull;
+use crate::common::chance::uniform;
 
 /// Which yarn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,18 +71,7 @@ impl Cells {
 
 /// A number between 0 and 1, neither of them.
 fn chance(seed: u64, Yarn { ply, family, number }: Yarn, cell: i64) -> f64 {
-    let mixed = [ply as u64, family as u64, number as u64, cell as u64]
-        .into_iter()
-        .fold(mix(seed), |state, word| mix(state ^ word));
-    ((mixed >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
-}
-
-/// One step of SplitMix64 (Steele, Lea and Flood 2014): every bit of the state moves every bit of the result.
-fn mix(state: u64) -> u64 {
-    let state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let state = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let state = (state ^ state >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    state ^ state >> 31
+    uniform(seed, [ply as u64, family as u64, number as u64, cell as u64])
 }
 
 #[cfg(test)]

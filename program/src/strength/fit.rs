@@ -196,8 +196,9 @@ fn falling_root(function: impl Fn(f64) -> f64, start: f64) -> Option<f64> {
 fn crossing(function: &dyn Fn(f64) -> f64, from: f64, step: f64) -> Option<f64> {
     let [mut near, mut far] = [from, from + step];
     while (far - from).abs() < FARTHEST {
-        // Beyond any bound it may be NaN.
-        if !(function(far) > 0.0) {
+        let value = function(far);
+        // Far beyond a bound it may be NaN.
+        if value <= 0.0 || value.is_nan() {
             return Some(root(function, near, far));
         }
         (near, far) = (far, far + 2.0 * (far - near));

@@ -9,5 +9,6 @@ pub mod plan;
 pub mod report;
 pub mod run;
 pub mod sample;
+pub mod shots;
 pub mod summary;
 pub mod zones;

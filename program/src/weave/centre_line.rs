@@ -40,7 +40,7 @@ impl CentreLines<'_> {
 
     /// The arc length of a yarn from the plane through the origin to a place along the weave, counted from there.
     pub fn arc(&self, yarn: i64, place: f64) -> f64 {
-        self.from_crossing(yarn, self.origin + place) - self.from_crossing(yarn, self.origin)
+        self.beyond_crossing(yarn, self.origin + place) - self.beyond_crossing(yarn, self.origin)
     }
 
     /// The arc lengths of a yarn's ends, where the outline cuts it: also of that part of a quarter's which is a mirror image.
@@ -49,7 +49,7 @@ impl CentreLines<'_> {
     }
 
     /// The same from the crossing with the yarn numbered 0.
-    fn from_crossing(&self, yarn: i64, place: f64) -> f64 {
+    fn beyond_crossing(&self, yarn: i64, place: f64) -> f64 {
         let halves = (place / self.half_pitch).floor();
         let beside = place - halves * self.half_pitch;
         let half = halves as i64;

@@ -80,6 +80,21 @@ impl Cloth {
         }
     }
 
+    /// The edges of the cell by which the ply that is struck repeats itself: along its warp and along its weft. The pattern of a mesh is
+    /// not known, and taken for plain.
+    pub fn cell(&self) -> [[f64; 2]; 2] {
+        match self {
+            Cloth::Woven(layup) => {
+                let woven = &layup.plies[0].woven;
+                let ([warps, wefts], [warp, weft]) =
+                    (woven.geometry.weave.pattern.repeat(), woven.geometry.weave.threads);
+                let turn = woven.panel.turn;
+                [turn.of([wefts as f64 * weft.pitch, 0.0]), turn.of([0.0, warps as f64 * warp.pitch])]
+            }
+            Cloth::Foreign(foreign) => [[2.0 * foreign.pitch[1], 0.0], [0.0, 2.0 * foreign.pitch[0]]],
+        }
+    }
+
     /// The largest pitch.
     pub fn pitch(&self) -> f64 {
         match self {

@@ -473,11 +473,12 @@ pub fn code_words(page: &str) -> BTreeSet<String> {
 #[test]
 fn the_guides_have_the_keys_that_the_program_reads() {
     const NONE: &str = "no-such-key = 1";
-    let rows: [(&str, &str, &[&str]); 7] = [
+    let rows: [(&str, &str, &[&str]); 8] = [
         ("run", "guides/load-paths.md", &["", "[material]", "[[point]]", "[[step]]", "[plot]"]),
         ("fit", "guides/identification.md", &["", "[yarn]", "[fibre]", "[[data]]", "[[strength]]"]),
         ("cell", "guides/cell.md", &["", "[fibre]", "[cell]", "[cell.box]", "[loads]", "[yarn]"]),
         ("impact", "guides/impact.md", &["", "[scene]", "[[case]]"]),
+        ("v50", "guides/v50.md", &["[shots]"]),
         ("fibres", "guides/fibres.md", &["", "[scene]", "[scene.fibre]", "[[case]]"]),
         ("weave", "guides/fabric.md", &["", "[weave]", "[weave.warp]", "[weave.weft]", "[weave.panel]", "[mesh]"]),
         ("fabric", "guides/fabric.md", &["", "[scene]", "[[case]]", "[scene.strength]", "[scene.strength.warp]"]),

@@ -35,5 +35,6 @@ mod one_element;
 mod parallel;
 mod presets;
 mod scene_decks;
+mod v50;
 mod weave;
 mod yarn_between_plates;

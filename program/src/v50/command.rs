@@ -1,0 +1,229 @@
+//! `toron v50`: from a scene with `[shots]` to the curve of perforation.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+use super::designs::Design;
+use super::link::Link;
+use super::records::Records;
+use super::run::{self, FiringRange};
+use super::scene::Scene;
+use super::series::Series;
+use super::simulation::{Experiment, Truth};
+use super::{limit, plot, report, shot};
+use crate::common::console::{print, print_error};
+use crate::common::error::Error;
+use crate::common::run_directory::RunDirectory;
+use crate::explicit::judgement::warnings;
+use crate::struck::shots::Shots;
+
+/// The tables of a series' shots, and of those of a limit.
+const SHOTS: &str = "shots.csv";
+const LIMIT: &str = "limit.csv";
+/// Where the true V50 is among the speeds of simulated experiments, and the true deviation over their range, if they are not given.
+const TRUTH: [f64; 2] = [0.5, 0.125];
+
+/// What a user asks for.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The scene of `toron fabric` or `toron impact`, with a table [shots] (see docs/guides/v50.md).
+    scene: PathBuf,
+    /// Where the tables and the picture go.
+    #[arg(short, long, default_value = "toron-out/v50")]
+    output: PathBuf,
+    /// The case to be shot at, where the scene has several.
+    #[arg(long)]
+    case: Option<String>,
+    /// Go on with the shots in that directory.
+    #[arg(long)]
+    restart: bool,
+    /// Fire these shots only, as in 1-40: the task of a job array, with a design that is not sequential.
+    #[arg(long, value_name = "FROM-TO", conflicts_with_all = ["collect", "limit", "simulate"])]
+    shots: Option<String>,
+    /// Fire none: join the shots of these directories.
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["restart", "limit", "simulate"])]
+    collect: Vec<PathBuf>,
+    /// Find the limit without scatter by bisection, and whether the answer around it is monotone.
+    #[arg(long, conflicts_with = "simulate")]
+    limit: bool,
+    /// Strike nothing: simulate so many experiments of each design, and print how often the intervals hold the truth.
+    #[arg(long, value_name = "EXPERIMENTS")]
+    simulate: Option<u64>,
+    /// The true V50 and deviation of simulated experiments; the middle of the speeds and an eighth of their range if not given.
+    #[arg(long, num_args = 2, value_names = ["V50", "DEVIATION"], requires = "simulate")]
+    truth: Option<Vec<f64>>,
+    /// Add the curves with Firth's correction, which have values where the fates do not mix.
+    #[arg(long)]
+    firth: bool,
+    /// Threads: as many shots are fired side by side, or one in all of them; all processors if not given.
+    #[arg(long)]
+    threads: Option<usize>,
+}
+
+/// Fires the shots of a scene and writes what came of them, or what else is asked for.
+///
+/// # Errors
+/// The input, a file that cannot be written, shots without a curve, or somebody has asked the program to end.
+pub fn run(arguments: &Arguments) -> Result<(), Error> {
+    let scene = Scene::read(&arguments.scene, arguments.case.as_deref())?;
+    if arguments.threads == Some(0) {
+        return Err(Error::Input("--threads is 0; allowed: 1 or more".to_string()));
+    }
+    if let Some(experiments) = arguments.simulate {
+        return simulate(&scene, experiments, arguments);
+    }
+    if !arguments.collect.is_empty() {
+        return collect(&scene, arguments);
+    }
+    let numbers = numbers(&scene, arguments.shots.as_deref())?;
+    let findings = shot::before(&scene)?;
+    let directory = RunDirectory::open(&arguments.output)?;
+    print_error(&warnings([(scene.target.name(), &findings[..])]));
+    let records = open(&scene, arguments, if arguments.limit { LIMIT } else { SHOTS })?;
+    print_error("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
+    let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
+    if arguments.limit {
+        return find_limit(&scene, threads, records, arguments);
+    }
+    let ended = records.shots.values().filter(|ended| run::stays(&scene, ended)).count();
+    let range = FiringRange::new(&scene, threads, numbers.clone().count().saturating_sub(ended))?;
+    let records = Mutex::new(records);
+    let done = run::series(&range, numbers, &records);
+    range.finish();
+    let records = records.into_inner().unwrap_or_else(PoisonError::into_inner);
+    evaluate(&scene, &records, &directory, arguments)?;
+    if done? { Ok(()) } else { Err(interrupted(arguments)) }
+}
+
+fn interrupted(arguments: &Arguments) -> Error {
+    let (scene, output) = (arguments.scene.display(), arguments.output.display());
+    let mut again = format!("toron v50 {scene} -o {output} --restart");
+    if arguments.limit {
+        again += " --limit";
+    }
+    for (option, value) in [("case", &arguments.case), ("shots", &arguments.shots)] {
+        again += &value.as_ref().map_or(String::new(), |value| format!(" --{option} {value}"));
+    }
+    Error::Evaluation(format!("interrupted; the run goes on with\n  {again}"))
+}
+
+/// The shots that are to be fired.
+fn numbers(scene: &Scene, part: Option<&str>) -> Result<RangeInclusive<usize>, Error> {
+    let last = scene.shots.number;
+    let Some(part) = part else { return Ok(1..=last) };
+    if scene.design().is_sequential() {
+        let message = format!(
+            "--shots is {part}, and design {} needs the fates of the shots before; allowed: design = \"even\", or no --shots",
+            scene.design().name()
+        );
+        return Err(Error::Input(message));
+    }
+    let ends = part.split_once('-').unwrap_or((part, part));
+    let [from, to] = [ends.0, ends.1].map(|end| end.trim().parse::<usize>().ok());
+    match (from, to) {
+        (Some(from), Some(to)) if 1 <= from && from <= to && to <= last => Ok(from..=to),
+        _ => Err(Error::Input(format!(
+            "--shots is {part}; allowed: FROM-TO, two whole numbers from 1 to number = {last}"
+        ))),
+    }
+}
+
+/// The table that the shots go to, with those that are there.
+fn open(scene: &Scene, arguments: &Arguments, name: &str) -> Result<Records, Error> {
+    let place = arguments.output.join(name);
+    let mut records = Records::new(scene, &place)?;
+    match (records.is_there()?, arguments.restart) {
+        (true, true) => {
+            let count = records.read(&place)?;
+            print_error(&format!("{count} shots stand in {}\n", place.display()));
+        }
+        (true, false) => {
+            let place = place.display();
+            let message = format!("{place} is there, of an earlier run; allowed: --restart, or another directory");
+            return Err(Error::Input(message));
+        }
+        (false, true) => {
+            let output = arguments.output.display();
+            let message = format!("no {name} in {output}; allowed: the directory of the run that was stopped");
+            return Err(Error::Input(message));
+        }
+        (false, false) => {}
+    }
+    records.open()?;
+    Ok(records)
+}
+
+/// Writes the figures and the picture, and prints the report.
+fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, arguments: &Arguments) -> Result<(), Error> {
+    let output = &arguments.output;
+    let series = Series::of(records, arguments.firth, scene.shots.spread);
+    for name in [report::FIGURES, "v50.svg", "v50.png"] {
+        directory.remove(name)?;
+    }
+    if !series.curves.is_empty() {
+        report::write_figures(&output.join(report::FIGURES), scene, &series)?;
+        plot::write(&output.join("v50.svg"), &output.join("v50.png"), scene, &series)?;
+    }
+    let missing = (1..=scene.shots.number).filter(|number| !records.shots.contains_key(number)).count();
+    print(&report::report(scene, &series, missing, output));
+    report::no_curve(scene, &series).filter(|_| missing == 0).map_or(Ok(()), Err)
+}
+
+fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
+    let directory = RunDirectory::open(&arguments.output)?;
+    let mut records = Records::new(scene, &arguments.output.join(SHOTS))?;
+    for part in &arguments.collect {
+        records.read(&part.join(SHOTS))?;
+    }
+    records.open()?;
+    evaluate(scene, &records, &directory, arguments)
+}
+
+fn find_limit(scene: &Scene, threads: usize, records: Records, arguments: &Arguments) -> Result<(), Error> {
+    let Shots { speeds: [low, high], tolerance, .. } = scene.shots;
+    let shots = limit::shots(high - low, tolerance);
+    let range = FiringRange::new(scene, threads, shots.saturating_sub(records.shots.len()))?;
+    let found = limit::find(&range, &Mutex::new(records));
+    range.finish();
+    let Some(found) = found? else { return Err(interrupted(arguments)) };
+    print(&report::limit(scene, &found));
+    print(&format!("The shots are in {}\n", arguments.output.join(LIMIT).display()));
+    Ok(())
+}
+
+/// Simulates experiments with the number, the range and the scatter of the scene's shots, by each design.
+fn simulate(scene: &Scene, experiments: u64, arguments: &Arguments) -> Result<(), Error> {
+    let Shots { speeds: [low, high], number, scatter, step, deviation, seed, .. } = scene.shots;
+    if experiments == 0 {
+        return Err(Error::Input("--simulate is 0; allowed: 1 or more, 1000 for two digits".to_string()));
+    }
+    let of_range = [low + TRUTH[0] * (high - low), TRUTH[1] * (high - low)];
+    let [v50, true_deviation] = match arguments.truth.as_deref() {
+        Some(&[v50, deviation]) => [v50, deviation],
+        _ => of_range,
+    };
+    if !(v50.is_finite() && true_deviation > 0.0 && true_deviation.is_finite()) {
+        let message = format!("--truth is {v50} {true_deviation}; allowed: a speed, and a finite deviation > 0");
+        return Err(Error::Input(message));
+    }
+    let designs = [Design::Even, Design::Langlie, Design::UpAndDown { step }, Design::DOptimal { deviation }];
+    let corrections: &[bool] = if arguments.firth { &[false, true] } else { &[false] };
+    let mut lines = Vec::new();
+    for design in designs {
+        for link in Link::BOTH {
+            for &firth in corrections {
+                let experiment = Experiment { design, shots: number, range: [low, high], scatter };
+                let truth = Truth { link, v50, deviation: true_deviation };
+                let found = experiment.coverage(&truth, firth, experiments, seed);
+                let curve = format!("{}{}", link.name(), if firth { ", Firth" } else { "" });
+                lines.push((design.name().to_string(), curve, found));
+            }
+        }
+    }
+    print(&format!(
+        "{experiments} simulated experiments of {number} shots, speeds {low} to {high}, scatter {scatter}, V50 {v50}, deviation {true_deviation}\n\n{}",
+        report::simulated(&lines)
+    ));
+    Ok(())
+}

@@ -1,0 +1,111 @@
+//! The likelihood of a curve: F(a + b x) at the speeds x, which are counted from their mean in their standard deviation.
+
+use super::curve::Fate;
+use super::link::Link;
+use super::search::maximum;
+
+/// Slopes b at which the curve is as good as level, and as good as a step.
+pub const SLOPES: [f64; 2] = [1e-6, 1e6];
+/// η at which a chance is as good as 1.
+const FAR: f64 = 40.0;
+/// A weight of so small a part of the largest one, as a logarithm, is nothing beside it.
+const NOTHING: f64 = -100.0;
+
+/// The shots, and what is sought.
+#[derive(Clone, Debug)]
+pub struct Likelihood {
+    link: Link,
+    firth: bool,
+    shots: Vec<Fate>,
+    mean: f64,
+    /// The deviation of the speeds.
+    pub scale: f64,
+}
+
+impl Likelihood {
+    /// Of these shots, whose speeds are not all the same.
+    pub fn new(fates: &[Fate], link: Link, firth: bool) -> Likelihood {
+        let n = fates.len() as f64;
+        let mean = fates.iter().map(|fate| fate.speed).sum::<f64>() / n;
+        let scale = (fates.iter().map(|fate| (fate.speed - mean).powi(2)).sum::<f64>() / n).sqrt();
+        let shots = fates.iter().map(|fate| Fate { speed: (fate.speed - mean) / scale, ..*fate }).collect();
+        Likelihood { link, firth, shots, mean, scale }
+    }
+
+    /// The speed at a place x.
+    pub fn speed(&self, x: f64) -> f64 {
+        self.mean + self.scale * x
+    }
+
+    /// The logarithm of the likelihood of a curve, without a penalty.
+    pub fn of_shots(&self, a: f64, b: f64) -> f64 {
+        let one =
+            |shot: &Fate| self.link.log_chance(if shot.through { a + b * shot.speed } else { -a - b * shot.speed });
+        self.shots.iter().map(one).sum()
+    }
+
+    /// With half of the logarithm of the information's determinant, where Firth's correction is made.
+    fn of(&self, a: f64, b: f64) -> f64 {
+        self.of_shots(a, b) + if self.firth { 0.5 * self.log_information(a, b) } else { 0.0 }
+    }
+
+    /// The logarithm of the determinant of Fisher's information on a and b: the sum of w_i w_j (x_i − x_j)² over all pairs.
+    fn log_information(&self, a: f64, b: f64) -> f64 {
+        let weights: Vec<f64> = self.shots.iter().map(|shot| self.link.log_information(a + b * shot.speed)).collect();
+        let (first, most) = largest(weights.iter().copied());
+        let x = self.shots[first].speed;
+        let others = |i: &usize| self.shots[*i].speed != x;
+        let (_, second) = largest((0..weights.len()).map(|i| if others(&i) { weights[i] } else { f64::NEG_INFINITY }));
+        let indices = 0..weights.len();
+        if second - most > NOTHING {
+            let shares: Vec<f64> = weights.iter().map(|weight| (weight - most).exp()).collect();
+            let sum: f64 = shares.iter().sum();
+            let centre = indices.clone().map(|i| shares[i] * self.shots[i].speed).sum::<f64>() / sum;
+            let spread: f64 = indices.map(|i| shares[i] * (self.shots[i].speed - centre).powi(2)).sum();
+            return 2.0 * most + (sum * spread).ln();
+        }
+        // The pairs without the speed of the largest weight are nothing beside those with it.
+        let own: f64 = indices.clone().filter(|i| !others(i)).map(|i| (weights[i] - most).exp()).sum();
+        let pairs: f64 =
+            indices.filter(others).map(|i| (weights[i] - second).exp() * (self.shots[i].speed - x).powi(2)).sum();
+        most + second + (own * pairs).ln()
+    }
+
+    /// The best offset a with a slope, and its likelihood.
+    pub fn with_slope(&self, b: f64) -> (f64, f64) {
+        let speeds = self.shots.iter().map(|shot| -b * shot.speed);
+        let (low, high) = speeds.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), a| (l.min(a), h.max(a)));
+        maximum(|a| self.of(a, b), [low - FAR, high + FAR])
+    }
+
+    /// The best slope, its offset and their likelihood.
+    pub fn best(&self) -> [f64; 3] {
+        let (log, _) = maximum(|log| self.with_slope(log.exp()).1, SLOPES.map(f64::ln));
+        let slope = log.exp();
+        let (offset, value) = self.with_slope(slope);
+        [offset, slope, value]
+    }
+
+    /// The largest likelihood of a curve that has this η at a place x.
+    pub fn through(&self, eta: f64, x: f64) -> f64 {
+        maximum(
+            |log| {
+                let b = log.exp();
+                self.of(eta - b * x, b)
+            },
+            SLOPES.map(f64::ln),
+        )
+        .1
+    }
+
+    /// The largest likelihood of a level curve whose η is at least, or at most, this: what is left where its place is far away.
+    pub fn level(&self, eta: f64, above: bool) -> f64 {
+        let bounds = if above { [eta, FAR] } else { [-FAR, eta] };
+        maximum(|a| self.of(a, SLOPES[0]), bounds).1
+    }
+}
+
+/// The largest value and its place.
+fn largest(values: impl Iterator<Item = f64>) -> (usize, f64) {
+    values.enumerate().fold((0, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
+}

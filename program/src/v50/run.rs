@@ -1,0 +1,186 @@
+//! Fires the shots of a series: side by side, one a core, or one after another where each needs the fates of those before it.
+
+use std::ops::RangeInclusive;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressDrawTarget};
+use rayon::ThreadPoolBuilder;
+
+use super::designs::Fired;
+use super::records::Records;
+use super::scene::{Scene, Shot};
+use super::shot::{Ended, Ending, Watch, fire};
+use crate::common::console::print_error;
+use crate::common::error::Error;
+use crate::common::interrupt::Interrupt;
+use crate::common::progress;
+use crate::common::units::{SPEED, number, unit};
+
+/// Ticks of the progress bar for each shot.
+const TICKS: u64 = 1000;
+/// Times closer than this part of themselves are the same.
+const ROUNDING: f64 = 1e-9;
+
+/// Shots on their way.
+pub struct FiringRange<'a> {
+    pub scene: &'a Scene,
+    pub threads: usize,
+    interrupt: Interrupt,
+    bar: ProgressBar,
+    begun: Instant,
+    /// How many shots have ended since, and how many there are.
+    ended: AtomicUsize,
+    all: usize,
+    /// How far each of those under way is, in ticks.
+    ticks: Mutex<Vec<(usize, u64)>>,
+}
+
+impl Watch for FiringRange<'_> {
+    fn progress(&self, shot: &Shot, fraction: f64) {
+        let now = (fraction.clamp(0.0, 1.0) * TICKS as f64) as u64;
+        let mut ticks = self.ticks.lock().unwrap_or_else(PoisonError::into_inner);
+        match ticks.iter_mut().find(|(number, _)| *number == shot.number) {
+            Some((_, before)) => {
+                self.bar.inc(now.saturating_sub(*before));
+                *before = now.max(*before);
+            }
+            None => {
+                self.bar.inc(now);
+                ticks.push((shot.number, now));
+            }
+        }
+    }
+
+    fn interrupts(&self) -> bool {
+        self.interrupt.is_asked()
+    }
+}
+
+impl<'a> FiringRange<'a> {
+    /// For so many shots.
+    ///
+    /// # Errors
+    /// Interrupts cannot be listened for.
+    pub fn new(scene: &'a Scene, threads: usize, all: usize) -> Result<FiringRange<'a>, Error> {
+        let interrupt = Interrupt::listen()?;
+        let template = "{msg} {wide_bar} {percent} %, {eta} left";
+        let bar = progress::bar(TICKS * all as u64, template, ProgressDrawTarget::stderr());
+        let (begun, ended, ticks) = (Instant::now(), AtomicUsize::new(0), Mutex::new(Vec::new()));
+        Ok(FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks })
+    }
+
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupt.is_asked()
+    }
+
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Fires shots side by side, each in one thread; their records are kept as they end.
+    ///
+    /// # Errors
+    /// A record cannot be written, or no thread be made.
+    pub fn fire_all(&self, shots: &[Shot], records: &Mutex<Records>) -> Result<(), Error> {
+        let next = AtomicUsize::new(0);
+        let work = || -> Result<(), Error> {
+            let pool = pool(1)?;
+            while let Some(shot) = shots.get(next.fetch_add(1, Ordering::Relaxed))
+                && !self.is_interrupted()
+            {
+                if let Some(ended) = pool.install(|| fire(self.scene, shot, self)) {
+                    self.keep(ended, records)?;
+                }
+            }
+            Ok(())
+        };
+        let workers = self.threads.min(shots.len());
+        let ends: Vec<Result<(), Error>> = std::thread::scope(|scope| {
+            let handles: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+            let panicked = || Err(Error::Evaluation("a shot's thread has ended by itself".to_string()));
+            handles.into_iter().map(|handle| handle.join().unwrap_or_else(|_| panicked())).collect()
+        });
+        ends.into_iter().collect()
+    }
+
+    /// Fires one shot in all threads; none where it was interrupted.
+    ///
+    /// # Errors
+    /// The record cannot be written, or no thread be made.
+    pub fn fire_one(&self, shot: &Shot, records: &Mutex<Records>) -> Result<Option<Ended>, Error> {
+        let ended = pool(self.threads)?.install(|| fire(self.scene, shot, self));
+        if let Some(ended) = ended.clone() {
+            self.keep(ended, records)?;
+        }
+        Ok(ended)
+    }
+
+    fn keep(&self, ended: Ended, records: &Mutex<Records>) -> Result<(), Error> {
+        self.progress(&ended.shot, 1.0);
+        let count = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
+        let seconds = self.begun.elapsed().as_secs_f64() / count as f64 * self.all.saturating_sub(count) as f64;
+        let speed = unit(&self.scene.units, SPEED);
+        let how = match &ended.ending {
+            Ending::Stopped => "stopped".to_string(),
+            Ending::Through => format!("through, {} {speed} left", number(ended.speed_at_end)),
+            Ending::Undecided => format!("undecided, {} {speed} left", number(ended.speed_at_end)),
+            Ending::Error(message) => format!("an error: {message}"),
+        };
+        let left = match self.all > count {
+            true => format!("; {count} of {}, about {:.0} min left", self.all, (seconds / 60.0).ceil()),
+            false => String::new(),
+        };
+        let line = format!("shot {} at {} {speed}: {how}{left}", ended.shot.number, number(ended.shot.speed));
+        if self.bar.is_hidden() {
+            print_error(&(line + "\n"));
+        } else {
+            self.bar.println(line);
+        }
+        records.lock().unwrap_or_else(PoisonError::into_inner).add(ended)
+    }
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, Error> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| Error::Evaluation(format!("no threads for a shot: {error}")))
+}
+
+/// Whether a shot stays as it ended: it was undecided no earlier than it would be now.
+pub fn stays(scene: &Scene, ended: &Ended) -> bool {
+    ended.ending != Ending::Undecided || ended.time >= scene.last() * (1.0 - ROUNDING)
+}
+
+/// The numbers of the shots that have to be fired.
+fn due(scene: &Scene, records: &Records, numbers: RangeInclusive<usize>) -> Vec<usize> {
+    numbers.filter(|number| !records.shots.get(number).is_some_and(|ended| stays(scene, ended))).collect()
+}
+
+/// Fires the shots of these numbers that have to be fired; whether none is left.
+///
+/// # Errors
+/// As for [`FiringRange::fire_all`].
+pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mutex<Records>) -> Result<bool, Error> {
+    let (scene, design) = (range.scene, range.scene.design());
+    let speeds = scene.shots.speeds;
+    if design.is_sequential() {
+        let mut before: Vec<Fired> = Vec::new();
+        for number in numbers {
+            let shot = scene.shot(number, design.speed(number, &before, speeds));
+            let known = {
+                let records = records.lock().unwrap_or_else(PoisonError::into_inner);
+                records.shots.get(&number).filter(|ended| ended.shot == shot && stays(scene, ended)).cloned()
+            };
+            let Some(ended) = known.map_or_else(|| range.fire_one(&shot, records), |known| Ok(Some(known)))? else {
+                return Ok(false);
+            };
+            before.extend(ended.fate().map(|fate| Fired { aimed: shot.aimed, fate }));
+        }
+        return Ok(true);
+    }
+    let due = due(scene, &records.lock().unwrap_or_else(PoisonError::into_inner), numbers);
+    let shots: Vec<Shot> = due.iter().map(|&number| scene.shot(number, design.speed(number, &[], speeds))).collect();
+    range.fire_all(&shots, records)?;
+    Ok(!range.is_interrupted())
+}

@@ -1,0 +1,139 @@
+//! One shot from its first step to its fate.
+
+use super::curve::Fate;
+use super::scene::{Scene, Shot, Target};
+use crate::common::error::Error;
+use crate::explicit::judgement::{Finding, verdict};
+use crate::fabric::run::StruckPanel;
+use crate::fabric::summary::Figures;
+use crate::impact::run::StruckYarn;
+use crate::struck::run::{self, End, Observer};
+use crate::struck::sample::Sample;
+use crate::{fabric, impact};
+
+/// How a shot ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    Stopped,
+    Through,
+    /// Neither when its time was over.
+    Undecided,
+    /// The run could not go on, for this reason.
+    Error(String),
+}
+
+/// A shot that has ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ended {
+    pub shot: Shot,
+    pub ending: Ending,
+    /// Of what struck, at the end: its residual speed where it went through.
+    pub speed_at_end: f64,
+    pub time: f64,
+    /// What is said of the run: that it is sound, or what is wrong with it.
+    pub verdict: String,
+    /// How long it took.
+    pub seconds: f64,
+}
+
+impl Ended {
+    /// The fate, if it is known.
+    pub fn fate(&self) -> Option<Fate> {
+        let through = match self.ending {
+            Ending::Stopped => false,
+            Ending::Through => true,
+            Ending::Undecided | Ending::Error(_) => return None,
+        };
+        Some(Fate { speed: self.shot.speed, through })
+    }
+
+    pub fn residual(&self) -> Option<f64> {
+        (self.ending == Ending::Through).then_some(self.speed_at_end)
+    }
+}
+
+/// Watches a shot: how far it is, and whether it is to end at once.
+pub trait Watch: Sync {
+    fn progress(&self, shot: &Shot, fraction: f64);
+    fn interrupts(&self) -> bool;
+}
+
+struct Watcher<'a> {
+    watch: &'a dyn Watch,
+    shot: &'a Shot,
+}
+
+impl<E> Observer<E> for Watcher<'_> {
+    fn progress(&mut self, fraction: f64, _: &Sample<E>, _: f64) {
+        self.watch.progress(self.shot, fraction);
+    }
+
+    fn interrupts(&self) -> bool {
+        self.watch.interrupts()
+    }
+}
+
+/// What is wrong with a scene before its first shot.
+///
+/// # Errors
+/// It cannot be shot at.
+pub fn before(scene: &Scene) -> Result<Vec<Finding>, Error> {
+    let middle = 0.5 * (scene.shots.speeds[0] + scene.shots.speeds[1]);
+    match scene.target.at(&scene.plain_shot(1, middle), scene.last()) {
+        Target::Panel(case) => {
+            let struck = StruckPanel::new(&case)?;
+            Ok(fabric::judgement::before(&scene.units, &case, &struck.panel))
+        }
+        Target::Yarn(case) => {
+            StruckYarn::new(&case)?;
+            Ok(impact::judgement::before(&scene.units, &case))
+        }
+    }
+}
+
+/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error has
+/// ended too.
+pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
+    let mut watcher = Watcher { watch, shot };
+    match strike(scene, shot, &mut watcher) {
+        Ok(ended) => ended,
+        Err(error) => {
+            let (verdict, ending) = ("-".to_string(), Ending::Error(error.to_string()));
+            Some(Ended { shot: *shot, ending, speed_at_end: shot.speed, time: 0.0, verdict, seconds: 0.0 })
+        }
+    }
+}
+
+fn strike(scene: &Scene, shot: &Shot, watcher: &mut Watcher) -> Result<Option<Ended>, Error> {
+    match scene.target.at(shot, scene.last()) {
+        Target::Panel(case) => {
+            let struck = StruckPanel::new(&case)?;
+            let outcome = run::run(&struck, None, watcher)?;
+            let figures = Figures::of(&scene.units, &case, &struck.panel, &outcome);
+            Ok(ended(shot, &outcome, &figures.findings))
+        }
+        Target::Yarn(case) => {
+            let struck = StruckYarn::new(&case)?;
+            let outcome = struck.outcome(run::run(&struck, None, watcher)?);
+            Ok(ended(shot, &outcome, &impact::judgement::judge(&scene.units, &case, &outcome)))
+        }
+    }
+}
+
+fn ended<E: Copy + Default, C>(shot: &Shot, outcome: &run::Outcome<E, C>, findings: &[Finding]) -> Option<Ended> {
+    let ending = match outcome.end {
+        End::Interrupted => return None,
+        End::Stopped | End::Rebounded => Ending::Stopped,
+        End::Left => Ending::Through,
+        End::Time => Ending::Undecided,
+        End::Failed => Ending::Error(outcome.failure.clone().unwrap_or_default()),
+    };
+    Some(Ended {
+        shot: *shot,
+        ending,
+        speed_at_end: outcome.last().speed,
+        time: outcome.last_time(),
+        verdict: verdict(findings),
+        seconds: outcome.wall.as_secs_f64(),
+    })
+}
