@@ -284,7 +284,7 @@ fn evaluate<
     let own = source.frame();
     if own.aligned && fibre.is_none() {
         let axes = MaterialAxes { axes: FirstAxis, frame: FibreFrame::first_axis(), usable: everywhere };
-        return point_in(source, &own, &f, &axes, limit, &state, tangent, sink);
+        return point_in(source, &own, Inputs { f: &f, limit, state: &state }, &axes, tangent, sink);
     }
     let (frame, usable) = match fibre {
         Some(direction) => FibreFrame::new(vector(direction)),
@@ -293,7 +293,8 @@ fn evaluate<
             (FibreFrame { m: vector(m), t1: vector(t1), t2: vector(t2) }, everywhere)
         }
     };
-    point_in(source, &own, &f, &MaterialAxes { axes: frame, frame, usable }, limit, &state, tangent, sink)
+    let axes = MaterialAxes { axes: frame, frame, usable };
+    point_in(source, &own, Inputs { f: &f, limit, state: &state }, &axes, tangent, sink)
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
@@ -428,6 +429,13 @@ struct MaterialAxes<A, R: Real> {
     usable: R::Mask,
 }
 
+/// What a point has besides its axes: F, by columns, a limit of its own, ln(1 + ε_lim), or 0, and the old state.
+struct Inputs<'a, T, R, O> {
+    f: &'a [[R; 3]; 3],
+    limit: T,
+    state: &'a O,
+}
+
 /// The law at one point.
 ///
 /// The law is prepared after the kinematics have begun: these are a long chain of dependent operations, and while the processor
@@ -445,10 +453,8 @@ fn point_in<
 >(
     source: L,
     own: &PropertyFrame<T>,
-    f: &[[R; 3]; 3],
+    Inputs { f, limit, state }: Inputs<'_, T, R, O>,
     &MaterialAxes { ref axes, ref frame, usable }: &MaterialAxes<A, R>,
-    limit: T,
-    state: &O,
     tangent: D,
     sink: S,
 ) -> Result<(), Error> {

@@ -69,10 +69,10 @@ pub fn line(units: &UnitSystem, case: &Case, result: &Outcome) -> Cells {
     line.add("case", &case.name);
     line.add("law", law(case));
     line.add("material", case.zones.names());
+    line.add("verdict", verdict(&judge(units, case, result)));
     let seed = case.strength.map(|strength| strength.field.seed.to_string());
     line.add("strength_seed", seed.as_deref().unwrap_or(NONE));
     line.add("strength_least", case.weakest(units, &result.mesh).as_deref().unwrap_or(NONE));
-    line.add("verdict", verdict(&judge(units, case, result)));
     line.add("elements", result.elements);
     line.quantity("speed", SPEED, case.speed);
     line.quantity("longitudinal_speed", SPEED, result.front_speed(length, |sample| sample.own.longitudinal));

@@ -22,10 +22,11 @@ impl Strength {
         self.field.cells(&self.laws[yarn.family], yarn, ends)
     }
 
-    /// For the report: `seed 1, cells of 5 mm, the weakest 3.9 %`.
+    /// For the report: `m = 12, seed 1, cells of 5 mm, the weakest 3.9 %`.
     fn text(&self, weakest: &str, units: &UnitSystem) -> String {
-        let Field { seed, cell } = self.field;
-        format!("seed {seed}, cells of {} {}, the weakest {weakest}", number(cell), unit(units, LENGTH))
+        let (Field { seed, cell }, [warp, weft]) = (self.field, self.laws.map(|law| law.modulus.to_string()));
+        let modulus = if warp == weft { warp } else { format!("{warp} and {weft}") };
+        format!("m = {modulus}, seed {seed}, cells of {cell} {}, the weakest {weakest}", unit(units, LENGTH))
     }
 }
 
@@ -55,5 +56,5 @@ pub fn report<'a>(
     let groups: Vec<String> = groups.iter().map(|(text, cases)| format!("{text} ({})", cases.join(", "))).collect();
     let mirrored =
         mirrored.map(|what| format!(". Of {what}, which symmetry leaves out, the strengths are mirror images"));
-    folded(&format!("Strength scatters: {}{}.", groups.join("; "), mirrored.unwrap_or_default()), width) + "\n"
+    folded(&format!("Strength by Weibull's law: {}{}.", groups.join("; "), mirrored.unwrap_or_default()), width) + "\n"
 }
