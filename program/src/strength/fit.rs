@@ -7,6 +7,7 @@
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::weibull::Weibull;
+use crate::common::root::root;
 
 /// The level of all intervals.
 pub const LEVEL: f64 = 0.95;
@@ -15,7 +16,6 @@ const LARGEST: f64 = 1e6;
 /// The logarithm of a scale is sought within so much of its estimate: beyond, there is no bound.
 const FARTHEST: f64 = 100.0;
 const ITERATIONS: usize = 100;
-const ACCURACY: f64 = 1e-12;
 
 /// A test of one yarn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -204,29 +204,6 @@ fn crossing(function: &dyn Fn(f64) -> f64, from: f64, step: f64) -> Option<f64> 
         (near, far) = (far, far + 2.0 * (far - near));
     }
     None
-}
-
-/// The root between two places where the signs differ: regula falsi with the step of Illinois, or a bisection where that is no number.
-fn root(function: &(impl Fn(f64) -> f64 + ?Sized), near: f64, far: f64) -> f64 {
-    let [mut a, mut b] = [near, far].map(|place| (place, function(place)));
-    for _ in 0..ITERATIONS {
-        let middle = 0.5 * (a.0 + b.0);
-        let secant = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
-        let place = if secant.is_finite() { secant } else { middle };
-        let value = function(place);
-        if value == 0.0 || (place - b.0).abs() < ACCURACY * (1.0 + place.abs()) {
-            return place;
-        }
-        // What is no number lies on the far side.
-        if (value > 0.0) == (b.1 > 0.0) {
-            b = (place, value);
-            a.1 *= 0.5;
-        } else {
-            a = b;
-            b = (place, value);
-        }
-    }
-    b.0
 }
 
 #[cfg(test)]

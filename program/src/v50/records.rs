@@ -206,3 +206,62 @@ fn same(one: &Ended, other: &Ended) -> bool {
         && one.speed_at_end == other.speed_at_end
         && one.time == other.time
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(seed: u32) -> Scene {
+        let text = format!(
+            "units = \"mm-g-ms\"\n[scene]\nspeed = 100.0\nhalf-length = 2.0\nheight = 0.115\nwidth = 0.5337\nlayers = 20\n\
+             rows = 2\ncolumns = 4\nmass = 0.01\nradius = 1.0\ncontact-stiffness = 1e5\nend = 0.2\n\
+             [shots]\nnumber = 6\nspeeds = [20.0, 300.0]\nseed = {seed}\n"
+        );
+        Scene::parse("yarn.toml", &text, None).expect("a scene")
+    }
+
+    fn ended(number: usize, ending: Ending) -> Ended {
+        let shot = Shot { number, aimed: 100.0, speed: 100.0 / 3.0, aim: [0.1, -1e-7], seed: Some(7) };
+        Ended { shot, ending, speed_at_end: 1.0 / 3.0, time: 0.1, verdict: "mesh; contact".to_string(), seconds: 1.25 }
+    }
+
+    /// What is written is read again to the bit; a line that is not whole is no shot, and one of a number takes the place of another.
+    #[test]
+    fn shots_are_read_as_they_were_written() {
+        let folder = std::env::temp_dir().join(format!("toron-shots-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let place = folder.join("shots.csv");
+        let scene = scene(1);
+        let mut records = Records::new(&scene, &place).expect("a table");
+        records.open().expect("it is written");
+        let message = "case a: \"x\", 2 of 3\nand more";
+        let endings = [Ending::Through, Ending::Stopped, Ending::Undecided, Ending::Error(message.to_string())];
+        for (number, ending) in (1..).zip(endings) {
+            records.add(ended(number, ending)).expect("it is written");
+        }
+        records.add(ended(3, Ending::Stopped)).expect("it is written");
+        let text = std::fs::read_to_string(&place).expect("a table");
+        assert_eq!(text.lines().count(), 5, "{text}");
+        std::fs::write(&place, format!("{text}5,100")).expect("it is written");
+
+        let mut again = Records::new(&scene, &place).expect("a table");
+        assert_eq!(again.read(&place).expect("the shots"), 4);
+        let error = ended(4, Ending::Error(message.replace('\n', " ")));
+        assert_eq!(again.shots.remove(&4), Some(error.clone()));
+        assert_eq!(records.shots.remove(&4).map(|ended| ended.shot), Some(error.shot));
+        assert_eq!(again.shots, records.shots);
+
+        let refused = |change: &dyn Fn(&str) -> String, scene: &Scene| {
+            std::fs::write(&place, change(&text)).expect("it is written");
+            let mut records = Records::new(scene, &place).expect("a table");
+            records.shots.insert(1, ended(1, Ending::Through));
+            records.read(&place).expect_err("a change").to_string()
+        };
+        let same = |text: &str| text.to_string();
+        assert!(refused(&same, &self::scene(2)).contains("shots.csv:2: a shot of another scene"));
+        assert!(refused(&|text| text.replace("0.1,-", "0.2,-"), &scene).contains("another shot 1 than the one before"));
+        assert!(refused(&|text| text.replace("through", "over"), &scene).contains("a line that is of no shot"));
+        assert!(refused(&|text| text.replace("mm/ms", "m/s"), &scene).contains("columns are not those"));
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+}

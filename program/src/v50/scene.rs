@@ -234,3 +234,78 @@ impl Target {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A panel with these keys in [weave.panel] and in [shots], and this Weibull modulus.
+    fn panel(part: &str, shots: &str, modulus: f64) -> Result<Scene, String> {
+        let text = format!(
+            "units = \"mm-g-ms\"\n[weave]\npreset = \"kevlar-s706\"\nalong = 4\ncolumns = 4\n\
+             [weave.panel]\nshape = \"rectangle\"\nhalf = [3.0, 3.0]\npart = \"{part}\"\n\
+             [scene]\nspeed = 100.0\nmass = 0.02\nradius = 1.0\ncontact-stiffness = 1e5\nend = 1.0\nfailure = \"uniaxial\"\n\
+             [scene.strength]\nweibull-modulus = {modulus}\nstrain = 0.0458\nreference-length = 50.0\ncell = 1.0\n\
+             [shots]\nnumber = 10\nspeeds = [80.0, 120.0]\n{shots}\n"
+        );
+        Scene::parse("shots.toml", &text, None).map_err(|error| error.to_string())
+    }
+
+    /// A shot's chances follow from the seed and its number, whatever scatters otherwise; they fill the cell, and have the deviation.
+    #[test]
+    fn a_shot_is_what_its_number_says() {
+        let scene = panel("whole", "scatter = 2.0\naim = \"cell\"", 10.0).expect("a scene");
+        let shots: Vec<Shot> = (1..=2000).map(|number| scene.shot(number, 100.0)).collect();
+        assert_eq!(shots[6], scene.shot(7, 100.0));
+        let other = panel("whole", "scatter = 2.0\naim = \"cell\"", 20.0).expect("a scene");
+        assert_eq!(other.shot(7, 100.0), shots[6]);
+        assert_ne!(other.identity(), scene.identity());
+        let seeded = panel("whole", "scatter = 2.0\naim = \"cell\"\nseed = 2", 10.0).expect("a scene");
+        assert!(seeded.shot(7, 100.0).seed != shots[6].seed && seeded.shot(7, 100.0).aim != shots[6].aim);
+
+        // The repeat of the plain weave: two pitches each way.
+        let half = 25.4 / 34.0;
+        for axis in 0..2 {
+            let places = || shots.iter().map(|shot| shot.aim[axis] / half);
+            assert!(places().all(|place| place.abs() < 1.0));
+            let mean: f64 = places().sum::<f64>() / 2000.0;
+            let square: f64 = places().map(|place| place * place).sum::<f64>() / 2000.0;
+            assert!(mean.abs() < 0.05 && (square - 1.0 / 3.0).abs() < 0.03, "{mean} {square}");
+        }
+        let off = |shot: &Shot| shot.speed - 100.0;
+        let variance: f64 = shots.iter().map(|shot| off(shot).powi(2)).sum::<f64>() / 2000.0;
+        assert!((variance.sqrt() - 2.0).abs() < 0.15 && shots.iter().map(off).sum::<f64>().abs() < 400.0, "{variance}");
+        let mut seeds: Vec<_> = shots.iter().map(|shot| shot.seed).collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 2000);
+
+        // What is struck is that.
+        let Target::Panel(case) = scene.target.at(&shots[6], 3.0) else { panic!("a panel") };
+        let seed = case.strength.map(|strength| strength.field.seed);
+        assert_eq!(
+            (case.speed, case.sphere.aim, seed, case.plan.end),
+            (shots[6].speed, shots[6].aim, shots[6].seed, 3.0)
+        );
+        // Without scatter it is the scene's own.
+        let plain = panel("quarter", "", 10.0).expect("a scene");
+        assert_eq!((plain.shot(3, 90.0).speed, plain.shot(3, 90.0).aim), (90.0, [0.0; 2]));
+        assert_eq!(plain.plain_shot(1, 90.0).seed, Some(1));
+    }
+
+    #[test]
+    fn scenes_that_cannot_be_shot_at_are_refused() {
+        for (part, shots, message) in [
+            ("quarter", "aim = \"cell\"", "aim is \"cell\" of a quarter"),
+            ("whole", "extension = 0.5", "extension is 0.5; allowed: 1 to 100"),
+            ("whole", "seed = -1", "seed is -1; allowed: a whole number >= 0"),
+            ("whole", "scatter = -1.0", "scatter is -1; allowed: a finite number >= 0"),
+            ("whole", "deviation = 3.0", "deviation is 3; allowed: with design = \"d-optimal\""),
+            ("whole", "design = \"up-and-down\"\nstep = 0.0", "step is 0; allowed: a finite number > 0"),
+            ("whole", "[[case]]\nname = \"a\"\n[[case]]\nname = \"b\"\nspeed = 90.0", "--case with one of a, b"),
+        ] {
+            let error = panel(part, shots, 10.0).map(|_| ()).expect_err(message);
+            assert!(error.contains(message), "{message}: {error}");
+        }
+    }
+}

@@ -1,12 +1,11 @@
 //! One-dimensional searches: the largest value of a function, and where a rising one passes a level.
 
+use crate::common::root::root;
+
 /// The golden section, after which a bracket has that part of its length.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// A bracket of so little of what it began with is a point: a function is flat there, as far as its digits go.
 const NARROW: f64 = 1e-9;
-/// Steps within a bracket, which are rarely more than ten; and how near the level is the level itself.
-const STEPS: usize = 60;
-const NEAR: f64 = 1e-10;
 /// Steps outwards, each twice the one before: what is farther is as good as without end.
 const DOUBLINGS: usize = 14;
 
@@ -36,40 +35,18 @@ pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f
 }
 
 /// Where a function that rises away from `start` passes `level`, sought outwards from a step of `first` on; none where it does not.
-pub fn crossing(mut of: impl FnMut(f64) -> f64, start: f64, first: f64, level: f64) -> Option<f64> {
-    let mut above = |place: f64| of(place) - level;
+pub fn crossing(of: impl Fn(f64) -> f64, start: f64, first: f64, level: f64) -> Option<f64> {
+    let above = |place: f64| of(place) - level;
     let mut step = first;
-    let mut inside = (start, above(start));
-    let mut outside = (start + step, above(start + step));
+    let mut inside = start;
     for _ in 0..DOUBLINGS {
-        if outside.1 > 0.0 {
-            break;
+        let outside = start + step;
+        if above(outside) > 0.0 {
+            return Some(root(&above, inside, outside));
         }
-        step *= 2.0;
-        inside = outside;
-        outside = (start + step, above(start + step));
+        (inside, step) = (outside, 2.0 * step);
     }
-    if outside.1 <= 0.0 {
-        return None;
-    }
-    // The secant of the two ends, of which one that stays counts half (the Illinois rule).
-    let mut stayed = None;
-    for _ in 0..STEPS {
-        let secant = (inside.0 * outside.1 - outside.0 * inside.1) / (outside.1 - inside.1);
-        let place = if secant.is_finite() { secant } else { 0.5 * (inside.0 + outside.0) };
-        let found = (place, above(place));
-        if found.1.abs() < NEAR {
-            return Some(place);
-        }
-        let is_inside = found.1 < 0.0;
-        let (moving, staying) = if is_inside { (&mut inside, &mut outside) } else { (&mut outside, &mut inside) };
-        *moving = found;
-        if stayed == Some(!is_inside) {
-            staying.1 *= 0.5;
-        }
-        stayed = Some(!is_inside);
-    }
-    Some(0.5 * (inside.0 + outside.0))
+    None
 }
 
 #[cfg(test)]
