@@ -121,6 +121,7 @@ impl Reader<'_> {
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
+        let pressed_at_rest = cloth.coarse_radius().is_none();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         Ok(Case {
@@ -141,6 +142,8 @@ impl Reader<'_> {
                 friction: self.source.zero_or_more("yarn-friction", &file.yarn_friction, of_yarns)?,
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
+                // The chords of a coarse mesh go into each other where the yarns that they stand for touch.
+                pressed_at_rest,
             },
             control: Control { by_direction: true, ..self.control()? },
             plan,

@@ -5,6 +5,7 @@
 //! weft yarns along y, z goes through the thickness.
 
 pub mod cloth;
+pub mod coarse;
 pub mod command;
 pub mod cut;
 pub mod distance;
