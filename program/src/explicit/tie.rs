@@ -48,3 +48,27 @@ pub fn masses_of_springs(ties: &[Tie], masses: &[f64], springs: &[f64]) -> Vec<f
     };
     masses.iter().zip(springs).zip(&carried).map(of_node).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_handed_over_is_kept() {
+        let ties = [
+            Tie { node: 4, corners: [0, 1, 2, 3], shares: [0.25; 4] },
+            Tie { node: 5, corners: [0, 1, 2, 3], shares: [0.0, 0.5, 0.0, 0.5] },
+        ];
+        let mut masses = [1.0, 2.0, 3.0, 4.0, 0.4, 0.8];
+        hand_over(&ties, &mut masses);
+        assert_eq!(masses, [1.1, 2.5, 3.1, 4.5, 0.0, 0.0]);
+        // No node has a higher frequency than all springs together give a corner.
+        let springs = [1.0, 1.0, 0.0, 1.0, 2.0, 0.0];
+        let found = masses_of_springs(&ties, &masses, &springs);
+        let expected = [1.1 / 1.5, 2.5 / 1.5, 3.1, 4.5 / 1.5, f64::INFINITY, 0.0];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!(found == expected || (found - expected).abs() < 1e-15, "{found} {expected}");
+        }
+        assert_eq!(ties[1].rests_on().collect::<Vec<_>>(), [1, 3]);
+    }
+}

@@ -136,6 +136,8 @@ pub struct PanelFile {
     pub centre: Option<Centre>,
     #[serde(rename = "coarse-radius")]
     pub coarse_radius: Option<Spanned<f64>>,
+    #[serde(rename = "coarse-rows")]
+    pub coarse_rows: Option<Spanned<i64>>,
 }
 
 impl PanelFile {
@@ -150,6 +152,7 @@ impl PanelFile {
             part: own.part.or(base.part),
             centre: own.centre.or(base.centre),
             coarse_radius: own.coarse_radius.or(base.coarse_radius),
+            coarse_rows: own.coarse_rows.or(base.coarse_rows),
         }
     }
 }

@@ -49,7 +49,7 @@ impl Model {
         };
         let mut section = 0;
         for span in &spans {
-            let [columns, rows] = span.section(weave);
+            let [columns, rows] = span.section;
             let columns = lines(place, columns).len() - 1;
             let grid = Grid { layers: span.layers(), columns, rows };
             let piece = Piece {
@@ -65,8 +65,9 @@ impl Model {
         for (before, pair) in spans.windows(2).enumerate() {
             let [from, to] = [yarn.pieces[before], yarn.pieces[before + 1]];
             let ends = [from.first_node + from.grid.section(from.grid.layers).start, to.first_node];
-            let [fine, coarse] = if pair[0].is_coarse { [ends[1], ends[0]] } else { ends };
-            yarn.ties.extend(coarse::ties(weave, place, [fine, coarse]));
+            let [before, behind] = [(pair[0].section, ends[0]), (pair[1].section, ends[1])];
+            let [fine, coarse] = if pair[0].is_coarse { [behind, before] } else { [before, behind] };
+            yarn.ties.extend(coarse::ties(place, fine, coarse));
         }
         self.settle(&yarn.ties, starts[0]);
         (yarn.nodes.end, yarn.elements.end, yarn.faces.end) = (self.nodes.len(), self.elements.len(), self.faces.len());
@@ -92,9 +93,9 @@ impl Model {
         Piece { grid, .. }: Piece,
     ) {
         let (weave, family) = (&geometry.weave, place.family);
-        let [of_section, rows] = span.section(weave);
+        let [of_section, rows] = span.section;
         let (lines, first_node) = (lines(place, of_section), self.nodes.len());
-        let coarse = span.is_coarse.then(|| Columns::new(weave.thread(family), coarse::COLUMNS));
+        let coarse = span.is_coarse.then(|| Columns::new(weave.thread(family), of_section));
         let columns = coarse.as_ref().unwrap_or(geometry.columns(family));
         for (number, &station) in span.stations.iter().enumerate() {
             let upright = if span.is_coarse {

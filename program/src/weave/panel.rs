@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::coarse::Coarse;
 use super::geometry::{Family, Weave};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,8 +40,8 @@ pub struct Panel {
     pub centre: Centre,
     /// By which the weave, not the outline, is turned about z: from x to y.
     pub turn: Turn,
-    /// Beyond this distance from the centre the mesh is coarse; nowhere without.
-    pub coarse_radius: Option<f64>,
+    /// Where the mesh is coarse, beyond a distance from the centre; nowhere without.
+    pub coarse: Option<Coarse>,
 }
 
 /// A turn about z.

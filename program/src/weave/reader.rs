@@ -6,6 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::cloth::Cloth;
+use super::coarse::{Coarse, ROWS as COARSE_ROWS};
 use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::layup::{Laid, Layup};
@@ -43,9 +44,8 @@ impl Woven {
 
     pub fn elements(&self) -> usize {
         let weave = &self.geometry.weave;
-        let of_yarn = |place: &Place| -> usize {
-            self.panel.spans(weave, place).iter().map(|span| span.elements(weave, place)).sum()
-        };
+        let of_yarn =
+            |place: &Place| -> usize { self.panel.spans(weave, place).iter().map(|span| span.elements(place)).sum() };
         self.places.iter().map(of_yarn).sum()
     }
 }
@@ -142,8 +142,9 @@ impl Source<'_> {
     /// All plies have one outline.
     fn check_panel_of_ply(&self, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
         let Some(file) = panel else { return Ok(()) };
-        let PanelFile { shape, radius, half, part, coarse_radius, centre: _ } = file.get_ref();
-        if shape.is_none() && radius.is_none() && half.is_none() && part.is_none() && coarse_radius.is_none() {
+        let PanelFile { shape, radius, half, part, coarse_radius, coarse_rows, centre: _ } = file.get_ref();
+        let own = [radius.is_some(), half.is_some(), part.is_some(), coarse_radius.is_some(), coarse_rows.is_some()];
+        if shape.is_none() && own == [false; 5] {
             return Ok(());
         }
         let message =
@@ -299,16 +300,17 @@ impl Source<'_> {
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
-        let coarse_radius = file.coarse_radius.as_ref();
-        let coarse_radius =
-            coarse_radius.map(|radius| self.positive("coarse-radius", *radius.get_ref(), radius.span()));
-        Ok(Panel {
-            outline,
-            part,
-            centre: file.centre.unwrap_or_default(),
-            turn: Turn::NONE,
-            coarse_radius: coarse_radius.transpose()?,
-        })
+        let coarse = match (&file.coarse_radius, &file.coarse_rows) {
+            (Some(radius), rows) => Some(Coarse {
+                radius: self.positive("coarse-radius", *radius.get_ref(), radius.span())?,
+                rows: self.number("coarse-rows", rows, [1, COARSE_ROWS], COARSE_ROWS)?,
+            }),
+            (None, Some(rows)) => {
+                return Err(self.error(rows.span(), "coarse-rows without coarse-radius; allowed: beside it"));
+            }
+            (None, None) => None,
+        };
+        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE, coarse })
     }
 
     /// A whole number in this range, or the default.

@@ -36,7 +36,7 @@ fn patterns() -> [Pattern; 3] {
 }
 
 fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
-    Panel { outline, part, centre, turn: Turn::NONE, coarse_radius: None }
+    Panel { outline, part, centre, turn: Turn::NONE, coarse: None }
 }
 
 /// A panel of some crossings of each kind.
