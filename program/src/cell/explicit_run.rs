@@ -224,8 +224,13 @@ impl Struck for Section<'_> {
             bodies.push(body);
         }
         let mut solver = Solver::new(bodies, media);
-        let parameters =
-            Parameters { stiffness: STIFFNESS, friction: scene.friction, margin: MARGIN, deepest: DEEPEST };
+        let parameters = Parameters {
+            stiffness: STIFFNESS,
+            friction: scene.friction,
+            margin: MARGIN,
+            deepest: DEEPEST,
+            pressed_at_rest: true,
+        };
         solver.mutual = Some(MutualContact::new(parameters, surfaces));
         solver.longest = CONTACT_STEP * lightest.sqrt();
         solver.ramp = Some(self.ramp);

@@ -7,6 +7,7 @@ use super::block::{BLOCK, ElementBlock, Scratch, StepOptions, Sums};
 use super::lanes::{Number, largest};
 use super::medium::Medium;
 use super::mesh::Mesh;
+use super::tie::{self, Tie};
 
 /// The boundary condition of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +29,8 @@ pub struct Body<T> {
     mobility: Vec<[T; 3]>,
     pub mass: Vec<f64>,
     supports: Vec<(usize, Support)>,
+    /// Nodes that move with others.
+    pub ties: Vec<Tie>,
     /// Of the last step.
     pub sums: Sums,
 }
@@ -70,6 +73,7 @@ impl<T: Number> Body<T> {
             mobility: Vec::new(),
             mass: vec![0.0; count],
             supports: Vec::new(),
+            ties: Vec::new(),
             sums: Sums::default(),
             mesh,
         };
@@ -111,6 +115,15 @@ impl<T: Number> Body<T> {
             }
         }
         self.mobility = self.mass.iter().map(|mass| [T::from_f64(1.0 / mass); 3]).collect();
+    }
+
+    /// Ties nodes to others, before any support.
+    pub fn tie(&mut self, ties: Vec<Tie>) {
+        tie::hand_over(&ties, &mut self.mass);
+        for (mobility, &mass) in self.mobility.iter_mut().zip(&self.mass) {
+            *mobility = [if mass > 0.0 { T::from_f64(1.0 / mass) } else { T::default() }; 3];
+        }
+        self.ties = ties;
     }
 
     /// # Errors
@@ -201,6 +214,14 @@ impl<T: Number> Body<T> {
     pub fn update_velocities(&mut self, interval: f64, measured: bool) -> f64 {
         let dt = T::from_f64(interval);
         let mut kinetic = 0.0;
+        for tie in &self.ties {
+            let force = std::mem::take(&mut self.forces[tie.node as usize]);
+            for (corner, share) in tie.parts() {
+                for i in 0..3 {
+                    self.forces[corner][i] += T::from_f64(share) * force[i];
+                }
+            }
+        }
         for (((v, f), mobility), &mass) in
             self.state.velocity.iter_mut().zip(&self.forces).zip(&self.mobility).zip(&self.mass)
         {
@@ -212,6 +233,15 @@ impl<T: Number> Body<T> {
                 // What central differences conserve is the product of the velocities before and after.
                 kinetic += 0.5 * mass * (0..3).map(|i| old[i].into() * v[i].into()).sum::<f64>();
             }
+        }
+        for tie in &self.ties {
+            let mut velocity = [T::default(); 3];
+            for (corner, share) in tie.parts() {
+                for i in 0..3 {
+                    velocity[i] += T::from_f64(share) * self.state.velocity[corner][i];
+                }
+            }
+            self.state.velocity[tie.node as usize] = velocity;
         }
         kinetic
     }

@@ -26,6 +26,7 @@ pub mod snapshot;
 pub mod solid;
 pub mod solver;
 pub mod stress;
+pub mod tie;
 pub mod vector;
 pub mod viscosity;
 pub mod vtu;

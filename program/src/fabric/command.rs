@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::fate::Fate;
 use super::judgement::before;
 use super::measure::OfPanel;
 use super::reader::PICTURES;
@@ -31,7 +32,7 @@ impl command::Scene for Scene {
     const PARALLEL: bool = false;
 
     type Own = OfPanel;
-    type Course = ();
+    type Course = Fate;
     type Struck<'a> = StruckPanel<'a>;
     type Result<'a> = (&'a Case, Outcome, Figures);
 

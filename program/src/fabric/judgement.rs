@@ -242,7 +242,7 @@ mod tests {
             history: Vec::new(),
             snapshots: Vec::new(),
             end: End::Time,
-            course: (),
+            course: Default::default(),
             failed: None,
             failure: None,
             elements: 1,

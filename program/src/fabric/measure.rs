@@ -9,7 +9,7 @@ use crate::explicit::hexahedron::{Edges, solid_corners};
 use crate::explicit::lanes::{Number, largest, smallest};
 use crate::explicit::solver::Solver;
 use crate::struck;
-use crate::weave::model::{Grid, Model, Yarn};
+use crate::weave::model::{Grid, Model, Piece, Yarn};
 use crate::weave::torn;
 
 /// What a sample of a panel has besides the quantities of all scenes.
@@ -80,17 +80,16 @@ impl OfPanel {
                 now.least_scaled_jacobian(solid_corners(&body.mesh.elements[i])),
             );
         }
-        if let Some(grid) = &yarn.grid {
-            sample.measure_sections(yarn, grid, body);
-        }
+        yarn.pieces.iter().for_each(|piece| sample.measure_sections(yarn, piece, body));
         sample
     }
 
     /// Of the sections whose elements are all there.
-    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, grid: &Grid, body: &Body<T>) {
-        let whole_at = |layer: usize| grid.layer(layer).all(|element| body.is_intact(element));
-        let at_rest = Sections::of(grid, |node| Vector3::from(body.mesh.nodes[node]));
-        let now = Sections::of(grid, |node| Vector3::from(body.position(node)));
+    fn measure_sections<T: Number>(&mut self, yarn: &Yarn, piece: &Piece, body: &Body<T>) {
+        let Piece { grid, first_node, first_element, .. } = piece;
+        let whole_at = |layer: usize| grid.layer(layer).all(|element| body.is_intact(first_element + element));
+        let at_rest = Sections::of(grid, |node| Vector3::from(body.mesh.nodes[first_node + node]));
+        let now = Sections::of(grid, |node| Vector3::from(body.position(first_node + node)));
         for section in 0..=grid.layers {
             if (section.saturating_sub(1)..(section + 1).min(grid.layers)).all(whole_at) {
                 let at_rest = at_rest.tilt_and_slip(section, yarn.halved);

@@ -2,7 +2,10 @@
 //! [`explicit`](crate::explicit). `docs/guides/fabric.md` has the keys of a scene.
 
 pub mod command;
+pub mod fate;
 pub mod file;
+#[cfg(test)]
+mod joint_tests;
 pub mod judgement;
 pub mod measure;
 pub mod model;

@@ -14,6 +14,7 @@ use crate::explicit::mesh::Mesh;
 use crate::explicit::mutual_contact::{MutualContact, Surface};
 use crate::explicit::projectile::Projectile;
 use crate::explicit::solver::Solver;
+use crate::explicit::tie::masses_of_springs;
 use crate::material::model::Material;
 use crate::weave::model::{LOWER, Model, UPPER, Yarn};
 use crate::weave::panel::Part;
@@ -25,6 +26,7 @@ use crate::weave::panel::Part;
 pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
     media::<f64>(case)?;
     start(case, panel)?;
+    check_coarse_radius(case)?;
     let Zones::Two(_, radius) = case.zones else { return Ok(()) };
     let outside = |element: &&[u32; 8]| zone(&case.zones, element.map(|node| panel.nodes[node as usize])) > 0;
     let outside = panel.elements.iter().filter(outside).count();
@@ -34,6 +36,18 @@ pub fn check(case: &Case, panel: &Model) -> Result<(), Error> {
         return Err(Error::Input(format!("{message}; allowed: one inside the panel, or that law alone")));
     }
     Ok(())
+}
+
+/// Refuses what strikes where the mesh is coarse.
+fn check_coarse_radius(case: &Case) -> Result<(), Error> {
+    let (Some(coarse), radius) = (case.cloth.coarse_radius(), case.sphere.radius) else { return Ok(()) };
+    if coarse > radius {
+        return Ok(());
+    }
+    let [coarse, radius] = [coarse, radius].map(number);
+    let name = case.sphere.shape.name();
+    let message = format!("coarse-radius is {coarse} in case {}, where the {name} strikes", case.name);
+    Err(Error::Input(format!("{message}; allowed: more than the {name}'s radius, {radius}")))
 }
 
 /// The media of a case's zones.
@@ -67,7 +81,8 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         let faces = &panel.faces[yarn.faces.clone()];
         let local = faces.iter().map(|face| face.nodes.map(|node| node - yarn.nodes.start as u32)).collect();
         let elements = faces.iter().map(|face| face.element - yarn.elements.start as u32).collect();
-        let surface = Surface::new(&mesh, local, elements);
+        let mut surface = Surface::new(&mesh, local, elements);
+        surface.join(&yarn.ties);
         mesh.surface = struck_surface(&mesh, &surface.area);
         let corners = |element: &[u32; 8]| element.map(|node| mesh.nodes[node as usize]);
         let own = case.own_material(yarn.ply, yarn.family);
@@ -77,7 +92,9 @@ pub fn solver<T: Number>(case: &Case, panel: &Model) -> Result<Solver<T>, Error>
         if let Some(limits) = strength.as_ref().and_then(|strength| strength.limits(panel, yarn)) {
             body.limit(&limits);
         }
-        contacts.push(Contact::new(case.sphere, &body.mesh.surface, &body.mass));
+        body.tie(yarn.ties.clone());
+        let masses = masses_of_springs(&yarn.ties, &body.mass, &body.mesh.surface);
+        contacts.push(Contact::new(case.sphere, &body.mesh.surface, &masses));
         surfaces.push(surface);
         bodies.push(body);
     }

@@ -124,6 +124,7 @@ impl Reader<'_> {
         let plan = self.plan(&name, SAMPLES)?;
         let stiffness = self.positive("contact-stiffness", &keys.contact_stiffness)?;
         let [_, height] = cloth.yarn_heights();
+        let pressed_at_rest = cloth.coarse_radius().is_none();
         let [friction, of_yarns] = FRICTION;
         let zones = self.zones(|| self.positive("hyperelastic-radius", &file.hyperelastic_radius))?;
         let material = |own: &Option<Box<Material>>| own.as_deref().unwrap_or(zones.inner()).name();
@@ -149,6 +150,8 @@ impl Reader<'_> {
                 friction: self.source.zero_or_more("yarn-friction", &file.yarn_friction, of_yarns)?,
                 margin: MARGIN * height,
                 deepest: DEEPEST * height,
+                // The chords of a coarse mesh go into each other where the yarns that they stand for touch.
+                pressed_at_rest,
             },
             control: Control { by_direction: true, ..self.control()? },
             plan,

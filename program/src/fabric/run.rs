@@ -1,5 +1,6 @@
 //! A panel as it is struck: its solver, what is measured of it, and when the sphere has gone through.
 
+use super::fate::Fate;
 use super::measure::{OfPanel, Sample};
 use super::model::{self, share};
 use super::scene::Case;
@@ -12,7 +13,7 @@ use crate::struck::run::{self, Struck};
 use crate::weave::model::Model;
 
 /// What came of a case.
-pub type Outcome = run::Outcome<OfPanel, ()>;
+pub type Outcome = run::Outcome<OfPanel, Fate>;
 
 /// A case with its mesh.
 pub struct StruckPanel<'a> {
@@ -32,7 +33,7 @@ impl<'a> StruckPanel<'a> {
 
 impl Struck for StruckPanel<'_> {
     type Own = OfPanel;
-    type Course = ();
+    type Course = Fate;
 
     fn name(&self) -> &str {
         &self.case.name
@@ -67,8 +68,19 @@ impl Struck for StruckPanel<'_> {
         Sample { own, ..Sample::of(solver, 1.0 / share(self.case), start) }
     }
 
+    fn follow<T: Number>(&self, solver: &Solver<T>, course: &mut Fate) -> Result<(), Error> {
+        if self.case.plan.decides {
+            course.follow(&self.panel, solver, &self.case.sphere, self.case.speed);
+        }
+        Ok(())
+    }
+
+    fn is_decided(&self, course: &Fate) -> bool {
+        course.is_decided
+    }
+
     /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at the panel.
-    fn has_left<T: Number>(&self, solver: &Solver<T>, (): &(), free: f64) -> bool {
+    fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
         solver.projectile.as_ref().is_some_and(|sphere| free * -sphere.velocity > self.case.sphere.radius)
     }
 }

@@ -84,6 +84,7 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
         End::Stopped => format!("{strikes} stopped"),
         End::Rebounded => format!("{strikes} flies back"),
         End::Left => format!("{strikes} went through"),
+        End::Decided => format!("{strikes} goes through, decided"),
         End::Interrupted => "interrupted".to_string(),
         End::Failed => "an error".to_string(),
     }
@@ -93,7 +94,7 @@ pub fn ending(case: &Case, outcome: &Outcome) -> String {
 pub fn residual_speed(outcome: &Outcome, figures: &Figures) -> Option<f64> {
     match outcome.end {
         End::Stopped => Some(0.0),
-        End::Left => Some(figures.last.speed),
+        End::Left | End::Decided => Some(figures.last.speed),
         End::Time | End::Failed | End::Interrupted | End::Rebounded => None,
     }
 }

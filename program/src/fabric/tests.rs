@@ -28,7 +28,7 @@ fn patch(friction: f64) -> (Vec<Yarn>, Solver<f64>) {
 
 /// The directions of a yarn's middle line from section to section, as angles over the panel.
 fn slopes(yarn: &Yarn, body: &Body<f64>) -> Vec<f64> {
-    let grid = yarn.grid.expect("a grid");
+    let grid = yarn.pieces[0].grid;
     let per = grid.nodes_per_section();
     let middle = |section: usize| -> Vector3<f64> {
         let nodes = section * per..(section + 1) * per;
@@ -62,7 +62,7 @@ struct Pull {
 fn pull(friction: f64) -> Pull {
     let (yarns, mut solver) = patch(friction);
     let held = |velocity: [f64; 3]| Support { free: [false; 3], velocity };
-    let (warp, per) = (&yarns[0], yarns[0].grid.expect("a grid").nodes_per_section());
+    let (warp, per) = (&yarns[0], yarns[0].pieces[0].grid.nodes_per_section());
     let last = solver.bodies[0].mesh.nodes.len() - per;
     for node in 0..per {
         solver.bodies[0].support(node, held([0.0; 3]));

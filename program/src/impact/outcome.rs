@@ -108,7 +108,7 @@ impl Outcome {
     pub fn residual_speed(&self) -> Option<f64> {
         match self.end {
             End::Stopped if self.own_speed => Some(0.0),
-            End::Left if self.own_speed => Some(self.last().speed),
+            End::Left | End::Decided if self.own_speed => Some(self.last().speed),
             _ => None,
         }
     }

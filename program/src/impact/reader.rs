@@ -74,6 +74,10 @@ impl Source<'_> {
 impl Reader<'_> {
     fn yarn_case(&self, file: &CaseFile, name: String) -> Result<Case, Error> {
         let plan = self.plan(&name, SAMPLES)?;
+        if plan.decides {
+            let message = "until is \"decided\", which is for panels; allowed: stopped, end";
+            return Err(self.source.error(self.span.clone(), message));
+        }
         let yarn = self.yarn(file)?;
         let zones = self.zones(|| self.hyperelastic_length(file, &yarn))?;
         Ok(Case {

@@ -39,7 +39,7 @@ pub fn outcome(result: &Outcome) -> &'static str {
         (End::Rebounded, Some(_)) => "broken, flies back",
         (End::Stopped, None) => "not penetrated",
         (End::Stopped, Some(_)) => "broken, stopped",
-        (End::Left, _) => "penetrated",
+        (End::Left | End::Decided, _) => "penetrated",
         (End::Time, Some(_)) => "broken, not over",
         (End::Time, None) => "unbroken, not over",
     }

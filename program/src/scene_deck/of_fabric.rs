@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::model::{Contact, Conversion, Mesh, Model, Part, Strike, Support, frame, hourglass, step};
 use super::striker::{Striker, divisions};
 use crate::common::error::Error;
-use crate::common::units::{LENGTH, MASS, SPEED, TIME};
+use crate::common::units::{LENGTH, MASS, SPEED, TIME, number};
 use crate::deck::material::Material;
 use crate::explicit::contact::Shape;
 use crate::fabric::model::{check, share, start, zone};
@@ -40,6 +40,7 @@ pub fn of_case(case: &Case, conversion: Conversion) -> Result<Model, Error> {
         let [x, y] = case.sphere.aim;
         return Err(Error::Input(format!("aim is [{x}, {y}] in case {}; allowed in a deck: none", case.name)));
     }
+    check_mesh(&case.cloth)?;
     let clearance = case.cloth.clearance();
     if clearance <= 0.0 {
         let message = "yarns of the mesh meet, so that the deck's contact has no gap; allowed: clearance > 0 in [mesh]";
@@ -128,6 +129,7 @@ pub fn of_panel(
 ) -> Result<Model, Error> {
     let Conversion { from, to } = conversion;
     let material = Material::of_scene(material, &from, &to)?;
+    check_mesh(cloth)?;
     let panel = &cloth.model();
     let mut supports = symmetry(panel, cloth);
     supports.push(Support { fixed: [false; 3], ..rim(panel) });
@@ -141,6 +143,15 @@ pub fn of_panel(
         materials: vec![material],
         supports,
         strike: None,
+    })
+}
+
+/// Refuses a mesh that has tied nodes.
+fn check_mesh(cloth: &Cloth) -> Result<(), Error> {
+    cloth.coarse_radius().map_or(Ok(()), |radius| {
+        let message =
+            format!("coarse-radius is {} in [weave.panel], of a mesh whose nodes are tied to others", number(radius));
+        Err(Error::Input(format!("{message}; allowed in a deck: none")))
     })
 }
 

@@ -5,7 +5,7 @@ use crate::fabric::strength::PanelStrength;
 use crate::impact;
 use crate::impact::outcome::Sample;
 use crate::weave::geometry::Family;
-use crate::weave::model::Model;
+use crate::weave::model::{Model, Piece};
 
 const STRENGTH: &str = "cell = 0.8\nreference-length = 50.0\nweibull-modulus = 10.0\nstrain = 0.0458\n";
 
@@ -44,14 +44,20 @@ fn sections(mesh: &str, tables: &str) -> Sections {
     let of = |yarn: &crate::weave::model::Yarn| {
         let back = case.cloth.plies()[yarn.ply].woven.panel.turn.back();
         let strengths = strength.strengths(&model, yarn);
-        let per = yarn.grid.expect("a grid").elements_per_layer();
-        assert!(strengths.chunks(per).all(|section| section.iter().all(|strength| *strength == section[0])));
-        let start = |layer: usize| {
-            let [x, y, _] = model.nodes[model.elements[yarn.elements.start + layer * per][0] as usize];
+        let start = |element: usize| {
+            let [x, y, _] = model.nodes[model.elements[yarn.elements.start + element][0] as usize];
             back.of([x, y])[yarn.family as usize]
         };
-        let of_layer = |(layer, section): (usize, &[f64])| (start(layer), section[0]);
-        ((yarn.ply, yarn.family, yarn.number), strengths.chunks(per).enumerate().map(of_layer).collect())
+        let of_piece = |piece: &Piece| -> Vec<(f64, f64)> {
+            let (first, per) = (piece.first_element, piece.grid.elements_per_layer());
+            let layer = |layer: usize| {
+                let section = &strengths[first + layer * per..][..per];
+                assert!(section.iter().all(|strength| *strength == section[0]));
+                (start(first + layer * per), section[0])
+            };
+            (0..piece.grid.layers).map(layer).collect()
+        };
+        ((yarn.ply, yarn.family, yarn.number), yarn.pieces.iter().flat_map(of_piece).collect())
     };
     model.yarns.iter().map(of).collect()
 }
@@ -86,6 +92,27 @@ fn the_same_seed_gives_the_same_cells_on_every_mesh() {
     let of = |ply, number| of_yarn(&coarse, (ply, Family::Warp, number)).expect("a yarn").iter().map(|of| of.1);
     assert!(of(0, 0).zip(of(0, 0).skip(1)).filter(|(a, b)| a != b).count() > 5);
     assert!(of(0, 0).zip(of(0, 2)).all(|(a, b)| a != b) && of(0, 0).zip(of(1, 0)).all(|(a, b)| a != b));
+}
+
+/// Where a panel is meshed coarsely a section has the least of those that it replaces; elsewhere nothing changes.
+#[test]
+fn a_coarse_part_has_the_cells_of_a_fine_one() {
+    let mesh = "along = 4\ncolumns = 2\nrows = 1";
+    let fine = sections(mesh, "");
+    let [mut same, mut replaced] = [0; 2];
+    for (yarn, partly) in sections(mesh, "coarse-radius = 2.0\n") {
+        let fine = of_yarn(&fine, yarn).expect("the same yarns");
+        // Without the first and the last section, since the meshes do not end at the same places.
+        for pair in partly.windows(2).skip(1) {
+            let inside = |place: f64| place > pair[0].0 - 1e-6 && place < pair[1].0 - 1e-6;
+            let met: Vec<f64> =
+                fine.iter().filter(|(place, _)| inside(*place)).map(|(_, strength)| *strength).collect();
+            assert_eq!(pair[0].1, met.iter().copied().fold(f64::INFINITY, f64::min), "{yarn:?} at {}", pair[0].0);
+            same += usize::from(met.len() == 1);
+            replaced += usize::from(met.len() > 1);
+        }
+    }
+    assert!(same > 100 && replaced > 100, "{same} {replaced}");
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub enum Until {
     Stopped,
     /// It has gone through; when it turns back, the run goes on.
     End,
+    /// It has stopped, or it is certain that it goes through.
+    Decided,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -272,6 +274,7 @@ impl Reader<'_> {
         Ok(Plan {
             end,
             rebounds: keys.until == Some(Until::End),
+            decides: keys.until == Some(Until::Decided),
             sample,
             pictures: self.source.pictures(&keys.pictures, name, end)?,
             frames: self.count("frames", &keys.frames, [0, MOST_FILES], Some(0))?,

@@ -8,6 +8,8 @@ pub struct Plan {
     pub end: f64,
     /// Whether the run goes on when what strikes turns back.
     pub rebounds: bool,
+    /// Whether the run ends as soon as it is certain that what strikes goes through.
+    pub decides: bool,
     /// Time between two samples of the history.
     pub sample: f64,
     /// When what is struck is drawn.

@@ -69,6 +69,11 @@ pub trait Struck: Sync {
         Ok(())
     }
 
+    /// Whether it is certain that what strikes goes through.
+    fn is_decided(&self, _course: &Self::Course) -> bool {
+        false
+    }
+
     /// Whether what strikes has left behind what is struck; nothing has touched it for this time.
     fn has_left<T: Number>(&self, _solver: &Solver<T>, _course: &Self::Course, _free: f64) -> bool {
         false
@@ -85,6 +90,8 @@ pub enum End {
     Rebounded,
     /// It has gone through, and nothing has touched it for some time.
     Left,
+    /// It is certain that it goes through, though it is still touched.
+    Decided,
     /// Somebody has asked the program to end.
     Interrupted,
     /// The run could not go on.
@@ -408,6 +415,9 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
         }
         if self.struck.has_left(&self.solver, &self.record.course, time - self.record.last_contact) {
             return Some(End::Left);
+        }
+        if self.plan.decides && self.struck.is_decided(&self.record.course) {
+            return Some(End::Decided);
         }
         at_end.then_some(End::Time)
     }

@@ -124,7 +124,7 @@ fn ended<E: Copy + Default, C>(shot: &Shot, outcome: &run::Outcome<E, C>, findin
     let ending = match outcome.end {
         End::Interrupted => return None,
         End::Stopped | End::Rebounded => Ending::Stopped,
-        End::Left => Ending::Through,
+        End::Left | End::Decided => Ending::Through,
         End::Time => Ending::Undecided,
         End::Failed => Ending::Error(outcome.failure.clone().unwrap_or_default()),
     };

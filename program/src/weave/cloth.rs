@@ -38,6 +38,11 @@ impl Cloth {
         }
     }
 
+    /// Beyond this distance from the centre the mesh is coarse; nowhere without.
+    pub fn coarse_radius(&self) -> Option<f64> {
+        self.plies().first().and_then(|ply| ply.woven.panel.coarse).map(|coarse| coarse.radius)
+    }
+
     /// The part of the panel that is modelled.
     pub fn part(&self) -> Part {
         match self {

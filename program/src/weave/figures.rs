@@ -31,8 +31,9 @@ impl Figures {
         let covered = |family: Family| {
             let width = |yarn: &Yarn| if yarn.halved { 0.5 } else { 1.0 };
             let yarns = model.yarns.iter().filter(|yarn| yarn.ply == ply && yarn.family == family);
-            let layers: f64 = yarns.map(|yarn| width(yarn) * yarn.grid.map_or(0.0, |grid| grid.layers as f64)).sum();
-            layers * geometry.weave.step(family) * geometry.weave.thread(family).pitch
+            let steps = |yarn: &Yarn| yarn.pieces.iter().map(|piece| piece.steps as f64).sum::<f64>();
+            let steps: f64 = yarns.map(|yarn| width(yarn) * steps(yarn)).sum();
+            steps * geometry.weave.step(family) * geometry.weave.thread(family).pitch
         };
         let crimp = Family::BOTH.map(|family| geometry.crimp(family));
         Figures::with(model, ply, crimp, Family::BOTH.map(covered))

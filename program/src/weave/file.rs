@@ -134,6 +134,10 @@ pub struct PanelFile {
     pub half: Option<Spanned<Numbers<2>>>,
     pub part: Option<Spanned<Part>>,
     pub centre: Option<Centre>,
+    #[serde(rename = "coarse-radius")]
+    pub coarse_radius: Option<Spanned<f64>>,
+    #[serde(rename = "coarse-rows")]
+    pub coarse_rows: Option<Spanned<i64>>,
 }
 
 impl PanelFile {
@@ -147,6 +151,8 @@ impl PanelFile {
             half: if other_shape { own.half } else { own.half.or(base.half) },
             part: own.part.or(base.part),
             centre: own.centre.or(base.centre),
+            coarse_radius: own.coarse_radius.or(base.coarse_radius),
+            coarse_rows: own.coarse_rows.or(base.coarse_rows),
         }
     }
 }

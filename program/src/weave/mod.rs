@@ -6,6 +6,7 @@
 
 pub mod centre_line;
 pub mod cloth;
+pub mod coarse;
 pub mod command;
 pub mod cut;
 pub mod distance;

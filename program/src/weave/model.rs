@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::geometry::Family;
+use crate::explicit::tie::Tie;
 
 /// Faces of an element, by the corners that stand counterclockwise seen from outside.
 pub const UPPER: [usize; 4] = [2, 6, 7, 3];
@@ -48,8 +49,34 @@ pub struct Yarn {
     pub faces: Range<usize>,
     /// The nodes of the sections where it begins and ends, where that is at the panel's edge or on a plane of symmetry.
     pub ends: [Vec<u32>; 2],
-    /// How its elements stand; none where they do so in no order, as in the meshes of others.
-    pub grid: Option<Grid>,
+    /// How its elements stand, one piece after another; none where they do so in no order, as in the meshes of others.
+    pub pieces: Vec<Piece>,
+    /// Nodes where a fine piece meets a coarse one, numbered in the yarn.
+    pub ties: Vec<Tie>,
+}
+
+impl Yarn {
+    /// Whether a part of it is meshed coarser than the rest.
+    pub fn is_coarse_in_part(&self) -> bool {
+        self.pieces.len() > 1
+    }
+}
+
+/// A part of a yarn whose elements stand in a grid, and the yarn's numbers of its first node and element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Piece {
+    pub grid: Grid,
+    pub first_node: usize,
+    pub first_element: usize,
+    /// Its length in layers of a fine mesh.
+    pub steps: usize,
+}
+
+impl Piece {
+    /// A grid that is the whole yarn.
+    pub fn whole(grid: Grid) -> Piece {
+        Piece { grid, first_node: 0, first_element: 0, steps: grid.layers }
+    }
 }
 
 /// A yarn's elements by layers along it, columns across and rows upwards, and its nodes by sections.

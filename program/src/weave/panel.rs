@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::coarse::Coarse;
 use super::geometry::{Family, Weave};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,8 @@ pub struct Panel {
     pub centre: Centre,
     /// By which the weave, not the outline, is turned about z: from x to y.
     pub turn: Turn,
+    /// Where the mesh is coarse, beyond a distance from the centre; nowhere without.
+    pub coarse: Option<Coarse>,
 }
 
 /// A turn about z.
@@ -124,6 +127,16 @@ impl Panel {
         Ok(places)
     }
 
+    /// Where the axis of a yarn lies across it.
+    pub fn coordinate(&self, pitch: f64, number: i64) -> f64 {
+        pitch * (number as f64 + if self.centre == Centre::Gap { 0.5 } else { 0.0 })
+    }
+
+    /// The number of a station less that of the same one in the pattern, counted from the first crossing instead of the origin.
+    pub fn shift(&self, weave: &Weave) -> i64 {
+        if self.centre == Centre::Gap { weave.along as i64 / 2 } else { 0 }
+    }
+
     /// How far the outline goes along the weave's x and y.
     fn bounds(&self) -> [f64; 2] {
         match self.outline {
@@ -192,7 +205,7 @@ impl Panel {
     fn family(&self, weave: &Weave, family: Family, bounds: [f64; 2]) -> Vec<Place> {
         let (pitch, step) = (weave.thread(family).pitch, weave.step(family));
         let bound_across = if family == Family::Warp { bounds[1] } else { bounds[0] };
-        let shift = if self.centre == Centre::Gap { 0.5 } else { 0.0 };
+        let shift = self.coordinate(1.0, 0);
         let last = (bound_across / pitch - shift + ROUNDING).floor() as i64;
         // The mirror image of a number: that of 0 in a gap is -1.
         let first = match (self.part, self.centre) {
@@ -201,7 +214,7 @@ impl Panel {
             (Part::Whole, Centre::Gap) => -last - 1,
         };
         let place = |number: i64| {
-            let coordinate = pitch * (number as f64 + shift);
+            let coordinate = self.coordinate(pitch, number);
             // The middle of the layer at an end is half an element before it.
             let layers = |length: f64| (length / step + 0.5 + ROUNDING).floor() as i64;
             let [start, end] = self.interval(family, coordinate);

@@ -6,6 +6,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::cloth::Cloth;
+use super::coarse::{Coarse, ROWS as COARSE_ROWS};
 use super::file::{PanelFile, PatternFile, PlyFile, SceneFile, ShapeName, ThreadFile, WeaveFile};
 use super::geometry::{Family, Geometry, Weave};
 use super::layup::{Laid, Layup};
@@ -42,8 +43,10 @@ impl Woven {
     }
 
     pub fn elements(&self) -> usize {
-        let Weave { columns, rows, .. } = self.geometry.weave;
-        self.places.iter().map(|place| place.layers() * rows * columns / (1 + usize::from(place.halved))).sum()
+        let weave = &self.geometry.weave;
+        let of_yarn =
+            |place: &Place| -> usize { self.panel.spans(weave, place).iter().map(|span| span.elements(place)).sum() };
+        self.places.iter().map(of_yarn).sum()
     }
 }
 
@@ -139,8 +142,9 @@ impl Source<'_> {
     /// All plies have one outline.
     fn check_panel_of_ply(&self, panel: Option<&Spanned<PanelFile>>) -> Result<(), Error> {
         let Some(file) = panel else { return Ok(()) };
-        let PanelFile { shape, radius, half, part, centre: _ } = file.get_ref();
-        if shape.is_none() && radius.is_none() && half.is_none() && part.is_none() {
+        let PanelFile { shape, radius, half, part, coarse_radius, coarse_rows, centre: _ } = file.get_ref();
+        let own = [radius.is_some(), half.is_some(), part.is_some(), coarse_radius.is_some(), coarse_rows.is_some()];
+        if shape.is_none() && own == [false; 5] {
             return Ok(());
         }
         let message =
@@ -196,6 +200,11 @@ impl Source<'_> {
             weave = weave.exchanged();
         }
         let places = panel.places(&weave).map_err(|message| self.error(blamed(of_panel.span()), &message))?;
+        if let Some(radius) = &of_panel.get_ref().coarse_radius {
+            panel
+                .check_coarse_radius(&weave, &places)
+                .map_err(|message| self.error(blamed(radius.span()), &message))?;
+        }
         let geometry = weave.solve().map_err(|message| self.error(table.span(), &message))?;
         Ok(Woven { geometry, panel, places, exchanged })
     }
@@ -291,7 +300,17 @@ impl Source<'_> {
             }
         };
         let part = file.part.as_ref().map_or(Part::Whole, |part| *part.get_ref());
-        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE })
+        let coarse = match (&file.coarse_radius, &file.coarse_rows) {
+            (Some(radius), rows) => Some(Coarse {
+                radius: self.positive("coarse-radius", *radius.get_ref(), radius.span())?,
+                rows: self.number("coarse-rows", rows, [1, COARSE_ROWS], COARSE_ROWS)?,
+            }),
+            (None, Some(rows)) => {
+                return Err(self.error(rows.span(), "coarse-rows without coarse-radius; allowed: beside it"));
+            }
+            (None, None) => None,
+        };
+        Ok(Panel { outline, part, centre: file.centre.unwrap_or_default(), turn: Turn::NONE, coarse })
     }
 
     /// A whole number in this range, or the default.

@@ -36,7 +36,7 @@ fn patterns() -> [Pattern; 3] {
 }
 
 fn panel(outline: Outline, part: Part, centre: Centre) -> Panel {
-    Panel { outline, part, centre, turn: Turn::NONE }
+    Panel { outline, part, centre, turn: Turn::NONE, coarse: None }
 }
 
 /// A panel of some crossings of each kind.
@@ -46,7 +46,7 @@ fn small(weave: &Weave) -> Panel {
 }
 
 fn grid(yarn: &Yarn) -> Grid {
-    yarn.grid.expect("a woven yarn has a grid")
+    yarn.pieces[0].grid
 }
 
 /// The least distance between the faces of two yarns within half a pitch of their crossing, up to a bound.

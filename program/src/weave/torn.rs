@@ -1,19 +1,21 @@
 //! Whether a yarn is torn through.
 
-use super::model::{Grid, Yarn};
+use super::model::{Piece, Yarn};
 
-/// Whether nothing joins a yarn's ends any more. Of a grid every line of elements along the yarn has lost one; else no way leads from
-/// one end to the other over intact elements that share nodes. Elements and their nodes are numbered in the yarn.
+/// Whether nothing joins a yarn's ends any more. Of a grid, in some piece of the yarn, every line of elements along it has lost one; else
+/// no way leads from one end to the other over intact elements that share nodes. Elements and their nodes are numbered in the yarn.
 pub fn is_torn(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> bool) -> bool {
-    match &yarn.grid {
-        Some(grid) => every_line_is_broken(grid, elements.len(), intact),
-        None => ends_are_apart(yarn, elements, intact),
+    if yarn.pieces.is_empty() {
+        return ends_are_apart(yarn, elements, intact);
     }
+    yarn.pieces.iter().any(|piece| every_line_is_broken(piece, &intact))
 }
 
-fn every_line_is_broken(grid: &Grid, elements: usize, intact: impl Fn(usize) -> bool) -> bool {
-    let lines = grid.elements_per_layer();
-    (0..lines).all(|line| (line..elements).step_by(lines).any(|element| !intact(element)))
+fn every_line_is_broken(piece: &Piece, intact: impl Fn(usize) -> bool) -> bool {
+    let lines = piece.grid.elements_per_layer();
+    let elements = lines * piece.grid.layers;
+    let broken = |line: usize| (line..elements).step_by(lines).any(|element| !intact(piece.first_element + element));
+    (0..lines).all(broken)
 }
 
 fn ends_are_apart(yarn: &Yarn, elements: &[[u32; 8]], intact: impl Fn(usize) -> bool) -> bool {
@@ -65,6 +67,7 @@ impl Groups {
 mod tests {
     use super::*;
     use crate::weave::geometry::Family;
+    use crate::weave::model::Grid;
 
     /// Two elements side by side and three one after another.
     #[test]
@@ -83,9 +86,10 @@ mod tests {
             elements: 0..6,
             faces: 0..0,
             ends: [section(0), section(3)],
-            grid: Some(grid),
+            pieces: vec![Piece::whole(grid)],
+            ties: Vec::new(),
         };
-        let foreign = Yarn { grid: None, ..of_grid.clone() };
+        let foreign = Yarn { pieces: Vec::new(), ..of_grid.clone() };
         let torn = |yarn: &Yarn, deleted: &[usize]| is_torn(yarn, &elements, |element| !deleted.contains(&element));
         for (deleted, through) in
             [(&[][..], false), (&[2], false), (&[2, 3], true), (&[4, 5], true), (&[0, 1, 2, 3, 4, 5], true)]

@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::archive::Archive;
 use super::body::Body;
 use super::lanes::Number;
+use super::tie;
 use super::vector::Vector;
 use face::Place;
 use motion::Motion;
@@ -41,6 +42,8 @@ pub struct Parameters {
     pub margin: f64,
     /// Deeper nodes have not come through this face.
     pub deepest: f64,
+    /// Whether surfaces that overlap from the start press each other: else only what they go deeper.
+    pub pressed_at_rest: bool,
 }
 
 impl Parameters {
@@ -167,8 +170,11 @@ impl MutualContact {
                     let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
                     if let Some((face, place, depth)) = nearest {
                         let known = first || depth.is_some_and(|depth| depth <= 0.0);
-                        let depth = if first { depth.unwrap_or(0.0).max(0.0) } else { 0.0 };
-                        pairs.push(Pair { node, master, face, place, stiffness, known, depth, ..Pair::default() });
+                        let overlap = if first { depth.unwrap_or(0.0).max(0.0) } else { 0.0 };
+                        let [depth, uncounted] =
+                            if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
+                        let nearest = Pair { face, place, ..Pair::default() };
+                        pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
                     }
                 }
             }
@@ -267,6 +273,7 @@ impl MutualContact {
                     }
                 }
             }
+            tie::hand_over(&body.ties, touching);
             let mut frequency: f64 = 0.0;
             for &node in &side.surface.state.nodes {
                 let node = node as usize;

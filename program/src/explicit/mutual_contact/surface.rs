@@ -8,6 +8,7 @@ use super::bounds::Bounds;
 use crate::explicit::body::Body;
 use crate::explicit::lanes::Number;
 use crate::explicit::mesh::Mesh;
+use crate::explicit::tie::Tie;
 use crate::explicit::vector::minus;
 
 /// No face.
@@ -92,6 +93,36 @@ impl Surface {
             elements,
             neighbours,
             area: area.iter().map(nalgebra::Vector3::norm).collect(),
+        }
+    }
+
+    /// Makes faces neighbours whose edges are one edge of a coarser face, or lie on it, by tied nodes.
+    pub fn join(&mut self, ties: &[Tie]) {
+        let tied: HashMap<u32, &Tie> = ties.iter().map(|tie| (tie.node, tie)).collect();
+        let mut coarse: HashMap<[u32; 2], (u32, usize)> = HashMap::new();
+        let mut fine = Vec::new();
+        for (number, face) in self.faces.iter().enumerate() {
+            for edge in (0..4).filter(|&edge| self.neighbours[number][edge] == NONE) {
+                let (a, b) = (face[edge], face[(edge + 1) % 4]);
+                match [a, b].map(|node| tied.get(&node)) {
+                    [Some(a), Some(b)] => {
+                        let mut ends: Vec<u32> = a.rests_on().chain(b.rests_on()).collect();
+                        ends.sort_unstable();
+                        ends.dedup();
+                        fine.push((number, edge, ends));
+                    }
+                    _ => {
+                        coarse.insert([a.min(b), a.max(b)], (number as u32, edge));
+                    }
+                }
+            }
+        }
+        for (number, edge, ends) in fine {
+            let beside = <[u32; 2]>::try_from(ends).ok().and_then(|ends| coarse.get(&ends));
+            if let Some(&(other, at)) = beside {
+                self.neighbours[number][edge] = other;
+                self.neighbours[other as usize][at] = number as u32;
+            }
         }
     }
 

@@ -9,7 +9,8 @@ use crate::material::model::{Law, Material};
 use toron::law::parameters;
 use toron::{Criterion, Rotation};
 
-const PARAMETERS: Parameters = Parameters { stiffness: 1e15, friction: 0.5, margin: 2e-5, deepest: 5e-5 };
+const PARAMETERS: Parameters =
+    Parameters { stiffness: 1e15, friction: 0.5, margin: 2e-5, deepest: 5e-5, pressed_at_rest: true };
 
 /// The yarn of the thesis, without failure.
 fn media() -> Vec<Medium<f64>> {

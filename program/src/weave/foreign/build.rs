@@ -8,7 +8,7 @@ use super::orient::Corners;
 use super::raw::{Element, Raw};
 use crate::explicit::mutual_contact::outer_faces;
 use crate::weave::geometry::Family;
-use crate::weave::model::{Crossing, END, Face, Grid, LEFT, LOWER, Model, RIGHT, START, Side, UPPER, Yarn};
+use crate::weave::model::{Crossing, END, Face, Grid, LEFT, LOWER, Model, Piece, RIGHT, START, Side, UPPER, Yarn};
 use crate::weave::panel::Part;
 use crate::weave::torn;
 
@@ -194,7 +194,11 @@ impl Model {
             coordinate: thread.coordinate,
             halved: false,
             ends: [Vec::new(), Vec::new()],
-            grid: Grid::of(&self.elements[elements.clone()], nodes.len(), first_node as u32),
+            pieces: Grid::of(&self.elements[elements.clone()], nodes.len(), first_node as u32)
+                .map(Piece::whole)
+                .into_iter()
+                .collect(),
+            ties: Vec::new(),
             nodes,
             elements,
             faces: first_face..first_face,

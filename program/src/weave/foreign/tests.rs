@@ -317,7 +317,7 @@ fn a_wrong_file_is_refused_by_name() {
         vtu::unstructured_grid(&model)
     };
     let first = &model.yarns[3];
-    let grid = first.grid.as_ref().expect("a grid");
+    let grid = &first.pieces[0].grid;
     let middle = first.elements.start + grid.layer(grid.layers / 2).start;
     let layer = without(&|element| (middle..middle + grid.elements_per_layer()).contains(&element));
     refused(&[("gap.vtu", &layer)], "", "is in 2 pieces; allowed: one, of elements that share their nodes");
