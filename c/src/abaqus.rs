@@ -10,7 +10,8 @@ use toron::{Hyperelastic, LinearElastic};
 ///
 /// The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
 /// out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
-/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
+/// `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the
+/// last one is the number of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
 /// axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
 /// Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 ///
@@ -84,7 +85,7 @@ pub unsafe extern "C" fn toron_abaqus_umat_f64(
 /// The linear elastic law as a UMAT of Abaqus/Standard.
 ///
 /// The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
-/// `nprops` = 10. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
+/// `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
 /// symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
 /// lie in the plane or normal to it.
 ///

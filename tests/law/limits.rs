@@ -210,6 +210,37 @@ fn limits_stand_where_the_caller_says() {
     }
 }
 
+/// Without an array for the codes the message names the point.
+#[test]
+fn a_limit_that_means_nothing_is_found() {
+    let (f, n) = (gradients(50), 50);
+    let gradient: Vec<f64> = (0..9).flat_map(|c| f.iter().map(move |f| f[c])).collect();
+    let mut state = vec![0.0; STATE * n];
+    // One that has failed before is not looked at.
+    state[9 * n + 7] = 1.0;
+    let limits: Vec<f64> = (0..n).map(|i| if i == 7 || i == 41 { -1.0 } else { 0.0 }).collect();
+    let to = state.as_mut_ptr();
+    let block = Block {
+        n,
+        deformation_gradient: std::array::from_fn(|c| if c == 0 { gradient.as_ptr() } else { null() }),
+        energies_old: to,
+        invariants_old: to.wrapping_add(4 * n),
+        failure_old: to.wrapping_add(8 * n),
+        energies: to,
+        invariants: to.wrapping_add(4 * n),
+        failure: to.wrapping_add(8 * n),
+        limit: limits.as_ptr(),
+        ..Block::empty()
+    };
+    let mut message = [0; 300];
+    // SAFETY: component-major arrays of n points.
+    let code = unsafe {
+        hyperelastic_block_with_properties_f64(PROPERTIES.as_ptr(), 11, &block, message.as_mut_ptr(), message.len())
+    };
+    let text: String = message.iter().take_while(|&&c| c != 0).map(|&c| char::from(c as u8)).collect();
+    assert!(code == status::LIMIT && text.contains("point 41"), "{code} {text}");
+}
+
 /// A limit that means nothing has a code of its own; the point keeps its state, and the others do not notice.
 #[test]
 fn a_limit_that_means_nothing_is_an_error_of_its_point() {

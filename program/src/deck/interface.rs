@@ -20,7 +20,7 @@ pub struct Interface {
     /// OpenRadioss: nn of `/MAT/USERnn`, how many options stand behind the properties, and whether that of the step follows them.
     pub openradioss: i32,
     pub options: usize,
-    pub has_last: bool,
+    pub has_own_options: bool,
 }
 
 impl Interface {
@@ -33,11 +33,11 @@ impl Interface {
             behaviour,
             openradioss: layout.number,
             options: layout.options,
-            has_last: layout.has_last,
+            has_own_options: layout.has_own_options,
         };
         match law {
             LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
-            LawName::LinearElastic => ours(43, "LINEARELASTIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
+            LawName::LinearElastic => ours(43, "LINEAREOWN_OPTIONSIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
             LawName::Own(law) => Interface {
                 abaqus: Some(law.symbol),
                 ls_dyna: 41,
@@ -47,7 +47,7 @@ impl Interface {
                 openradioss: law.number,
                 // Where the fibre direction comes from.
                 options: usize::from(law.description.fibre.is_some()),
-                has_last: false,
+                has_own_options: false,
             },
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use toron::host::openradioss::card::{LAST, OPTIONS};
+use toron::host::openradioss::card::{OPTIONS, OWN_OPTIONS};
 use toron::{Criterion, Rotation};
 
 use super::interface::Interface;
@@ -51,10 +51,11 @@ pub fn card(material: &Material, id: u32, choice: Choice) -> Result<String, Erro
 /// # Errors
 /// The material has no density, or its law has no such option.
 pub fn material_card(material: &Material, id: u32, choice: Choice) -> Result<String, Error> {
-    let (Interface { openradioss: number, options, has_last, .. }, name) = (material.interface(), &material.name);
+    let (Interface { openradioss: number, options, has_own_options, .. }, name) =
+        (material.interface(), &material.name);
     let lacks =
         |option: &str| Error::Input(format!("{option} is for a law that has this option; {name} is of another"));
-    if choice.step && !has_last {
+    if choice.step && !has_own_options {
         return Err(lacks("--step"));
     }
     if choice.fibre_from != FibreFrom::Card && options == 0 {
@@ -68,7 +69,7 @@ pub fn material_card(material: &Material, id: u32, choice: Choice) -> Result<Str
         let _ = writeln!(card, "# {comment}");
     }
     card += &lines(&["RHO_I"], &[short(material.density()?, WIDE)]);
-    let options: Vec<_> = OPTIONS[..options].iter().chain(choice.step.then_some(&LAST[0])).collect();
+    let options: Vec<_> = OPTIONS[..options].iter().chain(choice.step.then_some(&OWN_OPTIONS[0])).collect();
     let names = material.table().iter().map(|property| property.name).chain(options.iter().map(|option| option.name));
     let chosen = options.iter().map(|option| match option.name {
         "fibre_from" => (choice.fibre_from as usize).to_string(),

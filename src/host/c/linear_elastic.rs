@@ -117,7 +117,8 @@ pub struct LinearBlock<T> {
     pub state_layout: Layout,
     pub stress_layout: Layout,
     pub tangent_layout: Layout,
-    /// In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+    /// In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
+    /// `state_new` is not null.
     pub limit: *const T,
     pub limit_layout: Layout,
 }

@@ -43,8 +43,8 @@ pub static OPTIONS: [CardOption; 3] = [
     },
 ];
 
-/// The last options of toron's own laws.
-pub static LAST: [CardOption; 2] = [
+/// The options that are those of toron's own laws.
+pub static OWN_OPTIONS: [CardOption; 2] = [
     CardOption {
         name: "step",
         greatest: 1,
@@ -76,8 +76,8 @@ pub struct Layout {
     pub law: &'static Description,
     /// How many of [`OPTIONS`] it has.
     pub options: usize,
-    /// Whether [`LAST`] follow them.
-    pub has_last: bool,
+    /// Whether [`OWN_OPTIONS`] follow them.
+    pub has_own_options: bool,
 }
 
 pub static HYPERELASTIC: Layout = Layout::of::<f64, Hyperelastic<f64>>(1);
@@ -87,17 +87,17 @@ pub static LINEAR_ELASTIC: Layout = Layout::of::<f64, LinearElastic<f64>>(2);
 impl Layout {
     /// The law as `/MAT/USERnn`.
     pub const fn of<T: Precision, L: SolidLaw<T>>(number: i32) -> Self {
-        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_last: L::HAS_LAST }
+        Layout { number, law: const { &L::DESCRIPTION }, options: L::OPTIONS, has_own_options: L::HAS_OWN_OPTIONS }
     }
 
     /// NUPARAM.
     pub const fn parameters(&self) -> usize {
-        1 + self.law.properties.len() + self.options + if self.has_last { LAST.len() } else { 0 }
+        1 + self.law.properties.len() + self.options + if self.has_own_options { OWN_OPTIONS.len() } else { 0 }
     }
 
     /// The options of the card, in their order.
     pub fn options(&self) -> impl Iterator<Item = &'static CardOption> {
-        OPTIONS.iter().take(self.options).chain(LAST.iter().filter(|_| self.has_last))
+        OPTIONS.iter().take(self.options).chain(OWN_OPTIONS.iter().filter(|_| self.has_own_options))
     }
 
     /// Indices into UVAR, from 0, behind the law's state: the fibre's three components of a law that has a fibre, `deleted`, and the
@@ -189,8 +189,9 @@ impl<'a, T: Precision> Card<'a, T> {
             }
         }
         let chosen = |i: usize| if i < layout.options { options.get(i).map_or(0, |&value| whole(value)) } else { 0 };
-        let last =
-            |i: usize| layout.has_last && options.get(layout.options + i).is_some_and(|&value| whole(value) == 1);
+        let last = |i: usize| {
+            layout.has_own_options && options.get(layout.options + i).is_some_and(|&value| whole(value) == 1)
+        };
         let (fibre_from, frame, criterion) = (chosen(0), chosen(1), chosen(2));
         Ok(Card {
             material,

@@ -21,8 +21,8 @@ pub trait SolidLaw<T: Precision>: Law<T> {
     /// How many of [`OPTIONS`] its card has: the first one is for a law with a fibre, the others for the linear elastic law.
     const OPTIONS: usize;
 
-    /// Whether its card has the options [`LAST`](super::card::LAST) behind them.
-    const HAS_LAST: bool = false;
+    /// Whether its card has the options [`OWN_OPTIONS`](super::card::OWN_OPTIONS) behind them.
+    const HAS_OWN_OPTIONS: bool = false;
 
     /// ρ0 c² of the fastest wave in the unstressed material.
     ///
@@ -120,7 +120,7 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for Hyperelastic<$t> {
             const OPTIONS: usize = 1;
 
-            const HAS_LAST: bool = true;
+            const HAS_OWN_OPTIONS: bool = true;
 
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 hyperelastic_modulus(properties)
@@ -140,7 +140,7 @@ macro_rules! toron_laws {
         impl SolidLaw<$t> for LinearElastic<$t> {
             const OPTIONS: usize = OPTIONS.len();
 
-            const HAS_LAST: bool = true;
+            const HAS_OWN_OPTIONS: bool = true;
 
             fn modulus_at_rest(properties: &[$t]) -> Result<$t, Error> {
                 Ok(LinearElastic::new(properties)?.lanes::<f64>().wave_modulus() as $t)

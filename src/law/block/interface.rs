@@ -228,6 +228,10 @@ impl<T: Precision> Hyperelastic<T> {
         if [status::STATE_NOT_FINITE, status::OVERFLOW].contains(&code) {
             return None;
         }
+        if code == status::LIMIT {
+            // SAFETY: the block is valid, and some point has an unusable limit, so that there are limits.
+            return (0..block.n).find(|&i| unsafe { block.has_wrong_limit(i) });
+        }
         for first in (0..block.n).step_by(SEARCHED) {
             let mut codes = [status::OK; SEARCHED];
             let points = block.from(first);
@@ -236,7 +240,6 @@ impl<T: Precision> Hyperelastic<T> {
                 strides: points.strides,
                 deformation_gradient: points.deformation_gradient,
                 fibre: points.fibre,
-                limit: points.limit,
                 failure_old: points.failure_old,
                 status: codes.as_mut_ptr(),
                 level: points.level,

@@ -3,8 +3,9 @@
 use core::ptr::{null, null_mut};
 
 use crate::law::error::Error;
+use crate::law::failure::Failure;
 use crate::law::number::level::Level;
-use crate::law::number::real::Scalar;
+use crate::law::number::real::{Real, Scalar};
 use crate::law::response::Request;
 use crate::law::status;
 use crate::law::tangent::Measure;
@@ -226,6 +227,22 @@ impl<T: Scalar> Pointers<T> {
             status: null_mut(),
             active: null_mut(),
             level: None,
+        }
+    }
+
+    /// Whether point `i` is intact and has a limit that means nothing.
+    ///
+    /// # Safety
+    /// The block is valid and i < n.
+    pub(super) unsafe fn has_wrong_limit(&self, i: usize) -> bool
+    where
+        T: Real<Mask = bool>,
+    {
+        // SAFETY: in a valid block an array that is not null has an entry for each point, the old failure's second component too.
+        unsafe {
+            let latch = self.failure_old.wrapping_add(self.leading_dimension + i * self.strides.state);
+            let intact = self.failure_old.is_null() || Failure::intact(*latch);
+            intact && !self.limit.is_null() && !Failure::is_limit(*self.limit.add(i * self.strides.limit))
         }
     }
 
