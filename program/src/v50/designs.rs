@@ -30,7 +30,7 @@ pub enum Design {
 /// A shot that has been fired: its speed was to be, and was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fired {
-    pub aimed: f64,
+    pub nominal: f64,
     pub fate: Fate,
 }
 
@@ -56,7 +56,7 @@ impl Design {
             Design::Langlie => langlie(before, [low, high]),
             Design::UpAndDown { step } => match before.last() {
                 None => 0.5 * (low + high),
-                Some(last) => last.aimed + if last.fate.through { -step } else { step },
+                Some(last) => last.nominal + if last.fate.through { -step } else { step },
             },
             Design::DOptimal { deviation } => d_optimal(before, [low, high], deviation),
         };
@@ -143,9 +143,9 @@ mod tests {
         let mut before = Vec::new();
         for number in 1..=shots {
             let speed = design.speed(number, &before, [100.0, 200.0]);
-            before.push(Fired { aimed: speed, fate: Fate { speed, through: through(number, speed) } });
+            before.push(Fired { nominal: speed, fate: Fate { speed, through: through(number, speed) } });
         }
-        before.iter().map(|shot| shot.aimed).collect()
+        before.iter().map(|shot| shot.nominal).collect()
     }
 
     #[test]

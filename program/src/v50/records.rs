@@ -39,7 +39,7 @@ impl Records {
         let quantity = |name: &str, dimension| title(name, dimension, units);
         let titles = vec![
             "shot".to_string(),
-            quantity("aimed", SPEED),
+            quantity("nominal_speed", SPEED),
             quantity("speed", SPEED),
             quantity("aim_x", LENGTH),
             quantity("aim_y", LENGTH),
@@ -143,7 +143,7 @@ impl Records {
         };
         vec![
             shot.number.to_string(),
-            shot.aimed.to_string(),
+            shot.nominal.to_string(),
             shot.speed.to_string(),
             shot.aim[0].to_string(),
             shot.aim[1].to_string(),
@@ -178,7 +178,7 @@ fn parsed(record: &StringRecord) -> Option<Ended> {
     };
     let shot = Shot {
         number: record.get(0)?.parse().ok()?,
-        aimed: number(1)?,
+        nominal: number(1)?,
         speed: number(2)?,
         aim: [number(3)?, number(4)?],
         seed,
@@ -221,7 +221,7 @@ mod tests {
     }
 
     fn ended(number: usize, ending: Ending) -> Ended {
-        let shot = Shot { number, aimed: 100.0, speed: 100.0 / 3.0, aim: [0.1, -1e-7], seed: Some(7) };
+        let shot = Shot { number, nominal: 100.0, speed: 100.0 / 3.0, aim: [0.1, -1e-7], seed: Some(7) };
         Ended { shot, ending, speed_at_end: 1.0 / 3.0, time: 0.1, verdict: "mesh; contact".to_string(), seconds: 1.25 }
     }
 

@@ -175,7 +175,7 @@ pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mut
             let Some(ended) = known.map_or_else(|| range.fire_one(&shot, records), |known| Ok(Some(known)))? else {
                 return Ok(false);
             };
-            before.extend(ended.fate().map(|fate| Fired { aimed: shot.aimed, fate }));
+            before.extend(ended.fate().map(|fate| Fired { nominal: shot.nominal, fate }));
         }
         return Ok(true);
     }

@@ -40,7 +40,7 @@ pub struct Shot {
     /// From 1.
     pub number: usize,
     /// The speed that it was to have, and has.
-    pub aimed: f64,
+    pub nominal: f64,
     pub speed: f64,
     /// Where it meets the panel.
     pub aim: [f64; 2],
@@ -121,7 +121,7 @@ impl Scene {
     }
 
     /// The shot of this number that is to have this speed. What is chance in it follows from the seed and the number alone.
-    pub fn shot(&self, number: usize, aimed: f64) -> Shot {
+    pub fn shot(&self, number: usize, nominal: f64) -> Shot {
         let chance = |what: Chance| uniform(self.shots.seed, [number as u64, what as u64]);
         let mut aim = self.target.aim();
         if let (Target::Panel(case), AimName::Cell) = (&self.target, self.shots.aim) {
@@ -131,14 +131,14 @@ impl Scene {
             }
         }
         // No speed is below 0, however wide the scatter.
-        let speed = aimed + self.shots.scatter * Normal::standard().inverse_cdf(chance(Chance::Speed));
+        let speed = nominal + self.shots.scatter * Normal::standard().inverse_cdf(chance(Chance::Speed));
         let seed = self.target.seed().map(|_| (SEEDS * chance(Chance::Strength)) as u64);
-        Shot { number, aimed, speed: speed.max(0.1 * aimed), aim, seed }
+        Shot { number, nominal, speed: speed.max(0.1 * nominal), aim, seed }
     }
 
     /// The scene's own shot at this speed, in which nothing is chance.
     pub fn plain_shot(&self, number: usize, speed: f64) -> Shot {
-        Shot { number, aimed: speed, speed, aim: self.target.aim(), seed: self.target.seed() }
+        Shot { number, nominal: speed, speed, aim: self.target.aim(), seed: self.target.seed() }
     }
 
     /// How long a shot may take.

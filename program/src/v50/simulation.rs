@@ -66,9 +66,9 @@ impl Experiment {
         let mut before: Vec<Fired> = Vec::new();
         for shot in 1..=self.shots {
             let chance = |kind: u64| uniform(seed, [number, shot as u64, kind]);
-            let aimed = self.design.speed(shot, &before, self.range);
-            let speed = aimed + self.scatter * Normal::standard().inverse_cdf(chance(0));
-            before.push(Fired { aimed, fate: Fate { speed, through: chance(1) < truth.chance(speed) } });
+            let nominal = self.design.speed(shot, &before, self.range);
+            let speed = nominal + self.scatter * Normal::standard().inverse_cdf(chance(0));
+            before.push(Fired { nominal, fate: Fate { speed, through: chance(1) < truth.chance(speed) } });
         }
         before.into_iter().map(|shot| shot.fate).collect()
     }
