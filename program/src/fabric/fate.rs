@@ -1,7 +1,7 @@
 //! Whether it is certain that what strikes goes through, although torn ends still rub on it.
 //!
 //! Two bounds together, each with a margin, since neither is one of mechanics alone. What still acts on it: the mean force over the
-//! last quarter of a radius would have to be kept up for [`REACH`] radii to stop it. And what might still bear: yarns that are not
+//! last eighth of a radius would have to be kept up for [`REACH`] radii to stop it. And what might still bear: yarns that are not
 //! torn and of which more than half lies ahead of it, in its way. Each of them may take as much energy as was taken by each torn one so
 //! far, if these took all that the striker has lost: in a panel of Kevlar that is what a yarn stores when all of it is about to fail.
 //! Where the two leave it moving, nothing that was seen in this shot stops it.
@@ -19,9 +19,9 @@ use crate::weave::torn;
 
 /// How many times it is looked at on the way of one radius, and over how many of these steps the force is taken.
 const LOOKS: f64 = 16.0;
-const WINDOW: usize = 4;
+const WINDOW: usize = 2;
 /// For how many radii that force may act.
-const REACH: f64 = 20.0;
+const REACH: f64 = 10.0;
 
 /// How a shot went, and whether it is decided.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -98,7 +98,7 @@ mod tests {
         let panel = scene.cases[0].cloth.model();
         let mut solver = model::solver::<f64>(&scene.cases[0], &panel).expect("a panel");
         for (yarn, body) in panel.yarns.iter().zip(&mut solver.bodies).filter(|(yarn, _)| is_torn(yarn)) {
-            body.delete(&yarn.pieces[0].grid.layer(1).collect::<Vec<_>>());
+            body.delete(&yarn.pieces[0].grid.layer(0).collect::<Vec<_>>());
         }
         let mut fate = Fate::default();
         for look in 0..=WINDOW {
