@@ -37,7 +37,7 @@ impl Interface {
         };
         match law {
             LawName::Hyperelastic => ours(41, "HYPERELASTIC", "ToronHyperelastic", &card::HYPERELASTIC),
-            LawName::LinearElastic => ours(43, "LINEAREOWN_OPTIONSIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
+            LawName::LinearElastic => ours(43, "LINEARELASTIC", "ToronLinearElastic", &card::LINEAR_ELASTIC),
             LawName::Own(law) => Interface {
                 abaqus: Some(law.symbol),
                 ls_dyna: 41,
