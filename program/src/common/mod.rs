@@ -1,8 +1,9 @@
 //! What all commands share: errors and their exit codes, the console, progress bars, units, short numbers, files in TOML, tables of
-//! measured data, numbers of chance, roots.
+//! measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
 pub mod chance;
+pub mod confidence;
 pub mod console;
 pub mod data_table;
 pub mod error;

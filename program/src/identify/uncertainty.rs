@@ -12,9 +12,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::least_squares::Solution;
 use super::parameter::{ALL, PARAMETERS, Parameter, Values};
-
-/// The level of all intervals.
-pub const LEVEL: f64 = 0.95;
+use crate::common::confidence::LEVEL;
 
 /// A parameter and its 95 % interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

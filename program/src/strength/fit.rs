@@ -4,13 +4,12 @@
 //! probability that it is stronger. With w = L/L₀ the log-likelihood is Σ ln(w m/x) + m ln(x/s) over what has broken, less Σ w (x/s)^m over
 //! all. Given m, s is known: s^m = Σ w x^m / r, with r that have broken; m is the only root of a function that falls.
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::weibull::Weibull;
+use crate::common::confidence::{crossing, refusal};
 use crate::common::root::root;
 
-/// The level of all intervals.
-pub const LEVEL: f64 = 0.95;
 /// A modulus beyond this is not told from no scatter.
 const LARGEST: f64 = 1e6;
 /// The logarithm of a scale is sought within so much of its estimate: beyond, there is no bound.
@@ -69,17 +68,18 @@ pub fn fit(tests: &[Test], reference_length: f64) -> Result<Fit, String> {
     let sample = Sample::new(tests, most, reference_length)?;
     let modulus = sample.modulus().ok_or("the modulus is too large to be told from no scatter; allowed: more tests")?;
     let scale = sample.scale_given(modulus);
-    // Half of the χ² quantile of one degree of freedom.
-    let quantile = Normal::standard().inverse_cdf(0.5 + 0.5 * LEVEL);
-    let level = sample.likelihood(modulus, scale) - 0.5 * quantile * quantile;
+    let best = sample.likelihood(modulus, scale);
+    let deviance = |modulus: f64, scale: f64| 2.0 * (best - sample.likelihood(modulus, scale));
     // The estimate's standard error in large samples is some 0.8 m/√r.
     let step = 1.0 / sample.broken.sqrt();
     let of_modulus = |logarithm: f64| {
         let modulus = logarithm.exp();
-        sample.likelihood(modulus, sample.scale_given(modulus)) - level
+        deviance(modulus, sample.scale_given(modulus))
     };
-    let of_scale = |scale: f64| sample.likelihood(sample.modulus_given(scale, modulus), scale) - level;
-    let end = |of: &dyn Fn(f64) -> f64, from: f64, step: f64| crossing(of, from, step).unwrap_or(step * f64::INFINITY);
+    let of_scale = |scale: f64| deviance(sample.modulus_given(scale, modulus), scale);
+    let end = |of: &dyn Fn(f64) -> f64, from: f64, step: f64| {
+        crossing(of, from, step, refusal(), FARTHEST).unwrap_or(step * f64::INFINITY)
+    };
     let [of_modulus, of_scale]: [&dyn Fn(f64) -> f64; 2] = [&of_modulus, &of_scale];
     let interval = |of: &dyn Fn(f64) -> f64, from: f64, step: f64| [-step, step].map(|step| end(of, from, step).exp());
     let [low, high] = interval(of_modulus, modulus.ln(), step);
@@ -186,20 +186,6 @@ fn falling_root(function: impl Fn(f64) -> f64, start: f64) -> Option<f64> {
     for _ in 0..ITERATIONS {
         if function(far) * direction <= 0.0 {
             return Some(root(&function, near, far));
-        }
-        (near, far) = (far, far + 2.0 * (far - near));
-    }
-    None
-}
-
-/// Where a function that is positive at `from` gets to 0, in the direction of the step.
-fn crossing(function: &dyn Fn(f64) -> f64, from: f64, step: f64) -> Option<f64> {
-    let [mut near, mut far] = [from, from + step];
-    while (far - from).abs() < FARTHEST {
-        let value = function(far);
-        // Far beyond a bound it may be NaN.
-        if value <= 0.0 || value.is_nan() {
-            return Some(root(function, near, far));
         }
         (near, far) = (far, far + 2.0 * (far - near));
     }

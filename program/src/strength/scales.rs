@@ -5,10 +5,13 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, StudentsT};
 
-use super::fit::{Estimate, LEVEL};
+use super::fit::Estimate;
+use crate::common::confidence::LEVEL;
 
 /// n times the variance of ln m of samples of n tests, in large samples: 6/π².
 const VARIANCE: f64 = 0.607_927_101_854_026_6;
+/// More tests at one length nobody makes.
+const MOST_TESTS: f64 = 1e6;
 
 /// What scales tell.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,13 +70,13 @@ pub fn fit(lengths: &[f64], scales: &[f64], reference_length: f64) -> Result<Sca
 }
 
 /// The number of tests at each length from which on moduli that were found there differ by more than those of one law would in 95 of 100 cases;
-/// none where there are fewer than two.
+/// none where there are fewer than two, or they are so alike that nobody makes so many tests.
 pub fn contradiction(moduli: &[f64]) -> Option<f64> {
     let count = moduli.len() as f64;
     let mean = moduli.iter().map(|modulus| modulus.ln()).sum::<f64>() / count;
     let squares: f64 = moduli.iter().map(|modulus| (modulus.ln() - mean).powi(2)).sum();
     let quantile = ChiSquared::new(count - 1.0).ok()?.inverse_cdf(LEVEL);
-    Some((VARIANCE * quantile / squares).ceil())
+    Some((VARIANCE * quantile / squares).ceil()).filter(|&tests| tests <= MOST_TESTS)
 }
 
 #[cfg(test)]
@@ -106,6 +109,11 @@ mod tests {
         }
         assert!((found.farthest() - 0.0176).abs() < 1e-4, "{}", found.farthest());
         assert_eq!(contradiction(&MODULI), Some(11.0));
+        // Moduli that are equal, but for a digit perhaps, contradict nothing.
+        for alike in [[10.0; 6], [0.1; 6], [10.0, 10.0 + 1e-13, 10.0, 10.0, 10.0, 10.0]] {
+            assert_eq!(contradiction(&alike), None, "{alike:?}");
+        }
+        assert_eq!(contradiction(&MODULI[..1]), None);
         // A cell whose length is added to the yarn's fits alike: it is not told, and m with it.
         for (cell, modulus) in [(100.0, 8.62), (200.0, 6.33)] {
             let other = fit(&LENGTHS.map(|length| length + cell), &SCALES, 50.0).expect("a fit");

@@ -5,18 +5,16 @@
 //! (the profile likelihood). Where the shots do not refuse a level curve the interval of a speed has no end; where no speed has seen both
 //! fates that of the slope has none.
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
 use super::likelihood::{Likelihood, SLOPES};
 use super::link::Link;
-use super::search::crossing;
+use crate::common::confidence::{crossing, refusal};
 
-/// The level of all intervals.
-pub const LEVEL: f64 = 0.95;
 /// The chances whose speeds are reported: V5, V50 and V95.
 pub const CHANCES: [f64; 3] = [0.05, 0.5, 0.95];
 /// The first steps from an estimate to an end of its interval: over the deviation of the speeds, and of the slope's logarithm.
 const FIRST_STEP: f64 = 0.25;
+/// An end as far from the estimate as this, in the same units, is as good as none.
+const FARTHEST: f64 = 2048.0;
 
 /// A shot whose fate is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -171,7 +169,7 @@ impl Curve {
             }
             let deviance = |x: f64| self.deviance(likelihood.through(eta, x));
             let first = if below { -FIRST_STEP } else { FIRST_STEP };
-            crossing(deviance, self.place(chance), first, refusal()).map(|x| likelihood.speed(x))
+            crossing(deviance, self.place(chance), first, refusal(), FARTHEST).map(|x| likelihood.speed(x))
         };
         Interval { low: end(true), high: end(false) }
     }
@@ -182,7 +180,7 @@ impl Curve {
             if !self.is_refused(self.likelihood.with_slope(limit).1) {
                 return None;
             }
-            let slope = crossing(deviance, self.best[1].ln(), first, refusal())?.exp();
+            let slope = crossing(deviance, self.best[1].ln(), first, refusal(), FARTHEST)?.exp();
             Some(self.link.slope() * slope / self.likelihood.scale)
         };
         Interval { low: end(SLOPES[0], -FIRST_STEP).or(Some(0.0)), high: end(SLOPES[1], FIRST_STEP) }
@@ -196,11 +194,6 @@ impl Curve {
     fn is_refused(&self, likelihood: f64) -> bool {
         self.deviance(likelihood) > refusal()
     }
-}
-
-/// The deviance beyond which a value is refused: the quantile of χ² with one degree of freedom.
-fn refusal() -> f64 {
-    Normal::standard().inverse_cdf(0.5 + 0.5 * LEVEL).powi(2)
 }
 
 #[cfg(test)]

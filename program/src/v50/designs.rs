@@ -2,10 +2,8 @@
 
 use super::curve::{Curve, Fate, Mix, mix};
 use super::link::Link;
-use super::search::maximum;
+use super::search::{GOLDEN, maximum};
 
-/// The part of the range by which shots of the even design move on: with the golden section, any number of them lies evenly.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// What the guess of the deviation loses with each shot by which the fates do not mix yet.
 const SHRINKING: f64 = 0.8;
 /// The next shot of the D-optimal design is sought so many deviations about V50, at so many places, and between them.
@@ -52,6 +50,7 @@ impl Design {
     /// The speed that the shot of this number, from 1, is to have; before it were these, whose fates are known.
     pub fn speed(&self, number: usize, before: &[Fired], [low, high]: [f64; 2]) -> f64 {
         let next = match *self {
+            // By the golden section of the range from each to the next, any number of them lies evenly.
             Design::Even => low + (high - low) * (0.5 + GOLDEN * (number - 1) as f64).fract(),
             Design::Langlie => langlie(before, [low, high]),
             Design::UpAndDown { step } => match before.last() {

@@ -1,13 +1,9 @@
-//! One-dimensional searches: the largest value of a function, and where a rising one passes a level.
-
-use crate::common::root::root;
+//! A one-dimensional search: the largest value of a function.
 
 /// The golden section, after which a bracket has that part of its length.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// A bracket of so little of what it began with is a point: a function is flat there, as far as its digits go.
 const NARROW: f64 = 1e-9;
-/// Steps outwards, each twice the one before: what is farther is as good as without end.
-const DOUBLINGS: usize = 14;
 
 /// Where a function that rises and then falls between two places is largest, and that value; an end counts as any other place.
 pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f64) {
@@ -34,21 +30,6 @@ pub fn maximum(mut of: impl FnMut(f64) -> f64, [low, high]: [f64; 2]) -> (f64, f
         .fold((low, f64::NEG_INFINITY), |best, found| if found.1 > best.1 { found } else { best })
 }
 
-/// Where a function that rises away from `start` passes `level`, sought outwards from a step of `first` on; none where it does not.
-pub fn crossing(of: impl Fn(f64) -> f64, start: f64, first: f64, level: f64) -> Option<f64> {
-    let above = |place: f64| of(place) - level;
-    let mut step = first;
-    let mut inside = start;
-    for _ in 0..DOUBLINGS {
-        let outside = start + step;
-        if above(outside) > 0.0 {
-            return Some(root(&above, inside, outside));
-        }
-        (inside, step) = (outside, 2.0 * step);
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,14 +40,5 @@ mod tests {
         assert!((place - 0.3).abs() < 1e-7 && (value - 2.0).abs() < 1e-14, "{place} {value}");
         assert_eq!(maximum(|x| x, [-1.0, 2.0]), (2.0, 2.0));
         assert_eq!(maximum(|x| -x, [-1.0, 2.0]), (-1.0, 1.0));
-    }
-
-    #[test]
-    fn a_crossing_is_found_on_either_side_or_not_at_all() {
-        for first in [0.1, -0.1] {
-            let found = crossing(|x| x * x, 0.0, first, 7.0).expect("it is passed");
-            assert!((found - first.signum() * 7.0_f64.sqrt()).abs() < 1e-9, "{found}");
-        }
-        assert_eq!(crossing(|x| 1.0 - 1.0 / (1.0 + x.abs()), 0.0, 1.0, 1.0), None);
     }
 }

@@ -86,7 +86,7 @@ fn of_tests(tests: &[Test], fit: &Fit) -> Vec<String> {
 fn of_scales(fit: &ScaleFit, longer: Option<&(f64, ScaleFit)>, moduli: &[f64], length: &str) -> Vec<String> {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let mut notes = vec![format!("the law is within {} of the scales", percent(fit.farthest()))];
-    if let Some(tests) = contradiction(moduli).filter(|_| moduli.len() > 1) {
+    if let Some(tests) = contradiction(moduli) {
         let [least, most] =
             [moduli.iter().copied().fold(f64::INFINITY, f64::min), moduli.iter().copied().fold(0.0, f64::max)];
         notes.push(format!(
