@@ -63,18 +63,25 @@ impl StrengthFile {
             families: [family(0), family(1)],
         }
     }
+
+    /// The moduli that this table itself gives.
+    pub fn elastic_moduli(&self) -> impl Iterator<Item = &Spanned<f64>> {
+        let families = self.families.iter().flatten().map(Spanned::get_ref);
+        std::iter::once(&self.law).chain(families).filter_map(|law| law.elastic_modulus.as_ref())
+    }
 }
 
 impl LawFile {
-    /// This law, with the keys of `base` where it has none; one scale goes before the other.
+    /// This law, with the keys of `base` where it has none; one scale goes before the other, and a strain needs no modulus of another's stress.
     pub fn over(&self, base: &LawFile) -> LawFile {
         let scale = if self.strain.is_some() || self.stress.is_some() { self } else { base };
+        let inherited = base.elastic_modulus.clone().filter(|_| scale.strain.is_none());
         LawFile {
             reference_length: self.reference_length.clone().or(base.reference_length.clone()),
             weibull_modulus: self.weibull_modulus.clone().or(base.weibull_modulus.clone()),
             strain: scale.strain.clone(),
             stress: scale.stress.clone(),
-            elastic_modulus: self.elastic_modulus.clone().or(base.elastic_modulus.clone()),
+            elastic_modulus: self.elastic_modulus.clone().or(inherited),
         }
     }
 }

@@ -104,6 +104,12 @@ impl Reader<'_> {
         })
     }
 
+    /// Whether the case's own table gives this modulus, and not the scene's, whose other cases may have another law.
+    fn is_of_case(&self, modulus: &Spanned<f64>) -> bool {
+        let own = self.own.strength.as_ref().map(Spanned::get_ref);
+        own.is_some_and(|own| own.elastic_moduli().any(|given| given.span() == modulus.span()))
+    }
+
     /// The scale by what the case's law fails at.
     fn scale(&self, file: &LawFile, span: &Range<usize>) -> Result<f64, Error> {
         let linear = self.keys.law() == LawName::LinearElastic;
@@ -114,7 +120,7 @@ impl Reader<'_> {
                 let message = "strain with the linear elastic law, which fails at a stress; allowed: stress";
                 Err(self.source.error(strain.span(), message))
             }
-            (None, Some(stress)) if linear => match modulus {
+            (None, Some(stress)) if linear => match modulus.filter(|modulus| self.is_of_case(modulus)) {
                 None => positive("stress", stress),
                 Some(modulus) => {
                     let message = "elastic-modulus with the linear elastic law, which fails at the stress itself; allowed: stress alone";

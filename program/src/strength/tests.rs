@@ -210,6 +210,19 @@ fn a_case_has_its_own_keys_over_the_scene_s() {
     assert_eq!((one.field.seed, two.field.seed, one.field.cell, two.field.cell), (1, 7, 0.8, 0.8));
     assert_eq!((one.laws[0].modulus, one.laws[0].scale), (10.0, 0.0458));
     assert_eq!((two.laws[0].modulus, two.laws[0].scale), (20.0, 3637.0 / 79414.0));
+    // A modulus of the scene's stress is none of a case's strain, nor of one whose law fails at the stress.
+    let stress =
+        "cell = 0.8\nreference-length = 50.0\nweibull-modulus = 10.0\nstress = 3637.0\nelastic-modulus = 79414.0\n";
+    let cases = |keys: &str| {
+        let scene = format!("failure = \"uniaxial\"\n[scene.strength]\n{stress}[[case]]\nname = \"one\"\n{keys}\n");
+        yarn(&scene).map(|scene| scene.cases[0].strength.expect("a strength").laws[0].scale)
+    };
+    assert_eq!(cases("strength = { seed = 2 }"), Ok(3637.0 / 79414.0));
+    assert_eq!(cases("strength = { strain = 0.04 }"), Ok(0.04));
+    assert_eq!(cases("strength = { stress = 3000.0 }"), Ok(3000.0 / 79414.0));
+    assert_eq!(cases("law = \"linear-elastic\""), Ok(3637.0));
+    let error = cases("law = \"linear-elastic\"\nstrength = { elastic-modulus = 8e4 }").expect_err("a modulus");
+    assert!(error.contains("elastic-modulus with the linear elastic law"), "{error}");
     let families =
         panel("along = 4\ncolumns = 2", "", &format!("{STRENGTH}weft = {{ strain = 0.04 }}\n")).expect("a scene");
     let laws = families.cases[0].strength.expect("a strength").laws;
