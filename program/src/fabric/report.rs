@@ -10,7 +10,6 @@ use crate::common::units::{LENGTH, SPEED, TIME, number, unit};
 use crate::explicit::judgement::warnings;
 use crate::strength::scatter;
 use crate::struck::report::after_failure;
-use crate::weave::panel::Part;
 
 /// Columns of a terminal.
 const WIDTH: usize = 129;
@@ -31,11 +30,11 @@ pub fn report(scene: &Scene, results: &Results, output: &Path) -> String {
 
 /// The cases whose strength scatters.
 fn strength(scene: &Scene, results: &Results) -> String {
-    let quarter = results.iter().any(|(case, ..)| case.strength.is_some() && case.cloth.part() == Part::Quarter);
+    let left_out = results.iter().filter(|(case, ..)| case.strength.is_some()).find_map(|(case, ..)| case.left_out());
     let cases = results
         .iter()
         .map(|(case, _, figures)| (case.name.as_str(), case.strength.as_ref(), figures.weakest.as_deref()));
-    scatter::report(cases, quarter.then_some("three quarters of a panel"), &scene.units, WIDTH)
+    scatter::report(cases, left_out, &scene.units, WIDTH)
 }
 
 /// The cases in whose sections nothing carries shear along the fibres.

@@ -12,6 +12,7 @@ use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use crate::weave::cloth::Cloth;
 use crate::weave::geometry::Family;
+use crate::weave::panel::Part;
 use toron::host::units::UnitSystem;
 
 /// The cases of a file.
@@ -52,6 +53,11 @@ impl Case {
     /// Those of the zones, then those of warp and weft.
     pub fn materials(&self) -> impl Iterator<Item = &Material> {
         self.zones.materials().iter().chain(self.threads.iter().flatten().flatten().map(|material| &**material))
+    }
+
+    /// What symmetry leaves out.
+    pub fn left_out(&self) -> Option<&'static str> {
+        (self.cloth.part() == Part::Quarter).then_some("three quarters of a panel")
     }
 
     /// The place among the materials of what the yarns of a ply's family are made of, if it is not that of the zones.

@@ -23,8 +23,8 @@ pub struct PanelStrength<'a> {
 
 impl<'a> PanelStrength<'a> {
     pub fn of(case: &'a Case) -> Option<PanelStrength<'a>> {
-        let lines = case.cloth.plies().iter().map(|ply| ply.woven.centre_lines()).collect();
-        case.strength.as_ref().map(|strength| PanelStrength { case, strength, lines })
+        let lines = || case.cloth.plies().iter().map(|ply| ply.woven.centre_lines()).collect();
+        case.strength.as_ref().map(|strength| PanelStrength { case, strength, lines: lines() })
     }
 
     /// The strength of each element of a yarn: the least of the cells that its section meets.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::judgement::judge;
 use super::outcome::Outcome;
-use super::scene::{Case, Scene, Striker};
+use super::scene::{Case, LEFT_OUT, Scene, Striker};
 use super::summary::outcome;
 use crate::common::text_table::{Column, NONE, files, or_dash, shortened, table, yarns_of_cases};
 use crate::common::units::{SPEED, TIME, number, unit};
@@ -42,7 +42,7 @@ fn strength(scene: &Scene, results: &Results) -> String {
     let weakest: Vec<_> = results.iter().map(|(case, result)| case.weakest(&scene.units, &result.mesh)).collect();
     let cases = results.iter().zip(&weakest);
     let cases = cases.map(|((case, _), weakest)| (case.name.as_str(), case.strength.as_ref(), weakest.as_deref()));
-    scatter::report(cases, Some("the other half of a yarn"), &scene.units, WIDTH)
+    scatter::report(cases, Some(LEFT_OUT), &scene.units, WIDTH)
 }
 
 /// The waves of all the cases' materials, each once.

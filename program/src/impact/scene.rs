@@ -11,6 +11,9 @@ use crate::struck::shots::Shots;
 pub use crate::struck::zones::Zones;
 use toron::host::units::UnitSystem;
 
+/// What symmetry leaves out.
+pub const LEFT_OUT: &str = "the other half of a yarn";
+
 /// The cases of a file, and what they have in common.
 #[derive(Clone, Debug)]
 pub struct Scene {

@@ -102,11 +102,32 @@ impl Tension {
     }
 }
 
-impl Source<'_> {
-    /// The speed of a strike, given there, if it stretches a yarn of this material by no more than any fibre bears.
+impl Material {
+    /// That a strike of this speed stretches a yarn of this material by no more than any fibre bears.
     ///
     /// # Errors
-    /// It is faster; with a hint if the units cannot be right.
+    /// It is faster: what is allowed, with a hint if the units cannot be right.
+    pub fn bears_strike(&self, speed: f64, units: &UnitSystem) -> Result<(), String> {
+        let density = self.density.unwrap_or_default();
+        let most = Tension::of(self).map_or(0.0, |tension| tension.fastest_strike(density));
+        if speed <= most {
+            return Ok(());
+        }
+        let most = number(most);
+        let mut message =
+            format!("speed is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+        if let Some(warning) = FibreWave::of(self, units).and_then(|wave| wave.unit_warning(units)) {
+            message.push_str(&format!(";\n{warning}"));
+        }
+        Err(message)
+    }
+}
+
+impl Source<'_> {
+    /// The speed of a strike, given there, if a yarn of this material bears it.
+    ///
+    /// # Errors
+    /// As for [`Material::bears_strike`], with file and line.
     pub fn strike_speed(
         &self,
         speed: f64,
@@ -114,18 +135,7 @@ impl Source<'_> {
         material: &Material,
         units: &UnitSystem,
     ) -> Result<f64, Error> {
-        let density = material.density.unwrap_or_default();
-        let most = Tension::of(material).map_or(0.0, |tension| tension.fastest_strike(density));
-        if speed <= most {
-            return Ok(speed);
-        }
-        let most = number(most);
-        let mut message =
-            format!("speed is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
-        if let Some(warning) = FibreWave::of(material, units).and_then(|wave| wave.unit_warning(units)) {
-            message.push_str(&format!(";\n{warning}"));
-        }
-        Err(self.error(place, &message))
+        material.bears_strike(speed, units).map(|()| speed).map_err(|message| self.error(place, &message))
     }
 }
 

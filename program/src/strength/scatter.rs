@@ -22,11 +22,21 @@ impl Strength {
         self.field.cells(&self.laws[yarn.family], yarn, ends)
     }
 
+    /// Whether any yarn's cells differ.
+    pub fn scatters(&self) -> bool {
+        self.laws.iter().any(|law| law.modulus.is_finite())
+    }
+
     /// For the report: `m = 12, seed 1, cells of 5 mm, the weakest 3.9 %`.
     fn text(&self, weakest: &str, units: &UnitSystem) -> String {
-        let (Field { seed, cell }, [warp, weft]) = (self.field, self.laws.map(|law| law.modulus.to_string()));
+        format!("{}, the weakest {weakest}", self.law(units, &format!("seed {}, ", self.field.seed)))
+    }
+
+    /// `m = 12, cells of 5 mm`, with what stands between.
+    fn law(&self, units: &UnitSystem, between: &str) -> String {
+        let [warp, weft] = self.laws.map(|law| law.modulus.to_string());
         let modulus = if warp == weft { warp } else { format!("{warp} and {weft}") };
-        format!("m = {modulus}, seed {seed}, cells of {cell} {}, the weakest {weakest}", unit(units, LENGTH))
+        format!("m = {modulus}, {between}cells of {} {}", self.field.cell, unit(units, LENGTH))
     }
 }
 
@@ -54,7 +64,16 @@ pub fn report<'a>(
     }
     let groups = grouped(texts.iter().map(|(case, text)| (*case, text.as_str())));
     let groups: Vec<String> = groups.iter().map(|(text, cases)| format!("{text} ({})", cases.join(", "))).collect();
+    sentence(&groups.join("; "), mirrored, width)
+}
+
+/// The line of a report on shots of which each has a seed of its own.
+pub fn report_of_shots(strength: &Strength, mirrored: Option<&str>, units: &UnitSystem, width: usize) -> String {
+    sentence(&format!("{}, each shot with a seed of its own", strength.law(units, "")), mirrored, width)
+}
+
+fn sentence(text: &str, mirrored: Option<&str>, width: usize) -> String {
     let mirrored =
         mirrored.map(|what| format!(". Of {what}, which symmetry leaves out, the strengths are mirror images"));
-    folded(&format!("Strength by Weibull's law: {}{}.", groups.join("; "), mirrored.unwrap_or_default()), width) + "\n"
+    folded(&format!("Strength by Weibull's law: {text}{}.", mirrored.unwrap_or_default()), width) + "\n"
 }

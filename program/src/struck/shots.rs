@@ -21,6 +21,8 @@ const MOST_EXTENSION: f64 = 100.0;
 const STEP: f64 = 0.1;
 const DEVIATION: f64 = 0.125;
 const TOLERANCE: f64 = 0.02;
+/// A bracket of so little of the fastest speed has no numbers between its ends, but for a few.
+const LEAST_TOLERANCE: f64 = 1e-9;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -130,6 +132,11 @@ impl Source<'_> {
         if let Some(given) = file.extension.as_ref().filter(|_| !(1.0..=MOST_EXTENSION).contains(&extension)) {
             return error("extension", &extension, given.span(), &format!("1 to {MOST_EXTENSION}"));
         }
+        let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
+        let least = LEAST_TOLERANCE * high;
+        if let Some(given) = file.tolerance.as_ref().filter(|_| tolerance < least) {
+            return error("tolerance", &tolerance, given.span(), &format!("{least:.3e} or more"));
+        }
         let seed = match &file.seed {
             None => SEED,
             Some(seed) => match u64::try_from(*seed.get_ref()) {
@@ -147,7 +154,7 @@ impl Source<'_> {
             aim: file.aim.unwrap_or_default(),
             seed,
             extension,
-            tolerance: positive("tolerance", &file.tolerance, TOLERANCE * range)?,
+            tolerance: tolerance.max(least),
             spread: file.spread.as_ref().map(|_| positive("spread", &file.spread, 0.0)).transpose()?,
         })
     }

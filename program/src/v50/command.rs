@@ -10,6 +10,7 @@ use super::records::Records;
 use super::run::{self, FiringRange};
 use super::scene::Scene;
 use super::series::Series;
+use super::shot::Ended;
 use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
 use crate::common::console::{print, print_error};
@@ -73,6 +74,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     if let Some(experiments) = arguments.simulate {
         return simulate(&scene, experiments, arguments);
     }
+    if !arguments.limit {
+        scene.check_chance(&arguments.scene.display().to_string())?;
+    }
     if !arguments.collect.is_empty() {
         return collect(&scene, arguments);
     }
@@ -86,7 +90,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     if arguments.limit {
         return find_limit(&scene, threads, records, arguments);
     }
-    let ended = records.shots.values().filter(|ended| run::stays(&scene, ended)).count();
+    let stays = |(number, ended): &(&usize, &Ended)| numbers.contains(number) && run::stays(&scene, ended);
+    let ended = records.shots.iter().filter(stays).count();
     let range = FiringRange::new(&scene, threads, numbers.clone().count().saturating_sub(ended))?;
     let records = Mutex::new(records);
     let done = run::series(&range, numbers, &records);
@@ -157,7 +162,8 @@ fn open(scene: &Scene, arguments: &Arguments, name: &str) -> Result<Records, Err
 /// Writes the figures and the picture, and prints the report.
 fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, arguments: &Arguments) -> Result<(), Error> {
     let output = &arguments.output;
-    let series = Series::of(records, arguments.firth, scene.shots.spread);
+    let series = Series::of(run::confirmed(scene, records), arguments.firth, scene.shots.spread);
+    let beside = records.shots.len() - series.shots.len();
     for name in [report::FIGURES, "v50.svg", "v50.png"] {
         directory.remove(name)?;
     }
@@ -165,14 +171,17 @@ fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, argument
         report::write_figures(&output.join(report::FIGURES), scene, &series)?;
         plot::write(&output.join("v50.svg"), &output.join("v50.png"), scene, &series)?;
     }
-    let missing = (1..=scene.shots.number).filter(|number| !records.shots.contains_key(number)).count();
-    print(&report::report(scene, &series, missing, output));
+    let missing = scene.shots.number - series.shots.len();
+    print(&report::report(scene, &series, [missing, beside], output));
     report::no_curve(scene, &series).filter(|_| missing == 0).map_or(Ok(()), Err)
 }
 
 fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
     let directory = RunDirectory::open(&arguments.output)?;
     let mut records = Records::new(scene, &arguments.output.join(SHOTS))?;
+    if records.is_there()? {
+        records.read(&arguments.output.join(SHOTS))?;
+    }
     for part in &arguments.collect {
         records.read(&part.join(SHOTS))?;
     }

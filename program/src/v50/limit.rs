@@ -45,7 +45,8 @@ pub fn find(range: &FiringRange, records: &Mutex<Records>) -> Result<Option<Limi
     }
     if slow {
         let message = format!(
-            "a shot at {low} goes through and one at {high} is stopped: no limit between them can be found by bisection"
+            "a shot at {low} goes through and one at {high} is stopped: no limit between them can be found by bisection; allowed: speeds of \
+             which the slowest is stopped and the fastest goes through"
         );
         return Err(Error::Evaluation(message));
     }

@@ -58,7 +58,8 @@ impl Records {
         Ok(Records { place: place.to_path_buf(), titles, of, shots: BTreeMap::new(), file: None })
     }
 
-    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same.
+    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or of two ends of which one
+    /// was too early.
     ///
     /// # Errors
     /// The file cannot be read, is another table, or of another scene or build.
@@ -81,17 +82,19 @@ impl Records {
             let of = [12, 13].map(|column| record.get(column).unwrap_or_default());
             for (found, (own, what)) in of.iter().zip(self.of.iter().zip(["scene", "build of the program"])) {
                 if found != own {
-                    let allowed = "allowed: shots of this scene, but for number, extension, tolerance and spread, and of this build";
+                    let allowed = "allowed: shots of this scene, but for number, extension, tolerance, spread, end, sample, pictures, \
+                                   frames and checkpoints, and of this build";
                     return Err(wrong(&format!("a shot of another {what} ({found}, not {own}); {allowed}")));
                 }
             }
             let number = ended.shot.number;
-            if let Some(other) = self.shots.get(&number)
-                && !same(other, &ended)
-            {
-                return Err(wrong(&format!("another shot {number} than the one before; allowed: one of each number")));
-            }
-            self.shots.insert(number, ended);
+            let kept = match self.shots.get(&number) {
+                None => ended,
+                Some(other) => joined(other, &ended).cloned().ok_or_else(|| {
+                    wrong(&format!("another shot {number} than the one before; allowed: one of each number"))
+                })?,
+            };
+            self.shots.insert(number, kept);
             count += 1;
         }
         Ok(count)
@@ -199,25 +202,25 @@ fn parsed(record: &StringRecord) -> Option<Ended> {
     })
 }
 
-/// Whether two lines are of one shot: but for how long it took.
-fn same(one: &Ended, other: &Ended) -> bool {
-    one.shot == other.shot
-        && one.ending == other.ending
-        && one.speed_at_end == other.speed_at_end
-        && one.time == other.time
+/// Which of two lines of one shot tells more: one that was undecided gives way to a later end. None where they are of two shots.
+fn joined<'a>(one: &'a Ended, other: &'a Ended) -> Option<&'a Ended> {
+    let gives_way = |early: &Ended, late: &Ended| early.ending == Ending::Undecided && early.time < late.time;
+    // But for how long it took.
+    let same = one.ending == other.ending && one.speed_at_end == other.speed_at_end && one.time == other.time;
+    match one.shot == other.shot {
+        true if same || gives_way(other, one) => Some(one),
+        true if gives_way(one, other) => Some(other),
+        _ => None,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::v50::scene::YARN;
 
     fn scene(seed: u32) -> Scene {
-        let text = format!(
-            "units = \"mm-g-ms\"\n[scene]\nspeed = 100.0\nhalf-length = 2.0\nheight = 0.115\nwidth = 0.5337\nlayers = 20\n\
-             rows = 2\ncolumns = 4\nmass = 0.01\nradius = 1.0\ncontact-stiffness = 1e5\nend = 0.2\n\
-             [shots]\nnumber = 6\nspeeds = [20.0, 300.0]\nseed = {seed}\n"
-        );
-        Scene::parse("yarn.toml", &text, None).expect("a scene")
+        Scene::parse("yarn.toml", &format!("{YARN}seed = {seed}\n"), None).expect("a scene")
     }
 
     fn ended(number: usize, ending: Ending) -> Ended {
@@ -250,6 +253,13 @@ mod tests {
         assert_eq!(again.shots.remove(&4), Some(error.clone()));
         assert_eq!(records.shots.remove(&4).map(|ended| ended.shot), Some(error.shot));
         assert_eq!(again.shots, records.shots);
+
+        // Of an undecided shot the later end stands, whichever is read first; a decided one is no other than it is.
+        let mut later = ended(3, Ending::Through);
+        later.time = 0.2;
+        let early = ended(3, Ending::Undecided);
+        assert_eq!((joined(&early, &later), joined(&later, &early)), (Some(&later), Some(&later)));
+        assert_eq!(joined(&ended(3, Ending::Stopped), &later), None);
 
         let refused = |change: &dyn Fn(&str) -> String, scene: &Scene| {
             std::fs::write(&place, change(&text)).expect("it is written");

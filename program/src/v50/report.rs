@@ -10,6 +10,7 @@ use super::test_houses::Mean;
 use crate::common::error::Error;
 use crate::common::text_table::{Column, NONE, files, folded, grouped, or_dash, table, write_csv};
 use crate::common::units::{SPEED, TIME, number, unit};
+use crate::strength::scatter;
 use crate::struck::history::title;
 
 /// Columns of a terminal.
@@ -35,8 +36,8 @@ fn name(curve: &Curve) -> String {
     format!("{}{}", curve.link.name(), if curve.firth { ", Firth" } else { "" })
 }
 
-/// What came of the series; `missing` is how many of its shots have not been fired.
-pub fn report(scene: &Scene, series: &Series, missing: usize, output: &Path) -> String {
+/// What came of the series; `missing` is how many of its shots have not been fired, and `beside` how many others stand in the table.
+pub fn report(scene: &Scene, series: &Series, [missing, beside]: [usize; 2], output: &Path) -> String {
     let [stopped, through, undecided, errors] = series.counts();
     let of_errors = if errors + undecided > 0 { ", which the curves leave out" } else { "" };
     let mut counts = format!(
@@ -47,8 +48,11 @@ pub fn report(scene: &Scene, series: &Series, missing: usize, output: &Path) -> 
     if missing > 0 {
         counts += &format!("; {missing} of {} have not been fired", scene.shots.number);
     }
+    if beside > 0 {
+        counts += &format!("; {beside} more in the table are not of this series, and left out");
+    }
     let parts = [
-        folded(&counts, WIDTH) + "\n",
+        folded(&counts, WIDTH) + "\n" + &strength(scene) + &of_undecided(scene, undecided),
         curves(scene, series),
         said(scene, series),
         means(scene, series),
@@ -58,6 +62,24 @@ pub fn report(scene: &Scene, series: &Series, missing: usize, output: &Path) -> 
     ];
     let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     format!("{}\n\n{}", scene.title, parts.join("\n"))
+}
+
+fn strength(scene: &Scene) -> String {
+    let report = |strength| scatter::report_of_shots(strength, scene.target.left_out(), &scene.units, WIDTH);
+    scene.target.strength().map_or(String::new(), report)
+}
+
+/// What it means that shots are left out.
+fn of_undecided(scene: &Scene, undecided: usize) -> String {
+    if undecided == 0 {
+        return String::new();
+    }
+    let text = format!(
+        "Undecided shots are not missing at random: slow perforations and late stops, near V50, take longest. Without them the curve is \
+         too steep, and V50 may be off; a larger extension than {} decides them.",
+        scene.shots.extension
+    );
+    folded(&text, WIDTH) + "\n"
 }
 
 fn curves(scene: &Scene, series: &Series) -> String {
@@ -216,14 +238,17 @@ pub fn write_figures(file: &Path, scene: &Scene, series: &Series) -> Result<(), 
         line.push(("log_likelihood".to_string(), curve.log_likelihood().to_string()));
         line
     };
-    let of_mean = |mean: &Mean| {
-        let mut line = vec![("curve".to_string(), format!("mean of {} and {}", mean.each, mean.each))];
+    let of_mean = |mean: &Mean, within: &str| {
+        let mut line = vec![("curve".to_string(), format!("mean of {} and {}{within}", mean.each, mean.each))];
         line.extend(counts.clone());
         line.push((title("V50", SPEED, &scene.units), mean.speed.to_string()));
         line.push((title("spread", SPEED, &scene.units), mean.spread.to_string()));
         line
     };
-    let lines: Vec<_> = series.curves.iter().map(of_curve).chain(series.means.iter().map(of_mean)).collect();
+    let means = series.means.iter().map(|mean| of_mean(mean, ""));
+    let within = series.within.as_ref().and_then(|(spread, mean)| Some((spread, mean.as_ref()?)));
+    let within = within.map(|(spread, mean)| of_mean(mean, &format!(" within {spread}")));
+    let lines: Vec<_> = series.curves.iter().map(of_curve).chain(means).chain(within).collect();
     write_csv(file, &lines)
 }
 
@@ -272,4 +297,38 @@ pub fn limit(scene: &Scene, found: &super::limit::Limit) -> String {
         text += &(folded(&said, WIDTH) + "\n");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::v50::scene::YARN;
+    use crate::v50::shot::{Ended, Ending};
+
+    fn said_of(keys: &str, ending: Ending) -> String {
+        let scene = Scene::parse("yarn.toml", &format!("{YARN}{keys}"), None).expect("a scene");
+        let shot = scene.shot(1, 100.0);
+        let ended = Ended { shot, ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 };
+        // As it is folded to the terminal's width, on one line.
+        report(&scene, &Series::of(vec![ended], false, None), [5, 2], Path::new("there")).replace('\n', " ")
+    }
+
+    /// A series says what its strengths are of, what it leaves out, and what that means.
+    #[test]
+    fn what_a_curve_is_of_is_said() {
+        let strength =
+            "[scene.strength]\ncell = 0.8\nreference-length = 50.0\nweibull-modulus = 10.0\nstrain = 0.0458\n";
+        let text = said_of(strength, Ending::Undecided);
+        for wanted in [
+            "m = 10, cells of 0.8 mm, each shot with a seed of its own. Of the other half of a yarn, which symmetry leaves out",
+            "Undecided shots are not missing at random",
+            "a larger extension than 2 decides them",
+            "5 of 6 have not been fired",
+            "2 more in the table are not of this series",
+        ] {
+            assert!(text.contains(wanted), "{wanted}: {text}");
+        }
+        let text = said_of("", Ending::Stopped);
+        assert!(!text.contains("Strength") && !text.contains("at random"), "{text}");
+    }
 }

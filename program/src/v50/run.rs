@@ -20,6 +20,8 @@ use crate::common::units::{SPEED, number, unit};
 
 /// Ticks of the progress bar for each shot.
 const TICKS: u64 = 1000;
+/// A sequential design that gets no fate from so many shots in a row goes on repeating itself.
+const WITHOUT_FATE: usize = 3;
 /// Times closer than this part of themselves are the same.
 const ROUNDING: f64 = 1e-9;
 
@@ -157,15 +159,36 @@ fn due(scene: &Scene, records: &Records, numbers: RangeInclusive<usize>) -> Vec<
     numbers.filter(|number| !records.shots.get(number).is_some_and(|ended| stays(scene, ended))).collect()
 }
 
+/// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is missing or that the
+/// fates before it would have at another speed now.
+pub fn confirmed(scene: &Scene, records: &Records) -> Vec<Ended> {
+    let design = scene.design();
+    let (mut shots, mut before): (Vec<Ended>, Vec<Fired>) = Default::default();
+    for number in 1..=scene.shots.number {
+        let shot = scene.shot(number, design.speed(number, &before, scene.shots.speeds));
+        match records.shots.get(&number).filter(|ended| ended.shot == shot) {
+            Some(ended) => {
+                if design.is_sequential() {
+                    before.extend(ended.fate().map(|fate| Fired { nominal: shot.nominal, fate }));
+                }
+                shots.push(ended.clone());
+            }
+            None if design.is_sequential() => break,
+            None => {}
+        }
+    }
+    shots
+}
+
 /// Fires the shots of these numbers that have to be fired; whether none is left.
 ///
 /// # Errors
-/// As for [`FiringRange::fire_all`].
+/// As for [`FiringRange::fire_all`]; a sequential design gets no fates.
 pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mutex<Records>) -> Result<bool, Error> {
     let (scene, design) = (range.scene, range.scene.design());
     let speeds = scene.shots.speeds;
     if design.is_sequential() {
-        let mut before: Vec<Fired> = Vec::new();
+        let (mut before, mut without_fate): (Vec<Fired>, usize) = Default::default();
         for number in numbers {
             let shot = scene.shot(number, design.speed(number, &before, speeds));
             let known = {
@@ -176,6 +199,10 @@ pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mut
                 return Ok(false);
             };
             before.extend(ended.fate().map(|fate| Fired { nominal: shot.nominal, fate }));
+            without_fate = if ended.fate().is_some() { 0 } else { without_fate + 1 };
+            if without_fate == WITHOUT_FATE {
+                return Err(no_fates(scene, &ended));
+            }
         }
         return Ok(true);
     }
@@ -183,4 +210,79 @@ pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mut
     let shots: Vec<Shot> = due.iter().map(|&number| scene.shot(number, design.speed(number, &[], speeds))).collect();
     range.fire_all(&shots, records)?;
     Ok(!range.is_interrupted())
+}
+
+/// Why a sequential design does not go on after this shot.
+fn no_fates(scene: &Scene, last: &Ended) -> Error {
+    let Shot { number: to, nominal, .. } = last.shot;
+    let (from, speed, nominal) = (to + 1 - WITHOUT_FATE, unit(&scene.units, SPEED), number(nominal));
+    let (why, allowed) = match &last.ending {
+        Ending::Error(message) => {
+            (format!("an error: {message}"), "a scene that runs, or another range of speeds".to_string())
+        }
+        _ => {
+            let extension = scene.shots.extension;
+            (
+                format!("undecided at {}", number(last.time)),
+                format!("a later end, or a larger extension than {extension}"),
+            )
+        }
+    };
+    Error::Evaluation(format!(
+        "shots {from} to {to} have no fate, and design {} goes on at {nominal} {speed} still; the last is {why}; allowed: {allowed}, or design = \"even\"",
+        scene.design().name()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::v50::scene::YARN;
+
+    fn ended(shot: Shot, ending: Ending) -> Ended {
+        Ended { shot, ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 }
+    }
+
+    /// A table of the shots of these numbers at these speeds, with their endings.
+    fn records(scene: &Scene, shots: &[(usize, f64, Ending)]) -> Records {
+        let mut records = Records::new(scene, Path::new("shots.csv")).expect("a table");
+        let of = |(number, nominal, ending): &(usize, f64, Ending)| {
+            (*number, ended(scene.shot(*number, *nominal), ending.clone()))
+        };
+        records.shots = shots.iter().map(of).collect();
+        records
+    }
+
+    fn numbers(scene: &Scene, records: &Records) -> Vec<usize> {
+        confirmed(scene, records).iter().map(|ended| ended.shot.number).collect()
+    }
+
+    /// Shots behind the first that has another speed by the fates before it are of no series yet.
+    #[test]
+    fn shots_of_a_sequential_design_are_confirmed_one_by_one() {
+        let text = format!("{YARN}scatter = 0.0\ndesign = \"up-and-down\"\nstep = 10.0\n");
+        let scene = Scene::parse("yarn.toml", &text, None).expect("a scene");
+        let of = |first: Ending| {
+            let shots = [
+                (1, 160.0, first),
+                (2, 170.0, Ending::Undecided),
+                (3, 170.0, Ending::Through),
+                (4, 160.0, Ending::Stopped),
+                (6, 180.0, Ending::Stopped),
+            ];
+            numbers(&scene, &records(&scene, &shots))
+        };
+        assert_eq!(of(Ending::Stopped), [1, 2, 3, 4]);
+        assert_eq!(of(Ending::Through), [1]);
+    }
+
+    #[test]
+    fn shots_beyond_the_number_are_of_no_series() {
+        let scene = Scene::parse("yarn.toml", &format!("{YARN}design = \"even\"\n"), None).expect("a scene");
+        let speed = |number: usize| scene.design().speed(number, &[], scene.shots.speeds);
+        let shots = [1, 4, 6, 7, 10].map(|number| (number, speed(number), Ending::Stopped));
+        assert_eq!(numbers(&scene, &records(&scene, &shots)), [1, 4, 6]);
+    }
 }

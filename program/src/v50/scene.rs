@@ -9,6 +9,9 @@ use crate::common::chance::uniform;
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source};
 use crate::impact::scene::Striker;
+use crate::material::model::Material;
+use crate::strength::scatter::Strength;
+use crate::struck::plan::Plan;
 use crate::struck::shots::{AimName, DesignName, Shots};
 use crate::weave::panel::Part;
 use crate::{fabric, impact};
@@ -93,6 +96,10 @@ impl Scene {
     }
 
     fn check(&self, name: &str) -> Result<(), Error> {
+        if !self.target.can_fail() {
+            let message = "failure is none: nothing breaks, and every shot is stopped; allowed: failure = \"uniaxial\" or \"multiaxial\"";
+            return Err(Error::Input(format!("{name}: {message}")));
+        }
         let in_cell = self.shots.aim == AimName::Cell;
         let refused = match &self.target {
             Target::Yarn(case) => match case.striker {
@@ -108,6 +115,20 @@ impl Scene {
             Target::Panel(_) => return Ok(()),
         };
         Err(Error::Input(format!("{name}: {refused}")))
+    }
+
+    /// That something is chance in the shots of a series: else their fates are a step, whose place is found without statistics.
+    ///
+    /// # Errors
+    /// Nothing is.
+    pub fn check_chance(&self, name: &str) -> Result<(), Error> {
+        let Shots { scatter, aim, .. } = self.shots;
+        if scatter > 0.0 || aim == AimName::Cell || self.target.strength().is_some_and(Strength::scatters) {
+            return Ok(());
+        }
+        let message = "nothing scatters: scatter is 0, aim is fixed, and no strength has a finite weibull-modulus; allowed: a scatter > 0, \
+                       aim = \"cell\", [scene.strength], or --limit, which needs no chance";
+        Err(Error::Input(format!("{name}: {message}")))
     }
 
     pub fn design(&self) -> Design {
@@ -143,12 +164,13 @@ impl Scene {
 
     /// How long a shot may take.
     pub fn last(&self) -> f64 {
-        self.shots.extension * self.target.end()
+        self.shots.extension * self.target.plan().end
     }
 
     /// All that the outcome of a shot depends on besides what the shot itself says.
     pub fn identity(&self) -> u32 {
         let mut target = self.target.at(&self.plain_shot(0, 1.0), 1.0);
+        let decides = self.target.plan().decides;
         let shots = Shots { number: 0, extension: 0.0, tolerance: 0.0, spread: None, ..self.shots };
         let case = match &mut target {
             Target::Panel(case) => {
@@ -160,7 +182,7 @@ impl Scene {
                 format!("{case:?}")
             }
         };
-        crc32fast::hash(format!("{:?} {case} {shots:?}", self.units.names()).as_bytes())
+        crc32fast::hash(format!("{:?} {case} {decides} {shots:?}", self.units.names()).as_bytes())
     }
 }
 
@@ -220,20 +242,54 @@ impl Target {
 
     /// Of the strength, where that scatters.
     fn seed(&self) -> Option<u64> {
-        match self {
-            Target::Panel(case) => case.strength,
-            Target::Yarn(case) => case.strength,
-        }
-        .map(|strength| strength.field.seed)
+        self.strength().map(|strength| strength.field.seed)
     }
 
-    fn end(&self) -> f64 {
+    /// Where it scatters.
+    pub fn strength(&self) -> Option<&Strength> {
         match self {
-            Target::Panel(case) => case.plan.end,
-            Target::Yarn(case) => case.plan.end,
+            Target::Panel(case) => case.strength.as_ref(),
+            Target::Yarn(case) => case.strength.as_ref(),
+        }
+    }
+
+    /// What symmetry leaves out.
+    pub fn left_out(&self) -> Option<&'static str> {
+        match self {
+            Target::Panel(case) => case.left_out(),
+            Target::Yarn(_) => Some(impact::scene::LEFT_OUT),
+        }
+    }
+
+    /// The material under the blow.
+    pub fn inner(&self) -> &Material {
+        match self {
+            Target::Panel(case) => case.zones.inner(),
+            Target::Yarn(case) => case.zones.inner(),
+        }
+    }
+
+    /// Whether anything may break.
+    fn can_fail(&self) -> bool {
+        match self {
+            Target::Panel(case) => case.materials().any(Material::can_fail),
+            Target::Yarn(case) => case.zones.materials().iter().any(Material::can_fail),
+        }
+    }
+
+    fn plan(&self) -> &Plan {
+        match self {
+            Target::Panel(case) => &case.plan,
+            Target::Yarn(case) => &case.plan,
         }
     }
 }
+
+/// A yarn that is shot at.
+#[cfg(test)]
+pub const YARN: &str = "units = \"mm-g-ms\"\n[scene]\nspeed = 100.0\nhalf-length = 2.0\nheight = 0.115\nwidth = 0.5337\n\
+    layers = 20\nrows = 2\ncolumns = 4\nmass = 0.01\nradius = 1.0\ncontact-stiffness = 1e5\nend = 0.2\nfailure = \"uniaxial\"\n\
+    [shots]\nnumber = 6\nspeeds = [20.0, 300.0]\n";
 
 #[cfg(test)]
 mod tests {
@@ -291,14 +347,51 @@ mod tests {
         let plain = panel("quarter", "", 10.0).expect("a scene");
         assert_eq!((plain.shot(3, 90.0).speed, plain.shot(3, 90.0).aim), (90.0, [0.0; 2]));
         assert_eq!(plain.plain_shot(1, 90.0).seed, Some(1));
+        assert_eq!(plain.target.left_out(), Some("three quarters of a panel"));
+        assert_eq!(scene.target.left_out(), None);
+    }
+
+    /// Where nothing is chance a series is refused, whatever the table of strength says; `--limit` is not.
+    #[test]
+    fn a_series_needs_chance() {
+        let refused = |scene: &Scene| scene.check_chance("shots.toml").err().map(|error| error.to_string());
+        let even = panel("whole", "", f64::INFINITY).expect("a scene");
+        assert!(refused(&even).is_some_and(|message| message.contains("nothing scatters: scatter is 0")));
+        assert!(refused(&Scene::parse("yarn.toml", YARN, None).expect("a scene")).is_some());
+        for (shots, modulus) in [("", 10.0), ("scatter = 0.1", f64::INFINITY), ("aim = \"cell\"", f64::INFINITY)] {
+            assert_eq!(refused(&panel("whole", shots, modulus).expect("a scene")), None, "{shots}");
+        }
+    }
+
+    /// A scene is another one where a shot may end otherwise, and the same whatever else is planned.
+    #[test]
+    fn a_scene_is_known_by_what_its_shots_depend_on() {
+        let of = |from: &str, to: &str| {
+            Scene::parse("yarn.toml", &YARN.replace(from, to), None).expect("a scene").identity()
+        };
+        let whole = panel("whole", "", 10.0).expect("a scene");
+        let mut decided = panel("whole", "", 10.0).expect("a scene");
+        let Target::Panel(case) = &mut decided.target else { panic!("a panel") };
+        case.plan.decides = true;
+        assert_ne!(whole.identity(), decided.identity());
+        let own = of("", "");
+        for (from, to) in
+            [("end = 0.2", "end = 0.3\nsample = 0.01\nframes = 3"), ("number = 6", "number = 9\nspread = 3.0")]
+        {
+            assert_eq!(of(from, to), own, "{to}");
+        }
+        assert_ne!(of("layers = 20", "layers = 40"), own);
     }
 
     #[test]
     fn scenes_that_cannot_be_shot_at_are_refused() {
+        let error = Scene::parse("yarn.toml", &YARN.replace("failure = \"uniaxial\"\n", ""), None).map(|_| ());
+        assert!(error.is_err_and(|error| error.to_string().contains("failure is none: nothing breaks")));
         for (part, shots, message) in [
             ("quarter", "aim = \"cell\"", "aim is \"cell\" of a quarter"),
             ("whole", "extension = 0.5", "extension is 0.5; allowed: 1 to 100"),
             ("whole", "seed = -1", "seed is -1; allowed: a whole number >= 0"),
+            ("whole", "tolerance = 1e-9", "tolerance is 0.000000001; allowed: 1.2"),
             ("whole", "scatter = -1.0", "scatter is -1; allowed: a finite number >= 0"),
             ("whole", "deviation = 3.0", "deviation is 3; allowed: with design = \"d-optimal\""),
             ("whole", "design = \"up-and-down\"\nstep = 0.0", "step is 0; allowed: a finite number > 0"),

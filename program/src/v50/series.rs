@@ -3,7 +3,6 @@
 use super::curve::{Curve, Fate, Mix, mix};
 use super::lambert_jonas::LambertJonas;
 use super::link::Link;
-use super::records::Records;
 use super::shot::{Ended, Ending};
 use super::test_houses::{self, Mean};
 use crate::explicit::judgement::SOUND;
@@ -25,8 +24,7 @@ pub struct Series {
 }
 
 impl Series {
-    pub fn of(records: &Records, firth: bool, spread: Option<f64>) -> Series {
-        let shots: Vec<Ended> = records.shots.values().cloned().collect();
+    pub fn of(shots: Vec<Ended>, firth: bool, spread: Option<f64>) -> Series {
         let fates: Vec<Fate> = shots.iter().filter_map(Ended::fate).collect();
         let corrections: &[bool] = if firth { &[false, true] } else { &[false] };
         let kinds = corrections.iter().flat_map(|&firth| Link::BOTH.map(|link| (link, firth)));

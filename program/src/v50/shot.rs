@@ -105,6 +105,8 @@ pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
 }
 
 fn strike(scene: &Scene, shot: &Shot, watcher: &mut Watcher) -> Result<Option<Ended>, Error> {
+    // Scatter, and some designs, leave the range that the scene's reader has looked at.
+    scene.target.inner().bears_strike(shot.speed, &scene.units).map_err(Error::Input)?;
     match scene.target.at(shot, scene.last()) {
         Target::Panel(case) => {
             let struck = StruckPanel::new(&case)?;
@@ -136,4 +138,30 @@ fn ended<E: Copy + Default, C>(shot: &Shot, outcome: &run::Outcome<E, C>, findin
         verdict: verdict(findings),
         seconds: outcome.wall.as_secs_f64(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::v50::scene::YARN;
+
+    struct Unwatched;
+
+    impl Watch for Unwatched {
+        fn progress(&self, _: &Shot, _: f64) {}
+
+        fn interrupts(&self) -> bool {
+            false
+        }
+    }
+
+    /// A shot that has left the range for speeds that no yarn bears is an error with what is allowed, not a run.
+    #[test]
+    fn a_shot_faster_than_any_yarn_bears_is_an_error() {
+        let scene = Scene::parse("yarn.toml", YARN, None).expect("a scene");
+        let ended = fire(&scene, &scene.plain_shot(3, 3e6), &Unwatched).expect("it ends");
+        let Ending::Error(message) = &ended.ending else { panic!("{ended:?}") };
+        assert!(message.contains("speed is 3000000; allowed: up to"), "{message}");
+        assert_eq!((ended.shot.number, ended.fate(), ended.time), (3, None, 0.0));
+    }
 }

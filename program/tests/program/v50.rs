@@ -66,13 +66,15 @@ fn shots(output: &Path) -> Vec<String> {
 /// have one and two threads.
 #[test]
 fn shots_are_the_same_however_they_are_split() {
-    let (folder, scene) = place("split", &panel("even", 10, ""));
+    let (folder, scene) = place("split", &panel("even", 10, "spread = 500.0"));
     let [whole, one, two, joined, killed] = ["whole", "one", "two", "joined", "killed"].map(|name| folder.join(name));
     let report = succeeds(&run(&scene, &whole, &["--threads", "2"]));
     assert!(report.contains("10 shots by design even") && report.contains("V50"), "{report}");
     for name in ["v50.csv", "v50.svg", "v50.png"] {
         assert!(whole.join(name).is_file(), "{name}");
     }
+    let figures = std::fs::read_to_string(whole.join("v50.csv")).expect("figures");
+    assert!(figures.lines().last().is_some_and(|line| line.contains(" within 500,")), "{figures}");
     let expected = shots(&whole);
     assert_eq!(expected.len(), 10);
 
@@ -82,10 +84,10 @@ fn shots_are_the_same_however_they_are_split() {
     let [one, two] = [&one, &two].map(|path| path.to_str().expect("a path"));
     succeeds(&run(&scene, &joined, &["--collect", one, two]));
     assert_eq!(shots(&joined), expected);
-    assert_eq!(
-        std::fs::read_to_string(joined.join("v50.csv")).expect("figures"),
-        std::fs::read_to_string(whole.join("v50.csv")).expect("figures")
-    );
+    assert_eq!(std::fs::read_to_string(joined.join("v50.csv")).expect("figures"), figures);
+    // What is joined already stays.
+    succeeds(&run(&scene, &joined, &["--collect", one]));
+    assert_eq!(shots(&joined), expected);
 
     let mut child = program(&scene, &killed, &["--threads", "1"]).spawn().expect("it starts");
     while std::fs::read_to_string(killed.join("shots.csv")).map_or(0, |text| text.lines().count()) < 4 {
@@ -106,8 +108,19 @@ fn shots_are_the_same_however_they_are_split() {
     succeeds(&run(&scene, &killed, &["--restart"]));
     assert_eq!((shots(&killed).len(), &shots(&killed)[..10]), (12, &expected[..]));
 
+    // Those beyond a smaller number are left out.
+    std::fs::write(&scene, panel("even", 10, "")).expect("the scene is written");
+    let report = succeeds(&run(&scene, &killed, &["--restart"]));
+    assert!(report.contains("10 shots by design even") && report.contains("2 more in the table are not"), "{report}");
+
     std::fs::write(&scene, panel("even", 10, "seed = 2")).expect("the scene is written");
-    fails(&run(&scene, &joined, &["--collect", one]), "a shot of another scene");
+    let other = folder.join("other");
+    run(&scene, &other, &["--shots", "1-2"]);
+    let other = other.to_str().expect("a path");
+    for parts in [one, other] {
+        fails(&run(&scene, &joined, &["--collect", parts]), "a shot of another scene");
+    }
+    assert_eq!(shots(&joined), expected);
     fails(&run(&scene, &killed, &["--restart"]), "a shot of another scene");
     std::fs::write(&scene, panel("even", 10, "")).expect("the scene is written");
     let table = whole.join("shots.csv");
@@ -140,11 +153,17 @@ fn undecided_shots_are_counted_and_extended() {
     let output = folder.join("shots");
     let answer = run(&scene, &output, &[]);
     fails(&answer, "no curve: 0 shots have a known fate");
-    assert!(String::from_utf8_lossy(&answer.stdout).contains("4 undecided"), "{answer:?}");
+    let report = String::from_utf8_lossy(&answer.stdout);
+    assert!(report.contains("4 undecided") && report.contains("Undecided shots are not missing at random"), "{report}");
     assert!(shots(&output).iter().all(|line| line.contains("undecided")));
     std::fs::write(&scene, short(100.0)).expect("the scene is written");
     run(&scene, &output, &["--restart"]);
     let lines = shots(&output);
+    // A sequential design has nothing to go on by.
+    std::fs::write(&scene, short(1.0).replace("\"even\"", "\"langlie\"")).expect("the scene is written");
+    let sequential = folder.join("sequential");
+    fails(&run(&scene, &sequential, &[]), "shots 1 to 3 have no fate, and design langlie goes on at 130.0 mm/ms still");
+    assert_eq!(shots(&sequential).len(), 3);
     assert!(lines.len() == 4 && lines.iter().filter(|line| line.contains("undecided")).count() < 4, "{lines:?}");
 }
 
@@ -154,8 +173,8 @@ fn a_yarn_has_a_limit() {
     let text = "units = \"mm-g-ms\"\n\
          [scene]\nspeed = 100.0\nhalf-length = 2.0\nheight = 0.115\nwidth = 0.5337\nlayers = 20\nrows = 2\ncolumns = 4\n\
          mass = 0.01\nradius = 1.0\ncontact-stiffness = 1e5\nend = 0.2\nfailure = \"uniaxial\"\n\
-         [shots]\nnumber = 6\nspeeds = [20.0, 300.0]\ntolerance = 20.0\n";
-    let (folder, scene) = place("yarn", text);
+         [shots]\nscatter = 1.0\nnumber = 6\nspeeds = [20.0, 300.0]\ntolerance = 20.0\n";
+    let (folder, scene) = place("yarn", &text.replace("scatter = 1.0\n", ""));
     let output = folder.join("limit");
     let report = succeeds(&run(&scene, &output, &["--limit"]));
     assert!(report.contains("Without scatter: stopped at"), "{report}");
@@ -164,6 +183,9 @@ fn a_yarn_has_a_limit() {
     // Known shots are not fired again.
     assert_eq!(succeeds(&run(&scene, &output, &["--limit", "--restart"])), report);
     assert_eq!(std::fs::read_to_string(output.join("limit.csv")).expect("a table").lines().count(), lines);
+    // A series needs chance, which a limit does not.
+    fails(&run(&scene, &folder.join("shots"), &[]), "nothing scatters: scatter is 0, aim is fixed");
+    std::fs::write(&scene, text).expect("the scene is written");
     run(&scene, &folder.join("shots"), &[]);
     assert_eq!(shots(&folder.join("shots")).len(), 6);
     for (line, with, message) in [
@@ -177,7 +199,13 @@ fn a_yarn_has_a_limit() {
         ("number = 6", "number = 6\nstep = 3.0", "step is 3; allowed: with design = \"up-and-down\""),
         ("number = 6", "number = 6\naim = \"cell\"", "aim is \"cell\" of a yarn; allowed: fixed"),
         ("radius = 1.0", "radius = 1.0\nheld = true", "nothing stops it; allowed: a cylinder that is free"),
-        ("[shots]\nnumber = 6\nspeeds = [20.0, 300.0]\ntolerance = 20.0\n", "", "no shots; allowed: a table [shots]"),
+        ("failure = \"uniaxial\"\n", "", "failure is none: nothing breaks, and every shot is stopped"),
+        ("tolerance = 20.0", "tolerance = 1e-9", "tolerance is 0.000000001; allowed: 3.000e-7 or more"),
+        (
+            "[shots]\nscatter = 1.0\nnumber = 6\nspeeds = [20.0, 300.0]\ntolerance = 20.0\n",
+            "",
+            "no shots; allowed: a table [shots]",
+        ),
     ] {
         std::fs::write(&scene, text.replacen(line, with, 1)).expect("the scene is written");
         fails(&run(&scene, &folder.join("refused"), &[]), message);
