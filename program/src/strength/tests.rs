@@ -100,7 +100,7 @@ fn a_coarse_part_has_the_cells_of_a_fine_one() {
     let mesh = "along = 4\ncolumns = 2\nrows = 1";
     let fine = sections(mesh, "");
     let [mut same, mut replaced] = [0; 2];
-    for (yarn, partly) in sections(mesh, "coarse-radius = 2.0\n") {
+    for (yarn, partly) in sections(mesh, "coarse-radius = 2.0\ncoarse-rows = 1\n") {
         let fine = of_yarn(&fine, yarn).expect("the same yarns");
         // Without the first and the last section, since the meshes do not end at the same places.
         for pair in partly.windows(2).skip(1) {

@@ -309,8 +309,9 @@ mod tests {
         let scene = Scene::parse("yarn.toml", &format!("{YARN}{keys}"), None).expect("a scene");
         let shot = scene.shot(1, 100.0);
         let ended = Ended { shot, ending, speed_at_end: 1.0, time: 0.4, verdict: "sound".to_string(), seconds: 1.0 };
-        // As it is folded to the terminal's width, on one line.
-        report(&scene, &Series::of(vec![ended], false, None), [5, 2], Path::new("there")).replace('\n', " ")
+        let text = report(&scene, &Series::of(vec![ended], false, None), [5, 2], Path::new("there"));
+        // It is folded to the terminal's width.
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
     }
 
     /// A series says what its strengths are of, what it leaves out, and what that means.

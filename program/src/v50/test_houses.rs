@@ -29,7 +29,7 @@ pub fn mean(fates: &[Fate], each: usize) -> Option<Mean> {
 
 /// The mean of the most shots whose speeds lie within a spread.
 pub fn widest(fates: &[Fate], spread: f64) -> Option<Mean> {
-    (1..=fates.len() / 2).filter_map(|each| mean(fates, each)).filter(|mean| mean.spread <= spread).next_back()
+    (1..=fates.len() / 2).filter_map(|each| mean(fates, each)).rfind(|mean| mean.spread <= spread)
 }
 
 #[cfg(test)]
