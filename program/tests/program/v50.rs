@@ -198,6 +198,9 @@ fn a_yarn_has_a_limit() {
 #[test]
 fn experiments_are_simulated() {
     let (folder, scene) = place("simulated", &panel("even", 10, ""));
+    // The same file is that of a panel, which is meshed without its shots.
+    let weave = Command::new(env!("CARGO_BIN_EXE_toron")).arg("weave").arg(&scene).arg("-o").arg(&folder).output();
+    succeeds(&weave.expect("it starts"));
     let report = succeeds(&run(&scene, &folder, &["--simulate", "20", "--firth", "--truth", "130", "10"]));
     assert!(
         report.contains("20 simulated experiments of 10 shots") && report.contains("V50 130, deviation 10"),
