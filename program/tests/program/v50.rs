@@ -29,6 +29,8 @@ fn program(scene: &Path, output: &Path, arguments: &[&str]) -> Command {
 /// A folder for a test, with the scene in it.
 fn place(name: &str, text: &str) -> (PathBuf, PathBuf) {
     let folder = folder(&format!("v50-{name}"));
+    // What an earlier run has left would be refused.
+    std::fs::remove_dir_all(&folder).and_then(|()| std::fs::create_dir_all(&folder)).expect("a folder");
     let scene = folder.join("scene.toml");
     std::fs::write(&scene, text).expect("the scene is written");
     (folder, scene)
