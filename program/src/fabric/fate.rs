@@ -2,9 +2,8 @@
 //!
 //! Two bounds together, each with a margin, since neither is one of mechanics alone. What still acts on it: the mean force over the
 //! last eighth of a radius would have to be kept up for [`REACH`] radii to stop it. And what might still bear: yarns that are not
-//! torn and of which more than half lies ahead of it, in its way. Each of them may take as much energy as was taken by each torn one so
-//! far, if these took all that the striker has lost: in a panel of Kevlar that is what a yarn stores when all of it is about to fail.
-//! Where the two leave it moving, nothing that was seen in this shot stops it.
+//! torn and whose axes lie ahead of it, in its way. Each of them may take as much energy as was taken by each torn one so far, if these
+//! took all that the striker has lost. Where the two leave it moving, nothing that was seen in this shot stops it.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
