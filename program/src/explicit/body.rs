@@ -217,8 +217,8 @@ impl<T: Number> Body<T> {
         for tie in &self.ties {
             let force = std::mem::take(&mut self.forces[tie.node as usize]);
             for (corner, share) in tie.parts() {
-                for i in 0..3 {
-                    self.forces[corner][i] += T::from_f64(share) * force[i];
+                for (f, of_node) in self.forces[corner].iter_mut().zip(force) {
+                    *f += T::from_f64(share) * of_node;
                 }
             }
         }
@@ -237,8 +237,8 @@ impl<T: Number> Body<T> {
         for tie in &self.ties {
             let mut velocity = [T::default(); 3];
             for (corner, share) in tie.parts() {
-                for i in 0..3 {
-                    velocity[i] += T::from_f64(share) * self.state.velocity[corner][i];
+                for (v, of_corner) in velocity.iter_mut().zip(self.state.velocity[corner]) {
+                    *v += T::from_f64(share) * of_corner;
                 }
             }
             self.state.velocity[tie.node as usize] = velocity;

@@ -28,6 +28,8 @@ pub struct SceneFile {
     _scene: Option<IgnoredAny>,
     #[serde(rename = "case")]
     _case: Option<IgnoredAny>,
+    #[serde(rename = "shots")]
+    _shots: Option<IgnoredAny>,
 }
 
 /// The table `[weave]`, and what a case has otherwise.

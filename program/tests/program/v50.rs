@@ -29,6 +29,8 @@ fn program(scene: &Path, output: &Path, arguments: &[&str]) -> Command {
 /// A folder for a test, with the scene in it.
 fn place(name: &str, text: &str) -> (PathBuf, PathBuf) {
     let folder = folder(&format!("v50-{name}"));
+    // What an earlier run has left would be refused.
+    std::fs::remove_dir_all(&folder).and_then(|()| std::fs::create_dir_all(&folder)).expect("a folder");
     let scene = folder.join("scene.toml");
     std::fs::write(&scene, text).expect("the scene is written");
     (folder, scene)
@@ -226,6 +228,9 @@ fn a_yarn_has_a_limit() {
 #[test]
 fn experiments_are_simulated() {
     let (folder, scene) = place("simulated", &panel("even", 10, ""));
+    // The same file is that of a panel, which is meshed without its shots.
+    let weave = Command::new(env!("CARGO_BIN_EXE_toron")).arg("weave").arg(&scene).arg("-o").arg(&folder).output();
+    succeeds(&weave.expect("it starts"));
     let report = succeeds(&run(&scene, &folder, &["--simulate", "20", "--firth", "--truth", "130", "10"]));
     assert!(
         report.contains("20 simulated experiments of 10 shots") && report.contains("V50 130, deviation 10"),
