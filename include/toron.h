@@ -995,7 +995,8 @@ typedef struct toron_linear_block_f64 {
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
+   `state_new` is not null.
    */
   const double *limit;
   struct toron_layout limit_layout;
@@ -1085,7 +1086,8 @@ typedef struct toron_linear_block_f32 {
   struct toron_layout stress_layout;
   struct toron_layout tangent_layout;
   /*
-   In, a number for each point: the strength in place of that of the properties; 0: that of the properties.
+   In, a number for each point: the strength in place of that of the properties; if null or 0, that of the properties. Read if
+   `state_new` is not null.
    */
   const float *limit;
   struct toron_layout limit_layout;
@@ -1566,7 +1568,8 @@ int32_t toron_linear_elastic_block_with_properties_f32(const float *properties,
 
  The arguments are those of a UMAT with the same names: `stress` (`ntens` = `ndi` + `nshr`, out), `statev` (`nstatv` ≥ 11, in and
  out), `ddsdde` (`ntens` × `ntens`, out, symmetric, engineering shears; if null, it is not computed), `sse` (out),
- `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
+ `pnewdt` (in and out), `dfgrd1` (9, in), `props` (`nprops` = 11, in, or 12: the
+ last one is the number of the state variable that holds the point's own limit, ln(1 + eps_lim), or 0), `ndi` = 3, `nshr` = 3, or 1 for plane strain and
  axisymmetric solids, whose fibre lies in the plane or normal to it, and `nlgeom`: JSTEP(3) of
  Abaqus, which is not 0 with NLGEOM=YES; without it there is no F. No pointer other than `ddsdde` may be null.
 
@@ -1613,7 +1616,7 @@ int32_t toron_abaqus_umat_f64(double *stress,
  The linear elastic law as a UMAT of Abaqus/Standard.
 
  The arguments are those of `toron_abaqus_umat_tangent_f64`, and `dfgrd0` (9, in), F at the start of the increment; `nstatv` ≥ 10,
- `nprops` = 10. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
+ `nprops` = 10, or 11: the last one is the number of the state variable that holds the point's own strength, or 0. The material axes follow the fibre, and the largest principal stress is compared with σ_lim. DDSDDE is not
  symmetric: `*USER MATERIAL, UNSYMM`; Abaqus takes its symmetric part otherwise. In plane strain and axisymmetric solids both axes
  lie in the plane or normal to it.
 
