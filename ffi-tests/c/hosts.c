@@ -592,8 +592,8 @@ static void umat_wrong_calls(void)
     umat_refused(a, TORON_BAD_COUNT, NDI_TEXT "2 given, 3 needed");
     a = good, a.nstatv = STATE - 1;
     umat_refused(a, TORON_STATE_COUNT, DEPVAR_TEXT "10 given, 11 needed");
-    a = good, a.nprops = PROPERTIES + 1;
-    umat_refused(a, TORON_PROPERTY_COUNT, "number of properties: 12 given, 11 needed");
+    a = good, a.nprops = PROPERTIES + 2;
+    umat_refused(a, TORON_PROPERTY_COUNT, "number of properties: 13 given, 11 needed");
     a = good, a.nprops = -1;
     umat_refused(a, TORON_PROPERTY_COUNT, "number of properties: -1 given, 11 needed");
     a = good, a.props = NULL;

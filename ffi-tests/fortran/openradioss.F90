@@ -94,16 +94,16 @@ contains
     write (lines(1), '(5a20)') full
     write (lines(2), '(5a20)') '0.0458', '1.8', '', '1', ''
     lines(3) = ''
-    call check(read_material(1, lines) == nuvar .and. nuparam == 14, 'the hyperelastic card', 1)
-    call check(all(abs(uparam(1:14) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, 0., 1., 0., 0., 0., 0.], my_real)) &
+    call check(read_material(1, lines) == nuvar .and. nuparam == 15, 'the hyperelastic card', 1)
+    call check(all(abs(uparam(1:15) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, 0., 1., 0., 0., 0., 0., 0.], my_real)) &
       < 1e-3), 'UPARAM', 1)
-    call check(all(uparam(15:) == mark), 'behind UPARAM', 1)
+    call check(all(uparam(16:) == mark), 'behind UPARAM', 1)
     call check(abs(parmat(1) - 82341) < 0.1 .and. all(parmat(2:) == mark), 'PARMAT', 1)
     call check_written(31, 'hyperelastic yarn law')
     call check_written(31, '/PROP/TYPE14 (/PROP/SOLID) with Isolid = 1, Ismstr = 10, Iframe = 1')
     call check_written(31, '15 deleted')
     write (lines(1), '(5a20)') '79414', '794', '126', '3637', '1'
-    call check(read_material(2, lines(:2)) == 23 .and. nuparam == 15, 'the linear elastic card', 2)
+    call check(read_material(2, lines(:2)) == 23 .and. nuparam == 16, 'the linear elastic card', 2)
     call check_written(31, '23 F33_old')
     call check(stops == 0, 'no stop', 1)
     write (lines(1), '(5a20)') full

@@ -57,18 +57,19 @@ macro_rules! precision {
         structure!(assertions, format!("toron_hyperelastic_{t}"), HyperelasticLaw<$t>: tag size values);
         structure!(assertions, format!("toron_linear_elastic_{t}"), LinearElasticLaw<$t>: tag size values);
         structure!(assertions, format!("toron_point_{t}"), Point<$t>: size measure level density deformation_gradient fibre
-            state_old state_new stress modes wave_speed tangent);
+            state_old state_new stress modes wave_speed tangent limit);
         structure!(assertions, format!("toron_block_{t}"), Block<$t>: size n leading_dimension measure level density
             deformation_gradient fibre energies_old invariants_old failure_old stress energies invariants failure modes tangent
             wave_speed active status deformation_gradient_layout fibre_layout state_layout stress_layout modes_layout
-            tangent_layout);
+            tangent_layout limit limit_layout);
         structure!(assertions, format!("toron_linear_point_{t}"), LinearPoint<$t>: size rotation criterion measure level density
-            f_old f_new fibre second_axis axes state_old state_new stress wave_speed tangent);
+            f_old f_new fibre second_axis axes state_old state_new stress wave_speed tangent limit);
         structure!(assertions, format!("toron_linear_increment_{t}"), LinearIncrement<$t>: size criterion reserved jacobian strain
             state_old state_new stress);
         structure!(assertions, format!("toron_linear_block_{t}"), LinearBlock<$t>: size n leading_dimension rotation criterion
             measure level density f_old f_new fibre second_axis axes state_old state_new stress tangent wave_speed active status
-            deformation_gradient_layout fibre_layout axes_layout state_layout stress_layout tangent_layout);
+            deformation_gradient_layout fibre_layout axes_layout state_layout stress_layout tangent_layout limit
+            limit_layout);
         structure!(assertions, format!("toron_vumat_{t}"), Vumat<$t>: size nblock ndir nshr nstatev nprops level step_time
             total_time props density strain_inc stretch_old stretch_new stress_old state_old ener_intern_old ener_inelas_old
             stress_new state_new ener_intern_new ener_inelas_new);

@@ -153,7 +153,9 @@ impl<'a, T: Precision> Card<'a, T> {
         let (number, rest) = uparam.split_first().map_or((0, uparam), |(&number, rest)| (whole(number), rest));
         let material = laws.material(i32::try_from(number).unwrap_or(0))?;
         let layout = &material.layout;
-        if uparam.len() != layout.parameters() {
+        // Without the last option, which is 0 then, as callers have it that know of no limits.
+        let least = layout.parameters() - usize::from(layout.has_own_options);
+        if !(least..=layout.parameters()).contains(&uparam.len()) {
             let (found, wanted) = (uparam.len() as i64, layout.parameters() as i64);
             return Err(Error::Count { code: crate::law::status::PROPERTY_COUNT, what: "NUPARAM", found, wanted });
         }

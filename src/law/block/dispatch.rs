@@ -11,7 +11,7 @@ use super::copies::padded_linear;
 use super::instructions::Instructions;
 use super::kernel::{ALIGNED, ANY};
 #[cfg(target_arch = "x86_64")]
-use super::kernel::{FIBRES, SHEAR, STATE, STRESS, WAVE};
+use super::kernel::{FIBRES, LIMITS, SHEAR, STATE, STRESS, WAVE};
 use super::linear::LinearPointers;
 use super::pointers::Pointers;
 use crate::law::hyperelastic::Hyperelastic;
@@ -109,6 +109,7 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     let nothing_else = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
     let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
     let fibres = !block.fibre[0].is_null();
+    let limits = failure && !block.limit.is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
     const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;
@@ -116,12 +117,23 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     const SHEAR_STATE: u8 = SHEAR + STATE;
     const WAVE_STATE_FIBRES: u8 = WAVE + STATE + FIBRES;
     const WAVE_STATE_ALIGNED: u8 = WAVE + STATE + ALIGNED;
+    const LIMITS_STATE: u8 = LIMITS + STATE;
+    const LIMITS_STATE_FIBRES: u8 = LIMITS + STATE_FIBRES;
+    const LIMITS_STATE_ALIGNED: u8 = LIMITS + STATE_ALIGNED;
+    const LIMITS_WAVE_STATE_FIBRES: u8 = LIMITS + WAVE_STATE_FIBRES;
+    const LIMITS_WAVE_STATE_ALIGNED: u8 = LIMITS + WAVE_STATE_ALIGNED;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
     const STRESS_ALIGNED: u8 = STRESS + ALIGNED;
     // SAFETY: the block fills a register, and has the arrays of the request that each kernel is compiled for: that is what `state`,
     // `explicit`, `stress_alone` and `fibres` tell.
     unsafe {
         match (state, law.shears, stress_alone) {
+            (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, block),
+            (true, false, _) if limits && law.aligned => I::run::<T, LIMITS_STATE_ALIGNED>(law, block),
+            (true, false, _) if limits => I::run::<T, LIMITS_STATE>(law, block),
+            _ if limits && explicit && fibres => I::run::<T, LIMITS_WAVE_STATE_FIBRES>(law, block),
+            _ if limits && explicit && law.aligned => I::run::<T, LIMITS_WAVE_STATE_ALIGNED>(law, block),
+            _ if limits => run_any::<T, I>(law, block),
             (true, false, _) if fibres => I::run::<T, STATE_FIBRES>(law, block),
             (true, false, _) if law.aligned => I::run::<T, STATE_ALIGNED>(law, block),
             (true, false, _) => I::run::<T, STATE>(law, block),

@@ -31,6 +31,9 @@ pub(super) const ANY: u8 = 8;
 pub(super) const SHEAR: u8 = 16;
 /// The wave speed, compiled with the state alone: what explicit solvers request in every step.
 pub(super) const WAVE: u8 = 32;
+/// Points with failure limits of their own, beside the state.
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(super) const LIMITS: u8 = 64;
 
 /// The kernel. Returns the worst status code.
 ///
@@ -417,8 +420,8 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
 unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> Option<R> {
-    let fails = if WANT & ANY != 0 { !block.failure.is_null() } else { WANT & STATE != 0 };
-    if !fails || block.limit.is_null() {
+    let limited = if WANT & ANY != 0 { !block.failure.is_null() && !block.limit.is_null() } else { WANT & LIMITS != 0 };
+    if !limited {
         return None;
     }
     // SAFETY: `limit` is not null; it has n ≥ i + COUNT values.
