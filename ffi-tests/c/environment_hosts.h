@@ -197,7 +197,7 @@ static void lsdyna_utan_vector(void)
 
 /* ---- OpenRadioss */
 
-enum { RADIOSS_PARAMETERS = 15, RADIOSS_VARIABLES = 23 };
+enum { RADIOSS_PARAMETERS = 16, RADIOSS_VARIABLES = 23 };
 
 /* UPARAM of the hyperelastic law (1) or the linear elastic one (2), with one of its yarns. */
 static real *radioss_parameters(int law, size_t yarn, double fibre_from)

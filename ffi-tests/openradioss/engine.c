@@ -325,7 +325,7 @@ static void stopped(void)
     other.nuparam = 12;
     g = new_group(&other, 1, 2, MVSIZ);
     cycle(&g);
-    STOPPED_WITH("NUPARAM: 12 given, 14 needed");
+    STOPPED_WITH("NUPARAM: 12 given, 15 needed");
     other = m;
     other.uparam[0] = 5;
     g = new_group(&other, 5, 2, MVSIZ);

@@ -474,8 +474,14 @@ unsafe fn answer<S>(call: &Behaviour, law: impl FnOnce(&Arguments<'_>) -> Result
             *call.stre.cast() = answer.stress;
             *call.stiff.cast() = answer.stiffness;
             *new.cast() = answer.state;
+            let mut written = size_of::<S>() / size_of::<f64>();
             if let Some(f) = answer.kept {
-                *new.add(size_of::<S>() / size_of::<f64>()).cast() = f;
+                *new.add(written).cast() = f;
+                written += f.len();
+            }
+            // CalculiX does not keep what is not written: a limit, or a variable of somebody else's.
+            for place in written..arguments.state_count as usize {
+                *new.add(place) = *arguments.old_state.add(place);
             }
             *call.pnewdt = answer.pnewdt;
         },
