@@ -95,7 +95,8 @@ contains
     write (lines(2), '(5a20)') '0.0458', '1.8', '', '1', ''
     lines(3) = ''
     call check(read_material(1, lines) == nuvar .and. nuparam == 15, 'the hyperelastic card', 1)
-    call check(all(abs(uparam(1:15) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, 0., 1., 0., 0., 0., 0., 0.], my_real)) &
+    call check(all(abs(uparam(1:15) - real([1., 82341., 1055., 2.2, 649.74, 0., 0.0458, 1.8, &
+      0., 1., 0., 0., 0., 0., 0.], my_real)) &
       < 1e-3), 'UPARAM', 1)
     call check(all(uparam(16:) == mark), 'behind UPARAM', 1)
     call check(abs(parmat(1) - 82341) < 0.1 .and. all(parmat(2:) == mark), 'PARMAT', 1)
