@@ -98,6 +98,15 @@ impl Source<'_> {
         Err(self.error(span, &format!("{what} is {value}; allowed: a finite number > 0")))
     }
 
+    /// The number from which chance begins.
+    ///
+    /// # Errors
+    /// It is negative.
+    pub fn seed(&self, seed: &Spanned<i64>) -> Result<u64, Error> {
+        u64::try_from(*seed.get_ref())
+            .map_err(|_| self.error(seed.span(), &format!("seed is {}; allowed: a whole number >= 0", seed.get_ref())))
+    }
+
     /// Times at which pictures are drawn. The case is named: the times may be the scene's, the end its own.
     pub fn pictures(&self, times: &Option<Spanned<Vec<f64>>>, case: &str, end: f64) -> Result<Vec<f64>, Error> {
         let Some(times) = times else { return Ok(Vec::new()) };

@@ -220,10 +220,7 @@ impl Reader<'_> {
             (PackingName::Hexagonal, _) => Ok(Packing::Hexagonal),
             (PackingName::Random, None) => Ok(Packing::Random { seed: 1 }),
             (PackingName::Random, Some(seed)) => {
-                let number = u64::try_from(*seed.get_ref()).map_err(|_| {
-                    let message = format!("seed is {}; allowed: a whole number >= 0", seed.get_ref());
-                    self.source.error(seed.span(), &message)
-                })?;
+                let number = self.source.seed(seed)?;
                 Ok(Packing::Random { seed: number })
             }
         }

@@ -39,13 +39,7 @@ impl Reader<'_> {
             let message = "strength with law = \"hybrid\"; allowed: hyperelastic, linear-elastic";
             return Err(self.source.error(span, message));
         }
-        let seed = match &file.seed {
-            None => SEED,
-            Some(seed) => u64::try_from(*seed.get_ref()).map_err(|_| {
-                let message = format!("seed is {}; allowed: a whole number >= 0", seed.get_ref());
-                self.source.error(seed.span(), &message)
-            })?,
-        };
+        let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.source.seed(seed))?;
         let cell = self.cell(file, &span, lengths)?;
         let law = |family: &Option<Spanned<LawFile>>| match family {
             None => self.weibull(&file.law, &span),

@@ -137,13 +137,7 @@ impl Source<'_> {
         if let Some(given) = file.tolerance.as_ref().filter(|_| tolerance < least) {
             return error("tolerance", &tolerance, given.span(), &format!("{least:.3e} or more"));
         }
-        let seed = match &file.seed {
-            None => SEED,
-            Some(seed) => match u64::try_from(*seed.get_ref()) {
-                Ok(seed) => seed,
-                Err(_) => return error("seed", seed.get_ref(), seed.span(), "a whole number >= 0"),
-            },
-        };
+        let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.seed(seed))?;
         Ok(Shots {
             number: number as usize,
             speeds: [low, high],

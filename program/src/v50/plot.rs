@@ -113,12 +113,11 @@ fn draw_curves(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
     let mut legend =
         vec![(Mark::Point(FATES[0]), "stopped".to_string()), (Mark::Point(FATES[1]), "through".to_string())];
     if series.shots.iter().any(|ended| ended.fate().is_none()) {
-        legend.push((Mark::Ring, "undecided, or an error".to_string()));
+        legend.push((Mark::Ring, "no fate".to_string()));
     }
     for curve in &drawn {
         let firth = if curve.firth { ", Firth" } else { "" };
-        let line = if curve.v50().value.is_some() { "with 95 %" } else { "95 %" };
-        legend.push((Mark::Line(CURVES[curve.link as usize]), format!("{}{firth}, {line}", curve.link.name())));
+        legend.push((Mark::Line(CURVES[curve.link as usize]), format!("{}{firth}, 95 %", curve.link.name())));
     }
     let body = head(area, "Chance of a perforation", &legend)?;
     let (low, high) = speeds(series);
