@@ -51,6 +51,18 @@ fn corners<V: Copy + Add<Output = V> + Sub<Output = V>>(mut values: [V; 8]) -> [
     values
 }
 
+/// A component of the displacement at the corners of neighbouring elements.
+#[inline(always)]
+fn gather<T: Number>(nodes: &[[u32; 8]], displacement: &[[T; 3]], component: usize) -> [Lanes<T>; 8] {
+    let mut values = [Lanes::zero(); 8];
+    for corner in 0..8 {
+        for l in 0..LANES {
+            values[corner].0[l] = displacement[nodes[l][corner] as usize][component];
+        }
+    }
+    values
+}
+
 /// Rows of a block's constant data: ⅛ ∂ξ_k/∂X_j, entry k + 3j; mode α of X_j, entry α + 4j; reference volume; stiffness against
 /// the hourglass modes; 8 Σ over corners of ∂N/∂X_i ∂N/∂X_j, 11 22 33 12 23 31: what the stable step needs.
 const INVERSE: usize = 0;
@@ -213,7 +225,7 @@ impl<T: Number> Shapes<T> {
         let (zero, one) = (Lanes::zero(), Lanes::constant(1.0));
         for group in 0..stride / LANES {
             let first = group * LANES;
-            let u = self.gather(displacement, first);
+            let nodes = &self.nodes[first..first + LANES];
             let b: [Lanes<T>; 9] = self.constants.at(INVERSE, first);
             let r: [Lanes<T>; 12] = self.constants.at(HOURGLASS_OF_X, first);
             let mut axes = [zero, zero, zero, zero, zero, zero, zero, zero, zero];
@@ -223,7 +235,7 @@ impl<T: Number> Shapes<T> {
                 axes = self.axes.at(0, first);
             }
             for i in 0..3 {
-                let m = modes(u[i]);
+                let m = modes(gather(nodes, displacement, i));
                 // The displacement's gradient, row i.
                 let mut h = [Lanes::zero(); 3];
                 for j in 0..3 {
@@ -236,21 +248,6 @@ impl<T: Number> Shapes<T> {
                 }
             }
         }
-    }
-
-    #[inline(always)]
-    fn gather(&self, displacement: &[[T; 3]], first: usize) -> [[Lanes<T>; 8]; 3] {
-        let mut u = [[Lanes::zero(); 8]; 3];
-        let nodes = &self.nodes[first..first + LANES];
-        for l in 0..LANES {
-            for corner in 0..8 {
-                let value = displacement[nodes[l][corner] as usize];
-                for i in 0..3 {
-                    u[i][corner].0[l] = value[i];
-                }
-            }
-        }
-        u
     }
 
     /// Adds the elements' forces to the nodes', from P and the amplitudes of the hourglass modes, which only intact elements

@@ -116,6 +116,16 @@ impl<T: Number> Lanes<T> {
     }
 }
 
+impl Lanes<f64> {
+    #[inline(always)]
+    pub fn sqrt(mut self) -> Self {
+        for l in 0..LANES {
+            self.0[l] = self.0[l].sqrt();
+        }
+        self
+    }
+}
+
 /// The larger of two numbers; a NaN is seen, where `f64::max` drops it.
 #[inline(always)]
 pub fn largest(a: f64, b: f64) -> f64 {

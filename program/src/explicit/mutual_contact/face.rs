@@ -1,9 +1,13 @@
-//! A point and the faces of a surface: the place on them that is nearest to it.
+//! Points and the faces of surfaces: the places on them that are nearest.
+
+#![expect(clippy::needless_range_loop, clippy::manual_memcpy, reason = "what is inlined for certain: see Lanes")]
 
 use serde::{Deserialize, Serialize};
 
 use super::surface::{NONE, Surface};
-use crate::explicit::vector::{Vector, add, cross, dot, minus, times};
+use crate::explicit::instructions::{Loops, run_widest};
+use crate::explicit::lanes::{LANES, Lanes, add, cross, dot, sub};
+use crate::explicit::vector::Vector;
 
 /// A place on a face, from −1 to 1 both ways.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -26,149 +30,346 @@ pub struct Met {
 /// Newton's steps, of which a point that has moved little since the last call needs one or two.
 const STEPS: usize = 8;
 /// A step this short is the last one: the next would be as long as its square.
-const CLOSE: f64 = 1e-6;
+const CLOSE: f64 = 1e-5;
 /// A point that has moved far is followed over this many faces.
 const MOVES: usize = 6;
 /// What lies beyond a surface's border by this is still on it: nodes on a plane of symmetry are, but for rounding.
 const BORDER: f64 = 1e-2;
 
-/// Finds the place nearest to a point, from the given one on, on that face or those around it; `None` where the point lies beyond
-/// the surface's border.
-pub fn meet(surface: &Surface, face: &mut u32, place: &mut Place, point: Vector) -> Option<Met> {
-    let mut before = NONE;
-    for _ in 0..MOVES {
-        if surface.state.gone[*face as usize] {
-            return None;
-        }
-        let patch = Patch::new(surface, *face);
-        patch.project(place, point);
-        let Place { xi, eta } = *place;
-        let edge = match (xi.abs() > 1.0 || eta.abs() > 1.0, xi.abs() >= eta.abs()) {
-            (false, _) => return patch.met(*place, point),
-            (true, true) => {
-                if xi > 0.0 {
-                    1
-                } else {
-                    3
-                }
-            }
-            (true, false) => {
-                if eta > 0.0 {
-                    2
-                } else {
-                    0
-                }
-            }
-        };
-        let next = surface.neighbours[*face as usize][edge];
-        if next == NONE {
-            let beyond = xi.abs().max(eta.abs()) > 1.0 + BORDER;
-            return if beyond { None } else { patch.met(*place, point) };
-        }
-        if next == before {
-            // In the wedge between two faces: the edge is nearest.
-            break;
-        }
-        before = *face;
-        *face = next;
-        *place = Place::default();
-    }
-    // Round a corner where several faces meet, it is that or one of its edges.
-    *place = Place { xi: place.xi.clamp(-1.0, 1.0), eta: place.eta.clamp(-1.0, 1.0) };
-    let beside = Patch::new(surface, before).met(Place::default(), point)?;
-    Patch::new(surface, *face).met_at_edge(*place, point, beside.normal)
+/// A point whose nearest place on a surface is looked for, from a place on one of its faces on.
+#[derive(Clone, Copy, Debug)]
+pub struct Query {
+    /// Whose surface it is.
+    pub body: u32,
+    pub face: u32,
+    pub place: Place,
+    point: Vector,
+    /// The face that it came from.
+    before: u32,
+    /// `None` where the point lies beyond the surface's border.
+    pub met: Option<Met>,
 }
 
-/// The bilinear surface through four corners: mean + ξ a + η b + ξη c.
+/// Where a query goes on.
+enum Next {
+    Found,
+    /// Projected onto another face.
+    Face,
+    /// In the wedge between two faces, whose edge is nearest.
+    Edge,
+}
+
+impl Query {
+    pub fn new(body: u32, face: u32, place: Place, point: Vector) -> Query {
+        Query { body, face, place, point, before: NONE, met: None }
+    }
+
+    /// Follows the point over the edge beyond which its projection lies.
+    fn go_on(&mut self, surface: &Surface) -> Next {
+        let Place { xi, eta } = self.place;
+        let edge = match (xi.abs() > 1.0 || eta.abs() > 1.0, xi.abs() >= eta.abs()) {
+            (false, _) => return Next::Found,
+            (true, true) if xi > 0.0 => 1,
+            (true, true) => 3,
+            (true, false) if eta > 0.0 => 2,
+            (true, false) => 0,
+        };
+        let next = surface.neighbours[self.face as usize][edge];
+        if next == NONE {
+            if xi.abs().max(eta.abs()) > 1.0 + BORDER {
+                self.met = None;
+            }
+            return Next::Found;
+        }
+        if next == self.before {
+            return Next::Edge;
+        }
+        self.place = self.place.beyond(edge, surface.neighbours[next as usize].iter().position(|&at| at == self.face));
+        (self.before, self.face) = (self.face, next);
+        if surface.state.gone[next as usize] {
+            self.met = None;
+            return Next::Found;
+        }
+        Next::Face
+    }
+}
+
+impl Place {
+    /// The place next to this one on the edge of the neighbour, given by the edge's number on either side; edges run counter-clockwise from
+    /// corner to corner, so that the neighbour's runs the other way. Its centre where the faces do not share a whole edge.
+    fn beyond(self, edge: usize, of_neighbour: Option<usize>) -> Place {
+        let Place { xi, eta } = self;
+        let along = -[xi, eta, -xi, -eta][edge].clamp(-1.0, 1.0);
+        match of_neighbour {
+            Some(0) => Place { xi: along, eta: -1.0 },
+            Some(1) => Place { xi: 1.0, eta: along },
+            Some(2) => Place { xi: -along, eta: 1.0 },
+            Some(3) => Place { xi: -1.0, eta: -along },
+            _ => Place::default(),
+        }
+    }
+}
+
+/// Finds the places nearest to points, side by side.
+#[derive(Debug, Default)]
+pub struct Finder {
+    pub queries: Vec<Query>,
+    /// The numbers of those that are looked for, and of those that lie at an edge.
+    open: Vec<u32>,
+    at_edges: Vec<u32>,
+}
+
+impl Finder {
+    /// Answers all queries.
+    pub fn find(&mut self, surfaces: &[&Surface]) {
+        let Finder { queries, open, at_edges } = self;
+        let surface = |query: &Query| surfaces[query.body as usize];
+        open.clear();
+        at_edges.clear();
+        for (number, query) in queries.iter().enumerate() {
+            if !surface(query).state.gone[query.face as usize] {
+                open.push(number as u32);
+            }
+        }
+        for _ in 0..MOVES {
+            if open.is_empty() {
+                break;
+            }
+            run_widest(Project { surfaces, queries, selected: open });
+            open.retain(|&number| {
+                let query = &mut queries[number as usize];
+                let next = query.go_on(surface(query));
+                if matches!(next, Next::Edge) {
+                    at_edges.push(number);
+                }
+                matches!(next, Next::Face)
+            });
+        }
+        // Round a corner where several faces meet, it is that or one of its edges.
+        at_edges.append(open);
+        if !at_edges.is_empty() {
+            run_widest(AtEdge { surfaces, queries, selected: at_edges });
+        }
+    }
+}
+
+/// Newton's method on each query's face.
+struct Project<'a> {
+    surfaces: &'a [&'a Surface],
+    queries: &'a mut [Query],
+    selected: &'a [u32],
+}
+
+/// The nearest place of queries in the wedge between their face and that before.
+struct AtEdge<'a> {
+    surfaces: &'a [&'a Surface],
+    queries: &'a mut [Query],
+    selected: &'a [u32],
+}
+
+impl Loops for Project<'_> {
+    #[inline(always)]
+    fn run(self) {
+        for group in self.selected.chunks(LANES) {
+            let (point, mut place) = load(self.queries, group);
+            let patch = Patch::new(self.surfaces, self.queries, group, |query| query.face);
+            patch.project(&mut place, point);
+            patch.met(place, point).store(self.queries, group, place);
+        }
+    }
+}
+
+impl Loops for AtEdge<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let centre = [Lanes::zero(), Lanes::zero()];
+        for group in self.selected.chunks(LANES) {
+            let (point, mut place) = load(self.queries, group);
+            for l in 0..LANES {
+                place[0].0[l] = place[0].0[l].clamp(-1.0, 1.0);
+                place[1].0[l] = place[1].0[l].clamp(-1.0, 1.0);
+            }
+            let patch = Patch::new(self.surfaces, self.queries, group, |query| query.face);
+            let beside = Patch::new(self.surfaces, self.queries, group, |query| query.before);
+            patch.met_at_edge(place, point, &beside.met(centre, point)).store(self.queries, group, place);
+        }
+    }
+}
+
+type Vectors = [Lanes<f64>; 3];
+
+/// The queries' points and places; the last one's in lanes that are left.
+#[inline(always)]
+fn load(queries: &[Query], group: &[u32]) -> (Vectors, [Lanes<f64>; 2]) {
+    let (mut point, mut place) = ([Lanes::zero(); 3], [Lanes::zero(); 2]);
+    for l in 0..LANES {
+        let query = &queries[group[if l < group.len() { l } else { group.len() - 1 }] as usize];
+        for i in 0..3 {
+            point[i].0[l] = query.point[i];
+        }
+        (place[0].0[l], place[1].0[l]) = (query.place.xi, query.place.eta);
+    }
+    (point, place)
+}
+
+/// The bilinear surfaces through four corners: mean + ξ a + η b + ξη c.
 struct Patch {
-    mean: Vector,
-    a: Vector,
-    b: Vector,
-    c: Vector,
+    mean: Vectors,
+    a: Vectors,
+    b: Vectors,
+    c: Vectors,
+}
+
+/// [`Met`] of several points.
+struct AllMet {
+    depth: Lanes<f64>,
+    normal: Vectors,
+    weights: [Lanes<f64>; 4],
+    /// Above 0 where the face has not shrunk to a line.
+    size: Lanes<f64>,
 }
 
 impl Patch {
     #[inline(always)]
-    fn new(surface: &Surface, face: u32) -> Patch {
-        let [p, q, r, s] = surface.faces[face as usize];
-        let at = |corner: u32| surface.state.positions[corner as usize];
-        let (p, q, r, s) = (at(p), at(q), at(r), at(s));
+    fn new(surfaces: &[&Surface], queries: &[Query], group: &[u32], face: impl Fn(&Query) -> u32) -> Patch {
+        let mut corners = [[Lanes::zero(); 3]; 4];
+        for l in 0..LANES {
+            let query = &queries[group[if l < group.len() { l } else { group.len() - 1 }] as usize];
+            let surface = surfaces[query.body as usize];
+            let nodes = &surface.faces[face(query) as usize];
+            for k in 0..4 {
+                let position = &surface.state.positions[nodes[k] as usize];
+                for i in 0..3 {
+                    corners[k][i].0[l] = position[i];
+                }
+            }
+        }
+        let [p, q, r, s] = corners;
         // Differences first: the corners' coordinates are large beside them.
-        let (pq, sr) = (minus(q, p), minus(r, s));
-        let (ps, qr) = (minus(s, p), minus(r, q));
+        let (pq, sr) = (sub(q, p), sub(r, s));
+        let (ps, qr) = (sub(s, p), sub(r, q));
         Patch {
-            mean: times(0.25, add(add(add(p, 1.0, q), 1.0, r), 1.0, s)),
-            a: times(0.25, add(pq, 1.0, sr)),
-            b: times(0.25, add(ps, 1.0, qr)),
-            c: times(0.25, minus(sr, pq)),
+            mean: quarter(add(add(add(p, q), r), s)),
+            a: quarter(add(pq, sr)),
+            b: quarter(add(ps, qr)),
+            c: quarter(sub(sr, pq)),
         }
     }
 
-    /// The vector from a point to a place, and the tangents there.
+    /// The vectors from points to places, and the tangents there.
     #[inline(always)]
-    fn at(&self, Place { xi, eta }: Place, point: Vector) -> [Vector; 3] {
-        let along = add(self.a, eta, self.c);
-        let across = add(self.b, xi, self.c);
-        [add(add(minus(self.mean, point), xi, along), eta, self.b), along, across]
+    fn at(&self, [xi, eta]: [Lanes<f64>; 2], point: Vectors) -> [Vectors; 3] {
+        let along = plus(self.a, eta, self.c);
+        let across = plus(self.b, xi, self.c);
+        [plus(plus(sub(self.mean, point), xi, along), eta, self.b), along, across]
     }
 
-    /// Newton's method for the nearest place.
+    /// Newton's method for the nearest places.
     #[inline(always)]
-    fn project(&self, place: &mut Place, point: Vector) {
+    fn project(&self, place: &mut [Lanes<f64>; 2], point: Vectors) {
+        let zero = Lanes::zero();
+        let mut going = Lanes::constant(1.0);
         for _ in 0..STEPS {
             let [away, along, across] = self.at(*place, point);
             let [aa, bb, ab] = [dot(along, along), dot(across, across), dot(along, across)];
-            let [x, y] = [-dot(along, away), -dot(across, away)];
+            let [x, y] = [zero - dot(along, away), zero - dot(across, away)];
             // The patch is bent by its twist, which counts where that leaves the distance a least one.
             let bent = ab + dot(away, self.c);
             let (flat, twisted) = (aa * bb - ab * ab, aa * bb - bent * bent);
-            let (ab, determinant) = if twisted > 0.5 * flat { (bent, twisted) } else { (ab, flat) };
-            let per_determinant = 1.0 / determinant;
-            let [d_xi, d_eta] = [(bb * x - ab * y) * per_determinant, (aa * y - ab * x) * per_determinant];
-            // A place far outside is left for another face.
-            place.xi = (place.xi + d_xi).clamp(-2.0, 2.0);
-            place.eta = (place.eta + d_eta).clamp(-2.0, 2.0);
-            if d_xi.abs() + d_eta.abs() < CLOSE {
+            let mut left = zero;
+            for l in 0..LANES {
+                let is_least = twisted.0[l] > 0.5 * flat.0[l];
+                let ab = if is_least { bent.0[l] } else { ab.0[l] };
+                let per_determinant = 1.0 / if is_least { twisted.0[l] } else { flat.0[l] };
+                let d_xi = (bb.0[l] * x.0[l] - ab * y.0[l]) * per_determinant;
+                let d_eta = (aa.0[l] * y.0[l] - ab * x.0[l]) * per_determinant;
+                // A place far outside is left for another face.
+                let (xi, eta) = (place[0].0[l] + d_xi, place[1].0[l] + d_eta);
+                let is_going = going.0[l] > 0.0;
+                place[0].0[l] = if is_going { xi.clamp(-2.0, 2.0) } else { place[0].0[l] };
+                place[1].0[l] = if is_going { eta.clamp(-2.0, 2.0) } else { place[1].0[l] };
+                left.0[l] = if is_going && d_xi.abs() + d_eta.abs() >= CLOSE { 1.0 } else { 0.0 };
+            }
+            going = left;
+            if going.sum() == 0.0 {
                 return;
             }
         }
     }
 
-    /// At an edge, where the distance is not along the face's normal: the force is along the distance, so that it turns from one
-    /// face's normal to the other's and does not jump. The point is inside if it is so by the mean of this normal and that beside it.
-    fn met_at_edge(&self, place: Place, point: Vector, beside: Vector) -> Option<Met> {
-        let met = self.met(place, point)?;
-        let [away, ..] = self.at(place, point);
-        let size = dot(away, away).sqrt();
-        if size == 0.0 {
-            return Some(met);
-        }
-        let depth = if dot(away, add(met.normal, 1.0, beside)) < 0.0 { -size } else { size };
-        Some(Met { depth, normal: times(1.0 / depth, away), ..met })
-    }
-
-    /// None on a face that has shrunk to a line.
     #[inline(always)]
-    fn met(&self, place: Place, point: Vector) -> Option<Met> {
+    fn met(&self, place: [Lanes<f64>; 2], point: Vectors) -> AllMet {
         let [away, along, across] = self.at(place, point);
         let normal = cross(along, across);
         let size = dot(normal, normal).sqrt();
-        let normal = times(1.0 / size, normal);
-        let Place { xi, eta } = place;
-        let weights = [
-            0.25 * (1.0 - xi) * (1.0 - eta),
-            0.25 * (1.0 + xi) * (1.0 - eta),
-            0.25 * (1.0 + xi) * (1.0 + eta),
-            0.25 * (1.0 - xi) * (1.0 + eta),
-        ];
-        (size > 0.0).then(|| Met { depth: dot(away, normal), normal, weights })
+        let (one, quarter) = (Lanes::constant(1.0), Lanes::constant(0.25));
+        let normal = scale(one / size, normal);
+        let [xi, eta] = place;
+        let [lower, upper] = [quarter * (one - eta), quarter * (one + eta)];
+        let weights = [lower * (one - xi), lower * (one + xi), upper * (one + xi), upper * (one - xi)];
+        AllMet { depth: dot(away, normal), normal, weights, size }
     }
+
+    /// At an edge, where the distance is not along the face's normal: the force is along the distance, so that it turns from one
+    /// face's normal to the other's and does not jump. The point is inside if it is so by the mean of this normal and that beside it.
+    #[inline(always)]
+    fn met_at_edge(&self, place: [Lanes<f64>; 2], point: Vectors, beside: &AllMet) -> AllMet {
+        let mut met = self.met(place, point);
+        let [away, ..] = self.at(place, point);
+        let distance = dot(away, away).sqrt();
+        let side = dot(away, add(met.normal, beside.normal));
+        for l in 0..LANES {
+            let depth = if side.0[l] < 0.0 { -distance.0[l] } else { distance.0[l] };
+            let is_apart = distance.0[l] != 0.0;
+            met.depth.0[l] = if is_apart { depth } else { met.depth.0[l] };
+            for i in 0..3 {
+                let along = away[i].0[l] / depth;
+                met.normal[i].0[l] = if is_apart { along } else { met.normal[i].0[l] };
+            }
+            met.size.0[l] = if beside.size.0[l] > 0.0 { met.size.0[l] } else { 0.0 };
+        }
+        met
+    }
+}
+
+impl AllMet {
+    #[inline(always)]
+    fn store(&self, queries: &mut [Query], group: &[u32], place: [Lanes<f64>; 2]) {
+        for l in 0..group.len() {
+            let query = &mut queries[group[l] as usize];
+            query.place = Place { xi: place[0].0[l], eta: place[1].0[l] };
+            query.met = None;
+            if self.size.0[l] > 0.0 {
+                let normal = [self.normal[0].0[l], self.normal[1].0[l], self.normal[2].0[l]];
+                let [a, b, c, d] = &self.weights;
+                let weights = [a.0[l], b.0[l], c.0[l], d.0[l]];
+                query.met = Some(Met { depth: self.depth.0[l], normal, weights });
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn scale(factor: Lanes<f64>, [x, y, z]: Vectors) -> Vectors {
+    [factor * x, factor * y, factor * z]
+}
+
+#[inline(always)]
+fn quarter(vectors: Vectors) -> Vectors {
+    scale(Lanes::constant(0.25), vectors)
+}
+
+/// a + factor b.
+#[inline(always)]
+fn plus(a: Vectors, factor: Lanes<f64>, b: Vectors) -> Vectors {
+    add(a, scale(factor, b))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::explicit::mesh::Mesh;
+    use crate::explicit::vector::{dot, minus};
 
     fn surface(nodes: &[[f64; 3]], faces: &[[u32; 4]]) -> Surface {
         let mesh = Mesh {
@@ -189,7 +390,9 @@ mod tests {
     }
 
     fn met(surface: &Surface, from: u32, point: Vector) -> Met {
-        meet(surface, &mut { from }, &mut Place::default(), point).expect("it is over the surface")
+        let mut finder = Finder { queries: vec![Query::new(0, from, Place::default(), point)], ..Finder::default() };
+        finder.find(&[surface]);
+        finder.queries[0].met.expect("it is over the surface")
     }
 
     #[test]
@@ -250,9 +453,15 @@ mod tests {
     fn the_nearest_place_on_a_twisted_face_is_found() {
         let nodes = [[0.0, 0.0, 0.0], [0.3, 0.5, 1.1], [1.6, -0.4, 1.0], [1.0, 0.5, 0.1]];
         let surface = surface(&nodes, &[[0, 1, 2, 3]]);
-        let patch = Patch::new(&surface, 0);
-        let distance = |place: Place, point: Vector| {
-            let [away, ..] = patch.at(place, point);
+        let distance = |Place { xi, eta }: Place, point: Vector| {
+            let weights = [
+                (1.0 - xi) * (1.0 - eta),
+                (1.0 + xi) * (1.0 - eta),
+                (1.0 + xi) * (1.0 + eta),
+                (1.0 - xi) * (1.0 + eta),
+            ];
+            let at = |i: usize| (0..4).map(|k| 0.25 * weights[k] * nodes[k][i]).sum::<f64>();
+            let away = minus([at(0), at(1), at(2)], point);
             dot(away, away).sqrt()
         };
         for height in [-0.3, -0.05, 0.05, 0.3] {

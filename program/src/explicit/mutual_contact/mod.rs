@@ -24,8 +24,7 @@ use super::archive::Archive;
 use super::body::Body;
 use super::lanes::Number;
 use super::tie;
-use super::vector::Vector;
-use face::Place;
+use face::{Finder, Place, Query};
 use motion::Motion;
 use pair::{OnFace, Pair};
 use search::{Grid, Near};
@@ -47,23 +46,20 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The place on these faces of a surface, or on those around them, that is nearest to a point, and how deep it is there; `None`
-    /// if it cannot come into contact there before the next search.
+    /// Which of these places is nearest to its point; `None` if none of them can come into contact before the next search.
     ///
     /// A point beyond the surface's border has no depth. It may come back, and takes any of the faces where no other one is near.
-    fn nearest(&self, surface: &Surface, faces: &[Near], point: Vector) -> Option<(u32, Place, Option<f64>)> {
+    fn nearest<'a>(&self, places: &'a [Query]) -> Option<&'a Query> {
         let mut nearest = None;
         let mut least = f64::INFINITY;
-        for near in faces {
-            let (mut face, mut place) = (near.face, Place::default());
-            let depth = face::meet(surface, &mut face, &mut place, point).map(|met| met.depth);
-            let distance = match depth {
+        for place in places {
+            let distance = match place.met.map(|met| met.depth) {
                 Some(depth) if depth < -self.margin || depth >= self.deepest => continue,
                 Some(depth) => depth.abs(),
                 None => self.margin.max(self.deepest),
             };
             if distance < least {
-                (nearest, least) = (Some((face, place, depth)), distance);
+                (nearest, least) = (Some(place), distance);
             }
         }
         nearest
@@ -75,7 +71,9 @@ impl Parameters {
 struct Side {
     surface: Surface,
     state: SideState,
-    /// The numbers of the pairs that touch in this step.
+    /// The numbers of the pairs that may touch in this step, where they are, and the numbers of those that do.
+    near: Vec<u32>,
+    finder: Finder,
     touched: Vec<u32>,
     /// Which touched pairs have it as their master: body and number.
     incoming: Vec<(u32, u32)>,
@@ -158,25 +156,34 @@ impl MutualContact {
         // Where bodies overlap from the start, they press each other.
         let first = self.state.searches == 0;
         let near = |(number, side): (usize, &Side)| {
-            let (mut pairs, mut faces) = (Vec::new(), Vec::new());
+            let (mut faces, mut finder) = (Vec::new(), Finder::default());
+            // Nodes, and where the faces near them that belong to one body end among the queries.
+            let mut ends = Vec::new();
             let nodes = if side.surface.wall { &[][..] } else { &side.surface.state.nodes };
             for &node in nodes {
                 let point = side.surface.state.positions[node as usize];
                 grid.near(number, point, &mut faces);
                 for of_body in faces.chunk_by(|a, b| a.body == b.body) {
-                    let master = of_body[0].body;
+                    let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
+                    finder.queries.extend(of_body.iter().map(query));
+                    ends.push((node, finder.queries.len()));
+                }
+            }
+            finder.find(&surfaces);
+            let (mut pairs, mut start) = (Vec::new(), 0);
+            for (node, end) in ends {
+                if let Some(&Query { body: master, face, place, met, .. }) =
+                    parameters.nearest(&finder.queries[start..end])
+                {
                     let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
                     let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
-                    let nearest = parameters.nearest(surfaces[master as usize], of_body, point);
-                    if let Some((face, place, depth)) = nearest {
-                        let known = first || depth.is_some_and(|depth| depth <= 0.0);
-                        let overlap = if first { depth.unwrap_or(0.0).max(0.0) } else { 0.0 };
-                        let [depth, uncounted] =
-                            if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
-                        let nearest = Pair { face, place, ..Pair::default() };
-                        pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
-                    }
+                    let known = first || met.is_some_and(|met| met.depth <= 0.0);
+                    let overlap = if first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
+                    let [depth, uncounted] = if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
+                    let nearest = Pair { face, place, ..Pair::default() };
+                    pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
                 }
+                start = end;
             }
             pairs
         };
@@ -205,11 +212,15 @@ impl MutualContact {
     fn press<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         struct Work {
             pairs: Vec<Pair>,
+            near: Vec<u32>,
+            finder: Finder,
             touched: Vec<u32>,
             touching: Vec<f64>,
         }
         let taken = self.sides.iter_mut().map(|side| Work {
             pairs: std::mem::take(&mut side.state.pairs),
+            near: std::mem::take(&mut side.near),
+            finder: std::mem::take(&mut side.finder),
             touched: std::mem::take(&mut side.touched),
             touching: std::mem::take(&mut side.touching),
         });
@@ -217,20 +228,26 @@ impl MutualContact {
         let (parameters, motion) = (self.parameters, &self.state.motion);
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let press = |(number, (work, body)): (usize, (&mut Work, &mut Body<T>))| {
-            let Work { pairs, touched, touching } = work;
+            let Work { pairs, near, finder, touched, touching } = work;
             touching.fill(0.0);
             touched.clear();
+            near.clear();
+            finder.queries.clear();
+            let positions = &surfaces[number].state.positions;
+            for (place, pair) in pairs.iter().enumerate().filter(|(_, pair)| pair.may_touch(motion)) {
+                near.push(place as u32);
+                let point = positions[pair.node as usize];
+                finder.queries.push(Query::new(pair.master, pair.face, pair.place, point));
+            }
+            finder.find(&surfaces);
             let (mut stored, mut dissipated) = (0.0, 0.0);
-            for place in 0..pairs.len() {
-                let pair = &mut pairs[place];
-                if pair.is_clear(motion) {
-                    continue;
-                }
-                let (force, loss) = pair.update(number, &surfaces, parameters, motion);
+            for (&place, found) in near.iter().zip(&finder.queries) {
+                let pair = &mut pairs[place as usize];
+                let (force, loss) = pair.update(found, number, &surfaces, parameters, motion);
                 dissipated += loss;
                 stored += pair.stored;
                 let Some(force) = force else { continue };
-                touched.push(place as u32);
+                touched.push(place);
                 let node = pair.node as usize;
                 touching[node] += pair.stiffness;
                 for i in 0..3 {
@@ -241,7 +258,13 @@ impl MutualContact {
         };
         let energies: Vec<(f64, f64)> = taken.par_iter_mut().zip(bodies).enumerate().map(press).collect();
         for ((side, work), (stored, dissipated)) in self.sides.iter_mut().zip(taken).zip(energies) {
-            Work { pairs: side.state.pairs, touched: side.touched, touching: side.touching } = work;
+            Work {
+                pairs: side.state.pairs,
+                near: side.near,
+                finder: side.finder,
+                touched: side.touched,
+                touching: side.touching,
+            } = work;
             side.incoming.clear();
             side.state.stored = stored;
             side.state.dissipated += dissipated;

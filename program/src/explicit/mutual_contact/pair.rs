@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Parameters;
-use super::face::{self, Place};
+use super::face::{Place, Query};
 use super::motion::Motion;
 use super::surface::Surface;
 use crate::explicit::friction::rub;
@@ -46,10 +46,11 @@ pub struct OnFace {
 }
 
 impl Pair {
-    /// Looks where the node of body `number` is on the face; returns the force on it, if it is inside, and what slipping has
+    /// Takes over where the node of body `number` is on the face; returns the force on it, if it is inside, and what slipping has
     /// dissipated.
     pub fn update(
         &mut self,
+        &Query { face, place, met, .. }: &Query,
         number: usize,
         surfaces: &[&Surface],
         Parameters { friction, deepest, .. }: Parameters,
@@ -58,10 +59,7 @@ impl Pair {
         let (own, master) = (surfaces[number], surfaces[self.master as usize]);
         let node = self.node as usize;
         let old = self.friction;
-        if self.stiffness == 0.0 {
-            return (None, 0.0);
-        }
-        let met = face::meet(master, &mut self.face, &mut self.place, own.state.positions[node]);
+        (self.face, self.place) = (face, place);
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
             // Beyond the surface's border it may touch an edge at once.
@@ -95,10 +93,11 @@ impl Pair {
         (Some(total), lost + friction.dissipated)
     }
 
-    /// Whether the node cannot have come to the part of the face's surface that it was last nearest to.
+    /// Whether it is to be looked at: not where it has left for good, or where the node cannot have come to the part of the face's
+    /// surface that it was last nearest to.
     #[inline(always)]
-    pub fn is_clear(&self, motion: &Motion) -> bool {
-        self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until
+    pub fn may_touch(&self, motion: &Motion) -> bool {
+        self.stiffness > 0.0 && !(self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until)
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
