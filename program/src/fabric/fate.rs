@@ -1,7 +1,7 @@
 //! Whether it is certain that what strikes goes through, although torn ends still rub on it.
 //!
 //! Two bounds together, each with a margin, since neither is one of mechanics alone. What still acts on it: the mean force over the
-//! last eighth of a radius would have to be kept up for `REACH` radii to stop it. And what might still bear: yarns that are not
+//! last sixteenth of a radius would have to be kept up for `REACH` radii to stop it. And what might still bear: yarns that are not
 //! torn and whose axes lie ahead of it, in its way. Each of them may take as much energy as was taken by each torn one so far, if these
 //! took all that the striker has lost. Where the two leave it moving, nothing that was seen in this shot stops it.
 
@@ -18,9 +18,9 @@ use crate::weave::torn;
 
 /// How many times it is looked at on the way of one radius, and over how many of these steps the force is taken.
 const LOOKS: f64 = 16.0;
-const WINDOW: usize = 2;
+const WINDOW: usize = 1;
 /// For how many radii that force may act.
-const REACH: f64 = 10.0;
+const REACH: f64 = 6.0;
 
 /// How a shot went, and whether it is decided.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -25,7 +25,7 @@ use super::body::Body;
 use super::lanes::Number;
 use super::tie;
 use face::{Finder, Place, Query};
-use motion::Motion;
+use motion::{Due, Motion};
 use pair::{OnFace, Pair};
 use search::{Grid, Near};
 pub use surface::{Surface, outer_faces};
@@ -99,6 +99,47 @@ pub struct MutualContact {
     pub state: ContactState,
 }
 
+/// Where nodes are looked for, by slabs, and near whose faces.
+struct Scope {
+    slabs: Vec<bool>,
+    bodies: Vec<bool>,
+}
+
+impl Scope {
+    fn all(motion: &Motion) -> Scope {
+        Scope { slabs: vec![true; motion.slabs()], bodies: vec![true; motion.bodies()] }
+    }
+
+    fn none(motion: &Motion) -> Scope {
+        Scope { slabs: vec![false; motion.slabs()], bodies: vec![false; motion.bodies()] }
+    }
+}
+
+/// Puts new pairs in the place of those that are due; where one of these touches it goes on as it was.
+fn merge(old: &[Pair], mut found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
+    let mut others = Vec::new();
+    for pair in old {
+        if !due(pair) {
+            others.push(pair.clone());
+            continue;
+        }
+        let place = found.binary_search_by_key(&pair.key(), Pair::key);
+        let touching = pair.on_face.stiffness > 0.0;
+        match place {
+            Ok(place) if touching => found[place] = Pair { free_until: 0.0, ..pair.clone() },
+            Err(place) if touching => found.insert(place, Pair { free_until: 0.0, ..pair.clone() }),
+            // What was outside one face has not come through another one.
+            Ok(place) => found[place].known |= pair.known && pair.face == found[place].face,
+            Err(_) => {}
+        }
+    }
+    if !others.is_empty() {
+        found.append(&mut others);
+        found.sort_unstable_by_key(Pair::key);
+    }
+    found
+}
+
 /// What the contact remembers from step to step, besides what its sides do.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct ContactState {
@@ -108,6 +149,8 @@ pub struct ContactState {
     pub stored: f64,
     pub dissipated: f64,
     released: f64,
+    /// The bodies that have lost faces since the last step.
+    torn: Vec<u32>,
     /// A bound of the square of the frequency that it adds to the bodies'.
     pub frequency: f64,
 }
@@ -137,9 +180,15 @@ impl MutualContact {
     pub fn apply<T: Number>(&mut self, bodies: &mut [Body<T>]) {
         self.sides.par_iter_mut().zip(&*bodies).for_each(|(side, body)| side.surface.follow(body));
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        if self.state.motion.advance(&surfaces, self.parameters.margin) {
-            self.search();
+        match self.state.motion.advance(&surfaces, self.parameters.margin) {
+            Due::All => {
+                self.search(&Scope::all(&self.state.motion));
+                self.restart();
+            }
+            Due::Slabs(due) if due.is_empty() && self.state.torn.is_empty() => {}
+            Due::Slabs(due) => self.search(&self.scope(&due)),
         }
+        self.state.torn.clear();
         self.press(bodies);
         self.collect(bodies);
         let sum = |value: fn(&Side) -> f64| self.sides.iter().map(value).sum::<f64>();
@@ -148,64 +197,85 @@ impl MutualContact {
         self.state.frequency = self.sides.iter().map(|side| side.state.frequency).fold(0.0, f64::max);
     }
 
-    /// Finds the nodes near faces; pairs that go on keep their friction.
-    fn search(&mut self) {
-        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
-        let grid = Grid::new(&surfaces, self.parameters.margin);
-        let parameters = self.parameters;
-        // Where bodies overlap from the start, they press each other.
-        let first = self.state.searches == 0;
-        let near = |(number, side): (usize, &Side)| {
-            let (mut faces, mut finder) = (Vec::new(), Finder::default());
-            // Nodes, and where the faces near them that belong to one body end among the queries.
-            let mut ends = Vec::new();
-            let nodes = if side.surface.wall { &[][..] } else { &side.surface.state.nodes };
-            for &node in nodes {
-                let point = side.surface.state.positions[node as usize];
-                grid.near(number, point, &mut faces);
-                for of_body in faces.chunk_by(|a, b| a.body == b.body) {
-                    let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
-                    finder.queries.extend(of_body.iter().map(query));
-                    ends.push((node, finder.queries.len()));
-                }
-            }
-            finder.find(&surfaces);
-            let (mut pairs, mut start) = (Vec::new(), 0);
-            for (node, end) in ends {
-                if let Some(&Query { body: master, face, place, met, .. }) =
-                    parameters.nearest(&finder.queries[start..end])
-                {
-                    let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
-                    let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
-                    let known = first || met.is_some_and(|met| met.depth <= 0.0);
-                    let overlap = if first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
-                    let [depth, uncounted] = if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
-                    let nearest = Pair { face, place, ..Pair::default() };
-                    pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
-                }
-                start = end;
-            }
-            pairs
-        };
-        let found: Vec<Vec<Pair>> = self.sides.par_iter().enumerate().map(near).collect();
-        for (side, mut pairs) in self.sides.iter_mut().zip(found) {
-            let key = |pair: &Pair| (pair.node, pair.master);
-            for old in &side.state.pairs {
-                let place = pairs.binary_search_by_key(&key(old), key);
-                let touching = old.on_face.stiffness > 0.0;
-                match place {
-                    Ok(place) if touching => pairs[place] = Pair { free_until: 0.0, ..old.clone() },
-                    Err(place) if touching => pairs.insert(place, Pair { free_until: 0.0, ..old.clone() }),
-                    // What was outside one face has not come through another one.
-                    Ok(place) => pairs[place].known |= old.known && old.face == pairs[place].face,
-                    Err(_) => {}
-                }
-            }
-            side.state.pairs = pairs;
+    /// What is to be looked for where these slabs have moved against each other and bodies are torn.
+    fn scope(&self, due: &[[u32; 2]]) -> Scope {
+        let (motion, torn) = (&self.state.motion, &self.state.torn);
+        let mut scope = Scope::none(motion);
+        for &slab in due.as_flattened() {
+            scope.slabs[slab as usize] = true;
+            scope.bodies[motion.body(slab)] = true;
         }
+        for &body in torn {
+            scope.bodies[body as usize] = true;
+        }
+        for (number, side) in self.sides.iter().enumerate().filter(|_| !torn.is_empty()) {
+            for pair in side.state.pairs.iter().filter(|pair| pair.has_left() && torn.contains(&pair.master)) {
+                scope.slabs[motion.slab(number, side.surface.slab_of_node(pair.node))] = true;
+            }
+        }
+        scope
+    }
+
+    /// Finds the nodes of the scope that are near faces of its bodies; pairs that go on keep their friction.
+    fn search(&mut self, scope: &Scope) {
+        let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
+        let grid = Grid::new(&surfaces, |body| scope.bodies[body], self.parameters.margin);
+        let motion = &self.state.motion;
+        let near = |(number, side): (usize, &Side)| {
+            if !scope.slabs[motion.slabs_of(number)].contains(&true) {
+                return None;
+            }
+            let is_due = |node: &u32| scope.slabs[motion.slab(number, side.surface.slab_of_node(*node))];
+            let nodes: Vec<u32> = side.surface.state.nodes.iter().copied().filter(is_due).collect();
+            let found = self.near(&grid, &surfaces, number, &nodes);
+            Some(merge(&side.state.pairs, found, |pair| is_due(&pair.node) && scope.bodies[pair.master as usize]))
+        };
+        let pairs: Vec<Option<Vec<Pair>>> = self.sides.par_iter().enumerate().map(near).collect();
+        for (side, pairs) in self.sides.iter_mut().zip(pairs) {
+            side.state.pairs = pairs.unwrap_or_else(|| std::mem::take(&mut side.state.pairs));
+        }
+    }
+
+    /// Follows the motion anew from where the bodies are.
+    fn restart(&mut self) {
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         self.state.motion.restart(&surfaces, self.parameters.margin);
         self.state.searches += 1;
+    }
+
+    /// The pairs of a body's nodes with the grid's faces, in their order.
+    fn near(&self, grid: &Grid, surfaces: &[&Surface], number: usize, nodes: &[u32]) -> Vec<Pair> {
+        let (parameters, side) = (self.parameters, &self.sides[number]);
+        // Where bodies overlap from the start, they press each other.
+        let first = self.state.searches == 0;
+        let (mut faces, mut finder) = (Vec::new(), Finder::default());
+        // Nodes, and where the faces near them that belong to one body end among the queries.
+        let mut ends = Vec::new();
+        for &node in if side.surface.wall { &[][..] } else { nodes } {
+            let point = side.surface.state.positions[node as usize];
+            grid.near(number, point, &mut faces);
+            for of_body in faces.chunk_by(|a, b| a.body == b.body) {
+                let query = |near: &Near| Query::new(near.body, near.face, Place::default(), point);
+                finder.queries.extend(of_body.iter().map(query));
+                ends.push((node, finder.queries.len()));
+            }
+        }
+        finder.find(surfaces);
+        let (mut pairs, mut start) = (Vec::new(), 0);
+        for (node, end) in ends {
+            let nearest = parameters.nearest(&finder.queries[start..end]);
+            if let Some(&Query { body: master, face, place, met, .. }) = nearest {
+                let share = if surfaces[master as usize].wall { 1.0 } else { 0.5 };
+                let stiffness = share * parameters.stiffness * side.surface.area[node as usize];
+                let known = first || met.is_some_and(|met| met.depth <= 0.0);
+                let overlap = if first { met.map_or(0.0, |met| met.depth.max(0.0)) } else { 0.0 };
+                let [depth, uncounted] = if parameters.pressed_at_rest { [overlap, 0.0] } else { [0.0, overlap] };
+                let nearest = Pair { face, place, ..Pair::default() };
+                pairs.push(Pair { node, master, stiffness, known, depth, uncounted, ..nearest });
+            }
+            start = end;
+        }
+        pairs
     }
 
     /// Presses the nodes of every body out of the others' faces.
@@ -313,7 +383,7 @@ impl MutualContact {
     }
 
     /// Takes the faces of a body's deleted elements and its loose nodes out; the balance keeps what was stored in them. What was near a
-    /// face that is gone may be near another one: the next step searches.
+    /// face that is gone may be near another one: the next step looks for it.
     pub fn remove<T: Number>(&mut self, number: usize, body: &Body<T>) {
         let side = &mut self.sides[number];
         side.surface.remove(body);
@@ -326,7 +396,7 @@ impl MutualContact {
             released += on_it.map(Pair::leave).sum::<f64>();
         }
         self.state.released += released;
-        self.state.motion.lose_track();
+        self.state.torn.push(number as u32);
     }
 }
 

@@ -5,6 +5,8 @@
 //! moved against each other by no more than what is between the farthest ends of their boxes. A panel that goes down as one has
 //! moved far and its yarns hardly against each other.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -13,17 +15,28 @@ use super::surface::Surface;
 
 /// Slabs that are closer than this many times the margin are followed in pairs, all others by the fastest.
 const NEAR: f64 = 8.0;
+/// Slabs that may go no farther than this many margins are searched together with those that are due.
+const SOON: f64 = 0.5;
 /// Pairs that a thread takes at a time.
 const SHARE: usize = 8192;
 
-/// Two slabs by their numbers, and how far they may have moved against each other since the last search.
+/// Two slabs by their numbers, how far they may have moved against each other since the last search of all, and how far they may go
+/// before what was farther than the margin may touch.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Approach {
     slabs: [u32; 2],
     moved: f64,
+    until: f64,
 }
 
-/// The motion of all bodies' slabs since the last search.
+/// What is to be searched since something that was farther than the margin may touch now.
+pub enum Due {
+    All,
+    /// These slabs and what is near them.
+    Slabs(Vec<[u32; 2]>),
+}
+
+/// The motion of all bodies' slabs since the last search of all.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Motion {
     /// The number of each body's first slab, and of all slabs.
@@ -46,8 +59,33 @@ impl Motion {
         Motion { first, approaches: Vec::new(), starts, far: f64::INFINITY }
     }
 
-    /// Adds the motion of a step. Returns whether what was farther than the margin may touch now.
-    pub fn advance(&mut self, surfaces: &[&Surface], margin: f64) -> bool {
+    /// The numbers of bodies and of slabs.
+    pub fn bodies(&self) -> usize {
+        self.first.len() - 1
+    }
+
+    pub fn slabs(&self) -> usize {
+        self.first[self.bodies()] as usize
+    }
+
+    /// The number of a body's slab among all.
+    #[inline(always)]
+    pub fn slab(&self, body: usize, slab: u16) -> usize {
+        self.first[body] as usize + usize::from(slab)
+    }
+
+    /// The numbers of a body's slabs among all.
+    pub fn slabs_of(&self, body: usize) -> Range<usize> {
+        self.first[body] as usize..self.first[body + 1] as usize
+    }
+
+    /// The body of a slab.
+    pub fn body(&self, slab: u32) -> usize {
+        self.first.partition_point(|&first| first <= slab) - 1
+    }
+
+    /// Adds the motion of a step.
+    pub fn advance(&mut self, surfaces: &[&Surface], margin: f64) -> Due {
         let mut moved: Vec<Bounds> = Vec::with_capacity(self.starts.len());
         let mut all = Bounds::EMPTY;
         for surface in surfaces {
@@ -59,17 +97,30 @@ impl Motion {
             }
         }
         self.far += all.largest_difference(&all).max(0.0);
+        if self.far >= NEAR * margin {
+            return Due::All;
+        }
         let advance = |approach: &mut Approach| {
             let [a, b] = approach.slabs.map(|slab| &moved[slab as usize]);
             approach.moved += a.largest_difference(b).max(0.0);
-            approach.moved >= margin
+            approach.moved >= approach.until
         };
-        let advance_all = |part: &mut [Approach]| part.iter_mut().fold(false, |far, approach| advance(approach) | far);
-        let parts = self.approaches.par_chunks_mut(SHARE).map(advance_all);
-        parts.reduce(|| false, |a, b| a | b) | (self.far >= NEAR * margin)
+        let advance_all = |part: &mut [Approach]| part.iter_mut().fold(false, |due, approach| advance(approach) | due);
+        let mut due = Vec::new();
+        if self.approaches.par_chunks_mut(SHARE).map(advance_all).reduce(|| false, |a, b| a | b) {
+            // Those that would be due soon as well: searches then are rarer.
+            for approach in
+                self.approaches.iter_mut().filter(|approach| approach.moved + SOON * margin >= approach.until)
+            {
+                approach.until = approach.moved + margin;
+                due.push(approach.slabs);
+            }
+        }
+        Due::Slabs(due)
     }
 
-    /// Has the next step search.
+    /// Has the next step search everything.
+    #[cfg(test)]
     pub fn lose_track(&mut self) {
         self.far = f64::INFINITY;
     }
@@ -97,7 +148,7 @@ impl Motion {
         let found: Vec<Vec<[u32; 2]>> = (0..order.len()).into_par_iter().map(near).collect();
         let mut slabs = found.concat();
         slabs.sort_unstable();
-        self.approaches = slabs.into_iter().map(|slabs| Approach { slabs, moved: 0.0 }).collect();
+        self.approaches = slabs.into_iter().map(|slabs| Approach { slabs, moved: 0.0, until: margin }).collect();
         self.far = 0.0;
         let slabs = self.starts.len() - 1;
         self.starts.clear();

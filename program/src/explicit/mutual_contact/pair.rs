@@ -93,11 +93,22 @@ impl Pair {
         (Some(total), lost + friction.dissipated)
     }
 
+    /// Pairs are in this order.
+    pub fn key(&self) -> (u32, u32) {
+        (self.node, self.master)
+    }
+
+    /// Whether it has let go for good.
+    #[inline(always)]
+    pub fn has_left(&self) -> bool {
+        self.stiffness == 0.0
+    }
+
     /// Whether it is to be looked at: not where it has left for good, or where the node cannot have come to the part of the face's
     /// surface that it was last nearest to.
     #[inline(always)]
     pub fn may_touch(&self, motion: &Motion) -> bool {
-        self.stiffness > 0.0 && !(self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until)
+        !self.has_left() && !(self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until)
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by

@@ -39,12 +39,12 @@ struct Entry {
 }
 
 impl Grid {
-    /// Of all faces that are there.
-    pub fn new(surfaces: &[&Surface], margin: f64) -> Grid {
+    /// Of all faces of these bodies that are there.
+    pub fn new(surfaces: &[&Surface], of: impl Fn(usize) -> bool, margin: f64) -> Grid {
         let mut unsorted = Vec::new();
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut sum_of_reaches = 0.0;
-        for (body, surface) in surfaces.iter().enumerate() {
+        for (body, surface) in surfaces.iter().enumerate().filter(|&(body, _)| of(body)) {
             for (face, corners) in surface.faces.iter().enumerate().filter(|&(face, _)| !surface.state.gone[face]) {
                 let mut sum = [0.0; 3];
                 for &corner in corners {

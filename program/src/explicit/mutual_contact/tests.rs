@@ -280,8 +280,9 @@ fn what_was_near_a_deleted_face_meets_the_ones_beside_it() {
             contact = crossed(-2e-6, &media).1;
         }
         contact.remove(0, &bodies[0]);
-        shift(1, [1e-5, 0.0, 0.0], &mut bodies, &mut contact);
-        shift(1, [1e-5, -4e-6, 0.0], &mut bodies, &mut contact)
+        // Less than the margin in all, so that no other search follows.
+        shift(1, [9e-6, 0.0, 0.0], &mut bodies, &mut contact);
+        shift(1, [9e-6, -4e-6, 0.0], &mut bodies, &mut contact)
     };
     let [stored, expected] = [false, true].map(depth);
     assert!(stored > 0.0 && (stored / expected - 1.0).abs() < 1e-9, "{stored} {expected}");
@@ -403,7 +404,8 @@ fn slabs_have_moved_no_less_than_their_nodes() {
                 }
             }
             surfaces.iter_mut().zip(&bodies).for_each(|(surface, body)| surface.follow(body));
-            far |= motion.advance(&surfaces.iter().collect::<Vec<_>>(), margin);
+            let due = motion.advance(&surfaces.iter().collect::<Vec<_>>(), margin);
+            far |= !matches!(due, Due::Slabs(slabs) if slabs.is_empty());
             let (mut followed, mut largest) = (0, 0.0_f64);
             for &a in &surfaces[0].state.nodes {
                 for &b in &surfaces[1].state.nodes {
@@ -422,6 +424,50 @@ fn slabs_have_moved_no_less_than_their_nodes() {
         }
         assert!(far);
     }
+}
+
+/// A search where slabs have moved and bars are torn, and nowhere else, finds what frequent ones of everything do.
+#[test]
+fn a_search_where_it_is_due_finds_what_those_of_everything_do() {
+    let media = media();
+    let course = |everything: bool| {
+        let meshes = vec![
+            bar(0.0, [0.0; 3]),
+            bar(std::f64::consts::FRAC_PI_2, [0.0, 2e-4 - 2e-6, 0.0]),
+            bar(0.3, [1e-4, -2e-4 + 2e-6, 0.0]),
+        ];
+        let (mut bodies, mut contact) = bodies(meshes, &media);
+        let mut stored = Vec::new();
+        for i in 0..400 {
+            let part = f64::from(i) / 400.0;
+            for (number, way) in [(1, [3e-4, 2e-6, -2e-4]), (2, [-2e-4, 1e-6, 3e-4])] {
+                for (node, u) in bodies[number].state.displacement.iter_mut().enumerate() {
+                    let wave = 1e-6 * (40.0 * part + 0.4 * node as f64).sin();
+                    *u = std::array::from_fn(|axis| way[axis] * part + wave);
+                }
+            }
+            if i == 200 {
+                // In the middle of the first bar's upper side.
+                bodies[0].delete(&[35, 36, 43, 44]);
+                contact.remove(0, &bodies[0]);
+            }
+            if everything && i % 20 == 0 {
+                contact.state.motion.lose_track();
+            }
+            contact.apply(&mut bodies);
+            stored.push(contact.state.stored);
+        }
+        (stored, contact.state.dissipated, contact.state.searches)
+    };
+    let ((stored, dissipated, searches), (all, dissipated_in_all, all_searches)) = (course(false), course(true));
+    assert!(searches < 10 && all_searches >= 20, "{searches} {all_searches}");
+    let largest = all.iter().fold(0.0, |a: f64, &b| a.max(b));
+    assert!(largest > 0.0 && all.iter().filter(|&&energy| energy > 0.1 * largest).count() > 100);
+    // Nodes at an edge take either face, and rub from then on; one that is not found is a hundredth.
+    for (i, (one, other)) in stored.iter().zip(&all).enumerate() {
+        assert!((one - other).abs() <= 1e-3 * largest, "{i}: {one} {other}");
+    }
+    assert!((dissipated - dissipated_in_all).abs() <= 1e-3 * dissipated && dissipated > 0.0);
 }
 
 /// A node that is not looked at while it cannot touch is in the same contact as one that is looked at in every step.
