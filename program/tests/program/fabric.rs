@@ -87,6 +87,19 @@ fn yarns_that_fail_are_torn_and_let_the_sphere_through() {
 }
 
 #[test]
+fn a_coarse_panel_that_is_torn_is_the_same_on_any_number_of_threads() {
+    let keys = "failure = \"uniaxial\"\nhyperelastic.properties = { k_ld = 126.0 }\n\
+                [scene.strength]\nweibull-modulus = 8.0\nstrain = 0.02\nreference-length = 5.0\ncell = 1.0";
+    let text = scene(24.0, keys).replace("radius = 3.0\n", "radius = 3.5\ncoarse-radius = 2.0\n");
+    let text = text.replace("mass = 0.692\nradius = 2.778", "mass = 0.05\nradius = 1.2");
+    let [one, two] = [1, 2].map(|threads| history("coarse", &text, threads));
+    assert!(one == two, "the histories differ");
+    let (deleted, total) = (column(&one, "deleted"), column(&one, "total_energy"));
+    assert!(deleted[deleted.len() - 1] > 10.0, "{deleted:?}");
+    assert!(total.iter().all(|energy| (energy / total[0] - 1.0).abs() < 0.01), "{total:?}");
+}
+
+#[test]
 fn a_scene_that_cannot_be_run_is_refused_by_its_line() {
     // The line of each; the keys begin on line 18.
     let cases = [
