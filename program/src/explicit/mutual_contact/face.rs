@@ -1,6 +1,6 @@
 //! Points and the faces of surfaces: the places on them that are nearest.
 
-#![expect(clippy::needless_range_loop, clippy::manual_memcpy, reason = "what is inlined for certain: see Lanes")]
+#![expect(clippy::needless_range_loop, reason = "what is inlined for certain: see Lanes")]
 
 use serde::{Deserialize, Serialize};
 
@@ -44,15 +44,16 @@ pub struct Query {
     pub face: u32,
     pub place: Place,
     point: Vector,
-    /// The face that it came from.
+    /// The face that it came from, or `NONE`.
     before: u32,
-    /// `None` where the point lies beyond the surface's border.
+    /// `None` where the point lies beyond the surface's border, deleted faces being beyond it, or where the face has shrunk to a line.
     pub met: Option<Met>,
 }
 
 /// Where a query goes on.
 enum Next {
-    Found,
+    /// Found, or beyond the surface's border.
+    Done,
     /// Projected onto another face.
     Face,
     /// In the wedge between two faces, whose edge is nearest.
@@ -68,35 +69,31 @@ impl Query {
     fn go_on(&mut self, surface: &Surface) -> Next {
         let Place { xi, eta } = self.place;
         let edge = match (xi.abs() > 1.0 || eta.abs() > 1.0, xi.abs() >= eta.abs()) {
-            (false, _) => return Next::Found,
+            (false, _) => return Next::Done,
             (true, true) if xi > 0.0 => 1,
             (true, true) => 3,
             (true, false) if eta > 0.0 => 2,
             (true, false) => 0,
         };
         let next = surface.neighbours[self.face as usize][edge];
-        if next == NONE {
+        if next == NONE || surface.state.gone[next as usize] {
             if xi.abs().max(eta.abs()) > 1.0 + BORDER {
                 self.met = None;
             }
-            return Next::Found;
+            return Next::Done;
         }
         if next == self.before {
             return Next::Edge;
         }
         self.place = self.place.beyond(edge, surface.neighbours[next as usize].iter().position(|&at| at == self.face));
         (self.before, self.face) = (self.face, next);
-        if surface.state.gone[next as usize] {
-            self.met = None;
-            return Next::Found;
-        }
         Next::Face
     }
 }
 
 impl Place {
     /// The place next to this one on the edge of the neighbour, given by the edge's number on either side; edges run counter-clockwise from
-    /// corner to corner, so that the neighbour's runs the other way. Its centre where the faces do not share a whole edge.
+    /// corner to corner, so that the neighbour's runs the other way. Its centre where the neighbour does not know this face.
     fn beyond(self, edge: usize, of_neighbour: Option<usize>) -> Place {
         let Place { xi, eta } = self;
         let along = -[xi, eta, -xi, -eta][edge].clamp(-1.0, 1.0);
@@ -124,13 +121,10 @@ impl Finder {
     pub fn find(&mut self, surfaces: &[&Surface]) {
         let Finder { queries, open, at_edges } = self;
         let surface = |query: &Query| surfaces[query.body as usize];
+        debug_assert!(queries.iter().all(|query| !surface(query).state.gone[query.face as usize]));
         open.clear();
+        open.extend(0..queries.len() as u32);
         at_edges.clear();
-        for (number, query) in queries.iter().enumerate() {
-            if !surface(query).state.gone[query.face as usize] {
-                open.push(number as u32);
-            }
-        }
         for _ in 0..MOVES {
             if open.is_empty() {
                 break;
@@ -170,11 +164,12 @@ struct AtEdge<'a> {
 impl Loops for Project<'_> {
     #[inline(always)]
     fn run(self) {
-        for group in self.selected.chunks(LANES) {
-            let (point, mut place) = load(self.queries, group);
-            let patch = Patch::new(self.surfaces, self.queries, group, |query| query.face);
+        for group in 0..self.selected.len().div_ceil(LANES) {
+            let numbers = numbers(self.selected, group * LANES);
+            let (point, mut place) = load(self.queries, &numbers);
+            let patch = Patch::new(self.surfaces, self.queries, &numbers, false);
             patch.project(&mut place, point);
-            patch.met(place, point).store(self.queries, group, place);
+            patch.met(place, point).store(self.queries, &numbers, place);
         }
     }
 }
@@ -183,27 +178,50 @@ impl Loops for AtEdge<'_> {
     #[inline(always)]
     fn run(self) {
         let centre = [Lanes::zero(), Lanes::zero()];
-        for group in self.selected.chunks(LANES) {
-            let (point, mut place) = load(self.queries, group);
+        for group in 0..self.selected.len().div_ceil(LANES) {
+            let numbers = numbers(self.selected, group * LANES);
+            let (point, mut place) = load(self.queries, &numbers);
             for l in 0..LANES {
-                place[0].0[l] = place[0].0[l].clamp(-1.0, 1.0);
-                place[1].0[l] = place[1].0[l].clamp(-1.0, 1.0);
+                place[0].0[l] = within(1.0, place[0].0[l]);
+                place[1].0[l] = within(1.0, place[1].0[l]);
             }
-            let patch = Patch::new(self.surfaces, self.queries, group, |query| query.face);
-            let beside = Patch::new(self.surfaces, self.queries, group, |query| query.before);
-            patch.met_at_edge(place, point, &beside.met(centre, point)).store(self.queries, group, place);
+            let patch = Patch::new(self.surfaces, self.queries, &numbers, false);
+            let beside = Patch::new(self.surfaces, self.queries, &numbers, true).met(centre, point);
+            patch.met_at_edge(place, point, &beside).store(self.queries, &numbers, place);
         }
     }
 }
 
 type Vectors = [Lanes<f64>; 3];
 
-/// The queries' points and places; the last one's in lanes that are left.
+/// A number from −size to size; NaN stays.
 #[inline(always)]
-fn load(queries: &[Query], group: &[u32]) -> (Vectors, [Lanes<f64>; 2]) {
+fn within(size: f64, number: f64) -> f64 {
+    if number > size {
+        size
+    } else if number < -size {
+        -size
+    } else {
+        number
+    }
+}
+
+/// The numbers of the queries in the lanes, that of the last one in those that are left.
+#[inline(always)]
+fn numbers(selected: &[u32], first: usize) -> [usize; LANES] {
+    let (mut numbers, last) = ([0; LANES], selected.len() - 1);
+    for l in 0..LANES {
+        numbers[l] = selected[if first + l < last { first + l } else { last }] as usize;
+    }
+    numbers
+}
+
+/// The queries' points and places.
+#[inline(always)]
+fn load(queries: &[Query], numbers: &[usize; LANES]) -> (Vectors, [Lanes<f64>; 2]) {
     let (mut point, mut place) = ([Lanes::zero(); 3], [Lanes::zero(); 2]);
     for l in 0..LANES {
-        let query = &queries[group[if l < group.len() { l } else { group.len() - 1 }] as usize];
+        let query = &queries[numbers[l]];
         for i in 0..3 {
             point[i].0[l] = query.point[i];
         }
@@ -230,13 +248,14 @@ struct AllMet {
 }
 
 impl Patch {
+    /// Of the queries' faces, or of those that they came from.
     #[inline(always)]
-    fn new(surfaces: &[&Surface], queries: &[Query], group: &[u32], face: impl Fn(&Query) -> u32) -> Patch {
+    fn new(surfaces: &[&Surface], queries: &[Query], numbers: &[usize; LANES], before: bool) -> Patch {
         let mut corners = [[Lanes::zero(); 3]; 4];
         for l in 0..LANES {
-            let query = &queries[group[if l < group.len() { l } else { group.len() - 1 }] as usize];
+            let query = &queries[numbers[l]];
             let surface = surfaces[query.body as usize];
-            let nodes = &surface.faces[face(query) as usize];
+            let nodes = &surface.faces[if before { query.before } else { query.face } as usize];
             for k in 0..4 {
                 let position = &surface.state.positions[nodes[k] as usize];
                 for i in 0..3 {
@@ -286,8 +305,8 @@ impl Patch {
                 // A place far outside is left for another face.
                 let (xi, eta) = (place[0].0[l] + d_xi, place[1].0[l] + d_eta);
                 let is_going = going.0[l] > 0.0;
-                place[0].0[l] = if is_going { xi.clamp(-2.0, 2.0) } else { place[0].0[l] };
-                place[1].0[l] = if is_going { eta.clamp(-2.0, 2.0) } else { place[1].0[l] };
+                place[0].0[l] = if is_going { within(2.0, xi) } else { place[0].0[l] };
+                place[1].0[l] = if is_going { within(2.0, eta) } else { place[1].0[l] };
                 left.0[l] = if is_going && d_xi.abs() + d_eta.abs() >= CLOSE { 1.0 } else { 0.0 };
             }
             going = left;
@@ -334,12 +353,12 @@ impl Patch {
 
 impl AllMet {
     #[inline(always)]
-    fn store(&self, queries: &mut [Query], group: &[u32], place: [Lanes<f64>; 2]) {
-        for l in 0..group.len() {
-            let query = &mut queries[group[l] as usize];
-            query.place = Place { xi: place[0].0[l], eta: place[1].0[l] };
-            query.met = None;
+    fn store(&self, queries: &mut [Query], numbers: &[usize; LANES], place: [Lanes<f64>; 2]) {
+        for l in 0..LANES {
+            let query = &mut queries[numbers[l]];
+            (query.place, query.met) = (Place::default(), None);
             if self.size.0[l] > 0.0 {
+                query.place = Place { xi: place[0].0[l], eta: place[1].0[l] };
                 let normal = [self.normal[0].0[l], self.normal[1].0[l], self.normal[2].0[l]];
                 let [a, b, c, d] = &self.weights;
                 let weights = [a.0[l], b.0[l], c.0[l], d.0[l]];
@@ -446,6 +465,47 @@ mod tests {
                 assert!((found.depth.abs() - dot(away, away).sqrt()).abs() < 1e-9, "{from} {found:?}");
                 assert!(found.depth.signum() == -height.signum(), "{from} {found:?}");
             }
+        }
+    }
+
+    #[test]
+    fn queries_side_by_side_have_the_answers_of_each_alone() {
+        // Two ridges, of which the second has lost a face; points over faces, at edges, at corners and beyond the border.
+        let mut surfaces = [folded(0.4), folded(3.0)];
+        surfaces[1].state.gone[1] = true;
+        let surfaces: Vec<&Surface> = surfaces.iter().collect();
+        let mut finder = Finder::default();
+        for i in 0..43 {
+            let (x, body) = (0.07 * f64::from(i) - 1.5, i % 2);
+            let from = if body == 0 { i / 2 % 2 } else { 0 };
+            let point = [x, 0.3 + 0.01 * f64::from(i), 0.4 + 0.3 * f64::from(i % 3)];
+            finder.queries.push(Query::new(body as u32, from as u32, Place::default(), point));
+        }
+        let alone: Vec<Query> = finder.queries.clone();
+        finder.find(&surfaces);
+        let beyond = finder.queries.iter().filter(|query| query.met.is_none()).count();
+        assert!(beyond > 3 && beyond < 20, "{beyond}");
+        for (together, query) in finder.queries.iter().zip(alone) {
+            let mut one = Finder { queries: vec![query], ..Finder::default() };
+            one.find(&surfaces);
+            // All digits are printed.
+            assert_eq!(format!("{:?}", one.queries[0]), format!("{together:?}"));
+        }
+    }
+
+    #[test]
+    fn a_point_over_a_deleted_face_comes_back() {
+        let mut surface = folded(0.0);
+        surface.state.gone[1] = true;
+        let mut query = Query::new(0, 0, Place::default(), [0.3, -0.1, 0.5]);
+        for (x, depth) in [(0.3, None), (-0.2, Some(0.1))] {
+            query = Query::new(0, query.face, query.place, [x, -0.1, 0.5]);
+            let mut finder = Finder { queries: vec![query], ..Finder::default() };
+            finder.find(&[&surface]);
+            query = finder.queries[0];
+            let found = query.met.map(|met| met.depth.abs());
+            assert!(found.is_some() == depth.is_some(), "{found:?}");
+            assert!((found.unwrap_or(0.0) - depth.unwrap_or(0.0)).abs() < 1e-9, "{found:?}");
         }
     }
 

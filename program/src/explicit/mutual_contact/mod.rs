@@ -4,7 +4,7 @@
 //! Both sides are treated alike: where two surfaces overlap, the nodes of either are pressed out of the other, each with half of
 //! the stiffness. A node's force is divided among the face's corners in the proportion of its place on the face, so that
 //! momentum is kept to rounding. On a rigid wall it is the others' nodes alone, with the whole stiffness and no friction. Which nodes
-//! are near which faces is found anew when something may have come near that was not.
+//! are near which faces is found anew where something may have come near that was not, or a face has gone.
 //!
 //! Bodies are worked on in parallel, and their sums taken in their order: the result has the same bits on any number of threads.
 
@@ -116,27 +116,21 @@ impl Scope {
 }
 
 /// Puts new pairs in the place of those that are due; where one of these touches it goes on as it was.
-fn merge(old: &[Pair], mut found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
-    let mut others = Vec::new();
+fn merge(old: Vec<Pair>, mut found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec<Pair> {
+    let (old, others): (Vec<Pair>, Vec<Pair>) = old.into_iter().partition(due);
     for pair in old {
-        if !due(pair) {
-            others.push(pair.clone());
-            continue;
-        }
         let place = found.binary_search_by_key(&pair.key(), Pair::key);
         let touching = pair.on_face.stiffness > 0.0;
         match place {
-            Ok(place) if touching => found[place] = Pair { free_until: 0.0, ..pair.clone() },
-            Err(place) if touching => found.insert(place, Pair { free_until: 0.0, ..pair.clone() }),
+            Ok(place) if touching => found[place] = Pair { free_until: 0.0, ..pair },
+            Err(place) if touching => found.insert(place, Pair { free_until: 0.0, ..pair }),
             // What was outside one face has not come through another one.
             Ok(place) => found[place].known |= pair.known && pair.face == found[place].face,
             Err(_) => {}
         }
     }
-    if !others.is_empty() {
-        found.append(&mut others);
-        found.sort_unstable_by_key(Pair::key);
-    }
+    found.extend(others);
+    found.sort_by_key(Pair::key);
     found
 }
 
@@ -144,7 +138,9 @@ fn merge(old: &[Pair], mut found: Vec<Pair>, due: impl Fn(&Pair) -> bool) -> Vec
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct ContactState {
     motion: Motion,
+    /// Of everything, and of parts.
     pub searches: u64,
+    local_searches: u64,
     /// Stored in penetrations and in sticking, nodes that have left included; dissipated by slipping.
     pub stored: f64,
     pub dissipated: f64,
@@ -186,7 +182,10 @@ impl MutualContact {
                 self.restart();
             }
             Due::Slabs(due) if due.is_empty() && self.state.torn.is_empty() => {}
-            Due::Slabs(due) => self.search(&self.scope(&due)),
+            Due::Slabs(due) => {
+                self.search(&self.scope(&due));
+                self.state.local_searches += 1;
+            }
         }
         self.state.torn.clear();
         self.press(bodies);
@@ -208,7 +207,10 @@ impl MutualContact {
         for &body in torn {
             scope.bodies[body as usize] = true;
         }
-        for (number, side) in self.sides.iter().enumerate().filter(|_| !torn.is_empty()) {
+        if torn.is_empty() {
+            return scope;
+        }
+        for (number, side) in self.sides.iter().enumerate() {
             for pair in side.state.pairs.iter().filter(|pair| pair.has_left() && torn.contains(&pair.master)) {
                 scope.slabs[motion.slab(number, side.surface.slab_of_node(pair.node))] = true;
             }
@@ -221,18 +223,21 @@ impl MutualContact {
         let surfaces: Vec<&Surface> = self.sides.iter().map(|side| &side.surface).collect();
         let grid = Grid::new(&surfaces, |body| scope.bodies[body], self.parameters.margin);
         let motion = &self.state.motion;
-        let near = |(number, side): (usize, &Side)| {
-            if !scope.slabs[motion.slabs_of(number)].contains(&true) {
+        let search = |(number, side): (usize, &Side)| {
+            if side.surface.wall || !scope.slabs[motion.slabs_of(number)].contains(&true) {
                 return None;
             }
             let is_due = |node: &u32| scope.slabs[motion.slab(number, side.surface.slab_of_node(*node))];
             let nodes: Vec<u32> = side.surface.state.nodes.iter().copied().filter(is_due).collect();
-            let found = self.near(&grid, &surfaces, number, &nodes);
-            Some(merge(&side.state.pairs, found, |pair| is_due(&pair.node) && scope.bodies[pair.master as usize]))
+            let found = self.pairs_of(number, &nodes, &grid, &surfaces);
+            let is_due = |pair: &Pair| is_due(&pair.node) && scope.bodies[pair.master as usize];
+            Some(merge(side.state.pairs.clone(), found, is_due))
         };
-        let pairs: Vec<Option<Vec<Pair>>> = self.sides.par_iter().enumerate().map(near).collect();
+        let pairs: Vec<Option<Vec<Pair>>> = self.sides.par_iter().enumerate().map(search).collect();
         for (side, pairs) in self.sides.iter_mut().zip(pairs) {
-            side.state.pairs = pairs.unwrap_or_else(|| std::mem::take(&mut side.state.pairs));
+            if let Some(pairs) = pairs {
+                side.state.pairs = pairs;
+            }
         }
     }
 
@@ -244,14 +249,14 @@ impl MutualContact {
     }
 
     /// The pairs of a body's nodes with the grid's faces, in their order.
-    fn near(&self, grid: &Grid, surfaces: &[&Surface], number: usize, nodes: &[u32]) -> Vec<Pair> {
+    fn pairs_of(&self, number: usize, nodes: &[u32], grid: &Grid, surfaces: &[&Surface]) -> Vec<Pair> {
         let (parameters, side) = (self.parameters, &self.sides[number]);
         // Where bodies overlap from the start, they press each other.
         let first = self.state.searches == 0;
         let (mut faces, mut finder) = (Vec::new(), Finder::default());
         // Nodes, and where the faces near them that belong to one body end among the queries.
         let mut ends = Vec::new();
-        for &node in if side.surface.wall { &[][..] } else { nodes } {
+        for &node in nodes {
             let point = side.surface.state.positions[node as usize];
             grid.near(number, point, &mut faces);
             for of_body in faces.chunk_by(|a, b| a.body == b.body) {
@@ -388,8 +393,8 @@ impl MutualContact {
         let side = &mut self.sides[number];
         side.surface.remove(body);
         let gone = side.surface.state.gone.clone();
-        let loose = side.state.pairs.iter_mut().filter(|pair| body.is_loose(pair.node as usize));
-        let mut released = loose.map(Pair::leave).sum::<f64>();
+        let loose = side.state.pairs.extract_if(.., |pair| body.is_loose(pair.node as usize));
+        let mut released = loose.map(|mut pair| pair.leave()).sum::<f64>();
         for other in &mut self.sides {
             let on_it =
                 other.state.pairs.iter_mut().filter(|pair| pair.master as usize == number && gone[pair.face as usize]);

@@ -108,7 +108,8 @@ impl Pair {
     /// surface that it was last nearest to.
     #[inline(always)]
     pub fn may_touch(&self, motion: &Motion) -> bool {
-        !self.has_left() && !(self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until)
+        let is_clear = self.free_until > 0.0 && motion.moved(self.slabs) < self.free_until;
+        !self.has_left() && !is_clear
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
