@@ -1,6 +1,6 @@
 //! A panel as it is struck: its solver, what is measured of it, and when the sphere has gone through.
 
-use super::fate::Fate;
+use super::fate::{self, Fate};
 use super::measure::{OfPanel, Sample};
 use super::model::{self, share};
 use super::scene::Case;
@@ -76,11 +76,14 @@ impl Struck for StruckPanel<'_> {
     }
 
     fn is_decided(&self, course: &Fate) -> bool {
-        course.is_decided
+        course.is_decided()
     }
 
-    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at the panel.
+    /// The sphere has gone its own radius since something touched it last, or since the beginning, where it stands at the panel; and no
+    /// yarn is left ahead, as the next ply may be.
     fn has_left<T: Number>(&self, solver: &Solver<T>, _course: &Fate, free: f64) -> bool {
-        solver.projectile.as_ref().is_some_and(|sphere| free * -sphere.velocity > self.case.sphere.radius)
+        let sphere = &self.case.sphere;
+        solver.projectile.as_ref().is_some_and(|striker| free * -striker.velocity > sphere.radius)
+            && !fate::anything_ahead(&self.panel, solver, sphere)
     }
 }

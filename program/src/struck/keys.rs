@@ -273,6 +273,7 @@ impl Reader<'_> {
         }
         Ok(Plan {
             end,
+            steps_to: None,
             rebounds: keys.until == Some(Until::End),
             decides: keys.until == Some(Until::Decided),
             sample,

@@ -347,7 +347,7 @@ impl<'a, S: Struck, T: Number> Run<'a, S, T> {
             let sampled = if stops.is_empty() { reached(self.record.next_sample) } else { stopped } || end.is_some();
             let drawn = self.record.pictures.first().is_some_and(|&picture| reached(picture));
             let framed = frames > 0 && reached(self.record.next_frame);
-            let left = if stopped { after_stop } else { stop.unwrap_or(last) - time };
+            let left = if stopped { after_stop } else { stop.unwrap_or(self.plan.next_mark(time)) - time };
             let energies = measured || sampled || drawn || framed;
             self.solver.accelerate(energies, left).map_err(|error| self.error(&error.to_string()))?;
             if self.solver.projectile.as_ref().is_some_and(|projectile| projectile.force != 0.0) {

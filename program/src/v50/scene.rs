@@ -170,7 +170,7 @@ impl Scene {
     /// All that the outcome of a shot depends on besides what the shot itself says.
     pub fn identity(&self) -> u32 {
         let mut target = self.target.at(&self.plain_shot(0, 1.0), 1.0);
-        let decides = self.target.plan().decides;
+        let &Plan { end, decides, .. } = self.target.plan();
         let shots = Shots { number: 0, extension: 0.0, tolerance: 0.0, spread: None, ..self.shots };
         let case = match &mut target {
             Target::Panel(case) => {
@@ -182,7 +182,7 @@ impl Scene {
                 format!("{case:?}")
             }
         };
-        crc32fast::hash(format!("{:?} {case} {decides} {shots:?}", self.units.names()).as_bytes())
+        crc32fast::hash(format!("{:?} {case} {end} {decides} {shots:?}", self.units.names()).as_bytes())
     }
 }
 
@@ -216,7 +216,8 @@ impl Target {
                 (&mut case.plan, &mut case.strength)
             }
         };
-        // It ends when its fate is decided; nothing is drawn, and nothing kept to go on from.
+        // It ends when its fate is decided, by the steps of the scene's own run; nothing is drawn, and nothing kept to go on from.
+        plan.steps_to = Some(plan.end);
         (plan.end, plan.rebounds, plan.frames, plan.checkpoints) = (end, false, 0, 0);
         plan.pictures.clear();
         if let (Some(strength), Some(seed)) = (strength, shot.seed) {
@@ -376,11 +377,13 @@ mod tests {
         assert_ne!(whole.identity(), decided.identity());
         let own = of("", "");
         for (from, to) in
-            [("end = 0.2", "end = 0.3\nsample = 0.01\nframes = 3"), ("number = 6", "number = 9\nspread = 3.0")]
+            [("end = 0.2", "end = 0.2\nsample = 0.01\nframes = 3"), ("number = 6", "number = 9\nspread = 3.0")]
         {
             assert_eq!(of(from, to), own, "{to}");
         }
-        assert_ne!(of("layers = 20", "layers = 40"), own);
+        for (from, to) in [("layers = 20", "layers = 40"), ("end = 0.2", "end = 0.3")] {
+            assert_ne!(of(from, to), own, "{to}");
+        }
     }
 
     #[test]

@@ -211,7 +211,8 @@ impl MutualContact {
             return scope;
         }
         for (number, side) in self.sides.iter().enumerate() {
-            for pair in side.state.pairs.iter().filter(|pair| pair.has_left() && torn.contains(&pair.master)) {
+            // What is beyond a border may have come across a face that was there.
+            for pair in side.state.pairs.iter().filter(|pair| !pair.known && torn.contains(&pair.master)) {
                 scope.slabs[motion.slab(number, side.surface.slab_of_node(pair.node))] = true;
             }
         }

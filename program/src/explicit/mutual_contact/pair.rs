@@ -60,6 +60,12 @@ impl Pair {
         let node = self.node as usize;
         let old = self.friction;
         (self.face, self.place) = (face, place);
+        let slip = |weights: [f64; 4]| {
+            let corners = weights.into_iter().zip(master.faces[face as usize]);
+            corners.fold(own.state.moved[node], |slip, (weight, corner)| {
+                add(slip, -weight, master.state.moved[corner as usize])
+            })
+        };
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
             // Beyond the surface's border it may touch an edge at once.
@@ -69,19 +75,18 @@ impl Pair {
             if let (Some(met), Some(between)) = (met, between) {
                 (self.slabs, self.free_until) = (between, motion.moved(between) - met.depth);
             }
-            // What the sticking held is lost; what the depth held has been given back, unless the face is lost as well.
-            let sticking = 0.5 * dot(old, old) / self.stiffness;
-            let lost = if met.is_some_and(|met| met.depth <= 0.0) { sticking } else { self.stored };
+            // What friction held, and did in the step, is lost; what the depth held has been given back, unless the face is lost as well.
+            let lost = match met.filter(|met| met.depth <= 0.0) {
+                Some(_) if old == [0.0; 3] => 0.0,
+                Some(met) => rub(old, self.stiffness, slip(met.weights), met.normal, 0.0).dissipated,
+                None => self.stored,
+            };
             (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
             (self.depth, self.uncounted) = (0.0, 0.0);
             self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
-        let mut slip = own.state.moved[node];
-        let corners = master.faces[self.face as usize];
-        for k in 0..4 {
-            slip = add(slip, -met.weights[k], master.state.moved[corners[k] as usize]);
-        }
+        let slip = slip(met.weights);
         let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
         let force = self.stiffness * self.depth;
         let rough = if master.wall { 0.0 } else { friction };
