@@ -57,15 +57,9 @@ impl Pair {
         motion: &Motion,
     ) -> (Option<Vector>, f64) {
         let (own, master) = (surfaces[number], surfaces[self.master as usize]);
-        let node = self.node as usize;
         let old = self.friction;
+        let pressed = (self.face != face).then(|| self.pressed(own, master));
         (self.face, self.place) = (face, place);
-        let slip = |weights: [f64; 4]| {
-            let corners = weights.into_iter().zip(master.faces[face as usize]);
-            corners.fold(own.state.moved[node], |slip, (weight, corner)| {
-                add(slip, -weight, master.state.moved[corner as usize])
-            })
-        };
         let inside = met.filter(|met| met.depth > 0.0 && met.depth < deepest);
         let Some(met) = inside else {
             // Beyond the surface's border it may touch an edge at once.
@@ -78,7 +72,7 @@ impl Pair {
             // What friction held, and did in the step, is lost; what the depth held has been given back, unless the face is lost as well.
             let lost = match met.filter(|met| met.depth <= 0.0) {
                 Some(_) if old == [0.0; 3] => 0.0,
-                Some(met) => rub(old, self.stiffness, slip(met.weights), met.normal, 0.0).dissipated,
+                Some(met) => rub(old, self.stiffness, self.slip(own, master, met.weights), met.normal, 0.0).dissipated,
                 None => self.stored,
             };
             (self.friction, self.stored, self.on_face) = ([0.0; 3], 0.0, OnFace::default());
@@ -86,8 +80,8 @@ impl Pair {
             self.known = met.is_some_and(|met| met.depth <= 0.0);
             return (None, lost);
         };
-        let slip = slip(met.weights);
-        let lost = self.deepen(met.depth, dot(slip, slip).sqrt());
+        let slip = self.slip(own, master, met.weights);
+        let lost = self.deepen(met.depth, dot(slip, slip).sqrt(), pressed, dot(met.normal, slip));
         let force = self.stiffness * self.depth;
         let rough = if master.wall { 0.0 } else { friction };
         let friction = rub(old, self.stiffness, slip, met.normal, rough * force);
@@ -118,16 +112,43 @@ impl Pair {
     }
 
     /// Takes a new depth over. In a step in which node and face have moved by `slip` against each other, the depth cannot change by
-    /// more: what it jumps by, since another face is nearer now, does not count, and brings no energy in. Returns the energy that
-    /// is lost where less depth is left than counted.
-    fn deepen(&mut self, depth: f64, slip: f64) -> f64 {
+    /// more: what it jumps by, since another face is nearer now, does not count. Returns the energy that is lost where less depth is left
+    /// than counted.
+    ///
+    /// Where the face is another one and some of the depth does not count, what counts is what the motion has stored: `pressed` by the old
+    /// face's force, and `out` of the new face. A node beside an edge goes from face to face in every other step, and no energy comes in.
+    fn deepen(&mut self, depth: f64, slip: f64, pressed: Option<f64>, out: f64) -> f64 {
         let before = if self.known { self.depth + self.uncounted } else { depth };
+        let jumps = self.uncounted > 0.0 || (depth - before).abs() > slip;
+        self.known = true;
+        if let Some(pressed) = pressed.filter(|_| jumps) {
+            // The work by the trapezoidal rule of central differences, over half the stiffness, is `pressed` and `out` times the new depth.
+            let held = self.depth * self.depth - pressed;
+            let kept = 0.5 * ((out * out + 4.0 * held).max(0.0).sqrt() - out);
+            self.depth = kept.clamp(0.0, depth);
+            self.uncounted = depth - self.depth;
+            return 0.5 * self.stiffness * (held - self.depth * (self.depth + out)).max(0.0);
+        }
         let expected = self.depth + (depth - before).clamp(-slip, slip);
         let least = (self.depth - slip).max(0.0);
         self.depth = expected.clamp(0.0, depth);
         self.uncounted = depth - self.depth;
-        self.known = true;
         0.5 * self.stiffness * (least * least - self.depth * self.depth).max(0.0)
+    }
+
+    /// The work of what has pressed the node out of its face at the step's start, over half the stiffness.
+    fn pressed(&self, own: &Surface, master: &Surface) -> f64 {
+        let force = add(self.on_face.force, -1.0, self.friction);
+        let slip = self.slip(own, master, self.on_face.weights);
+        dot(force, slip) / self.stiffness
+    }
+
+    /// How far the node has moved in the step against this place of its face.
+    fn slip(&self, own: &Surface, master: &Surface, weights: [f64; 4]) -> Vector {
+        let corners = weights.into_iter().zip(master.faces[self.face as usize]);
+        corners.fold(own.state.moved[self.node as usize], |slip, (weight, corner)| {
+            add(slip, -weight, master.state.moved[corner as usize])
+        })
     }
 
     /// Lets go for good; returns what was stored.
@@ -137,5 +158,63 @@ impl Pair {
         self.stiffness = 0.0;
         self.known = false;
         std::mem::take(&mut self.stored)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STIFFNESS: f64 = 3.0;
+
+    fn pair(depth: f64, uncounted: f64) -> Pair {
+        Pair { stiffness: STIFFNESS, depth, uncounted, known: true, ..Pair::default() }
+    }
+
+    fn stored(pair: &Pair) -> f64 {
+        0.5 * STIFFNESS * pair.depth * pair.depth
+    }
+
+    /// From face to face, along both of which it moves: of two depths the lesser one is what remains counted.
+    #[test]
+    fn a_node_between_two_faces_gains_no_energy() {
+        let mut pair = pair(1.0, 0.0);
+        let lost = pair.deepen(0.4, 0.01, Some(0.0), 0.0);
+        assert!((lost - 0.5 * STIFFNESS * (1.0 - 0.16)).abs() < 1e-12, "{lost}");
+        for depth in [1.0, 0.5, 1.0, 0.45, 1.0] {
+            assert_eq!(pair.deepen(depth, 0.01, Some(0.0), 0.0), 0.0);
+            assert!((pair.depth - 0.4).abs() < 1e-15 && (pair.depth + pair.uncounted - depth).abs() < 1e-15);
+        }
+    }
+
+    /// What is stored in a change of faces is the work of the old one's force and the new one's; what more was held is lost.
+    #[test]
+    fn a_change_of_faces_stores_its_work() {
+        for (depth, old_out, out) in
+            [(0.9, -0.05, -0.02), (0.9, 0.05, 0.02), (0.9, 0.02, -0.2), (0.9, -0.02, 0.2), (0.26, 0.1, 0.1)]
+        {
+            let mut pair = pair(0.3, 0.5);
+            let before = stored(&pair);
+            let lost = pair.deepen(depth, 0.3, Some(pair.depth * old_out), out);
+            let work = 0.5 * STIFFNESS * (0.3 * old_out + pair.depth * out);
+            assert!(
+                (stored(&pair) - before + work + lost).abs() < 1e-15 && lost >= 0.0,
+                "{depth} {old_out} {out}: {lost}"
+            );
+            assert!((pair.depth + pair.uncounted - depth).abs() < 1e-15 && pair.uncounted >= 0.0);
+        }
+        // It has gone farther out than it was deep.
+        let mut pair = pair(0.01, 0.5);
+        assert_eq!((pair.deepen(0.9, 0.3, Some(0.01 * 0.1), 0.1), pair.depth), (0.0, 0.0));
+    }
+
+    /// As long as it is on one face, all that the motion allows counts.
+    #[test]
+    fn what_a_face_jumps_by_does_not_count() {
+        let mut pair = pair(0.3, 0.0);
+        assert_eq!(pair.deepen(0.35, 0.1, None, -0.05), 0.0);
+        assert_eq!((pair.depth, pair.uncounted), (0.35, 0.0));
+        pair.deepen(0.9, 0.1, None, 0.0);
+        assert!((pair.depth - 0.45).abs() < 1e-15 && (pair.uncounted - 0.45).abs() < 1e-15);
     }
 }
