@@ -195,7 +195,7 @@ fn whole_lines(place: &Path) -> Result<String, Error> {
     let mut bytes = std::fs::read(place).map_err(|error| file_error(place, &error))?;
     bytes.truncate(bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1));
     if bytes.is_empty() {
-        return Err(file_error(place, &"empty, without a line of titles; allowed: the table of an earlier run"));
+        return Err(file_error(place, &"empty, or without a whole line; allowed: the table of an earlier run"));
     }
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
@@ -314,7 +314,7 @@ mod tests {
             let error = refused(&|text| text.replacen(from, to, 1), &scene);
             assert!(error.contains(message), "{message}: {error}");
         }
-        assert!(refused(&|_| String::new(), &scene).contains("shots.csv: empty, without a line of titles"));
+        assert!(refused(&|_| String::new(), &scene).contains("shots.csv: empty, or without a whole line"));
         // A character that is cut is no harm in a line without an end, and named in another.
         let cut = [text.as_bytes(), b"5,\xc3"].concat();
         std::fs::write(&place, &cut).expect("it is written");
