@@ -12,6 +12,7 @@ pub mod interrupt;
 pub mod progress;
 pub mod root;
 pub mod run_directory;
+pub mod shell;
 pub mod short_number;
 pub mod text_table;
 pub mod toml_error;

@@ -6,6 +6,7 @@ use std::path::Path;
 use serde::de::{DeserializeOwned, Error as _};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
+use toml::de::DeTable;
 
 use super::error::Error;
 use super::toml_error;
@@ -73,6 +74,13 @@ impl Source<'_> {
             return Err(self.error(name.span(), &format!("case \"{text}\"; allowed: {wanted}")));
         }
         Ok(text.clone())
+    }
+
+    /// Where the value of a table's key stands; the file's beginning where it is not there.
+    pub fn place(&self, table: &str, key: &str) -> Range<usize> {
+        let tables = DeTable::parse(self.text).ok();
+        let value = tables.as_ref().and_then(|tables| tables.get_ref().get(table)?.get_ref().get(key));
+        value.map_or(0..0, Spanned::span)
     }
 
     pub fn error(&self, span: Range<usize>, message: &str) -> Error {

@@ -165,9 +165,11 @@ impl Reader<'_> {
         let Some(aim) = &file.aim else { return Ok([0.0; 2]) };
         let Numbers([x, y]) = *aim.get_ref();
         let allowed = match cloth.part() {
-            Part::Quarter => "with part = \"whole\"",
-            Part::Whole if [x, y].iter().all(|place| place.is_finite()) => return Ok([x, y]),
-            Part::Whole => "two finite numbers",
+            Part::Quarter => "with part = \"whole\"".to_string(),
+            Part::Whole => match cloth.covers([x, y]) {
+                Ok(()) => return Ok([x, y]),
+                Err(allowed) => allowed,
+            },
         };
         Err(self.source.error(aim.span(), &format!("aim is [{x}, {y}]; allowed: {allowed}")))
     }

@@ -226,13 +226,15 @@ fn a_panel_is_struck_where_it_is_aimed_at() {
     assert!((one.1 - centre.1).abs() > 1e-3, "{one:?} {centre:?}");
     for (aim, part, message) in [
         ("[0.2, 0.3]", "quarter", "aim is [0.2, 0.3]; allowed: with part = \"whole\""),
-        ("[nan, 0]", "whole", "aim is [NaN, 0]; allowed: two finite numbers"),
+        ("[nan, 0]", "whole", "aim is [NaN, 0]; allowed: within the panel's outline, x from -1.600 to 1.600 and y"),
+        ("[0, -1.7]", "whole", "aim is [0, -1.7]; allowed: within the panel's outline"),
         ("[0.2]", "whole", "aim is [0.2]; allowed: a list of 2 numbers"),
     ] {
         let error = struck(aim, part).map(|_| ()).expect_err(message);
         assert!(error.contains(message), "{message}: {error}");
     }
-    let scene = struck("[9.0, 0]", "whole").expect("a scene");
+    let mut scene = struck("[1.6, 1.6]", "whole").expect("a corner of the outline");
+    scene.cases[0].sphere.aim = [9.0, 0.0];
     let outside = model::check(&scene.cases[0], &scene.cases[0].cloth.model()).expect_err("nothing lies there");
     assert!(outside.to_string().contains("aim"), "{outside}");
 }

@@ -103,11 +103,11 @@ impl Tension {
 }
 
 impl Material {
-    /// That a strike of this speed stretches a yarn of this material by no more than any fibre bears.
+    /// That a strike of this speed stretches a yarn of this material by no more than any fibre bears; `key` is what gives the speed.
     ///
     /// # Errors
     /// It is faster: what is allowed, with a hint if the units cannot be right.
-    pub fn bears_strike(&self, speed: f64, units: &UnitSystem) -> Result<(), String> {
+    pub fn bears_strike(&self, key: &str, speed: f64, units: &UnitSystem) -> Result<(), String> {
         let density = self.density.unwrap_or_default();
         let most = Tension::of(self).map_or(0.0, |tension| tension.fastest_strike(density));
         if speed <= most {
@@ -115,7 +115,7 @@ impl Material {
         }
         let most = number(most);
         let mut message =
-            format!("speed is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
+            format!("{key} is {speed}; allowed: up to {most}, which stretches the yarn by {LARGEST_STRAIN}");
         if let Some(warning) = FibreWave::of(self, units).and_then(|wave| wave.unit_warning(units)) {
             message.push_str(&format!(";\n{warning}"));
         }
@@ -135,7 +135,7 @@ impl Source<'_> {
         material: &Material,
         units: &UnitSystem,
     ) -> Result<f64, Error> {
-        material.bears_strike(speed, units).map(|()| speed).map_err(|message| self.error(place, &message))
+        material.bears_strike("speed", speed, units).map(|()| speed).map_err(|message| self.error(place, &message))
     }
 }
 

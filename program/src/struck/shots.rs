@@ -104,7 +104,8 @@ impl Source<'_> {
             return error("speeds", &format!("[{low}, {high}]"), file.speeds.span(), allowed);
         }
         for material in materials {
-            self.strike_speed(high, file.speeds.span(), material, units)?;
+            let bears = material.bears_strike("the fastest of speeds", high, units);
+            bears.map_err(|message| self.error(file.speeds.span(), &message))?;
         }
         let number = *file.number.get_ref();
         if !(FEWEST_SHOTS..=MOST_SHOTS).contains(&number) {
@@ -134,17 +135,28 @@ impl Source<'_> {
         }
         let tolerance = positive("tolerance", &file.tolerance, TOLERANCE * range)?;
         let least = LEAST_TOLERANCE * high;
-        if let Some(given) = file.tolerance.as_ref().filter(|_| tolerance < least) {
-            return error("tolerance", &tolerance, given.span(), &format!("{least:.3e} or more"));
+        if let Some(given) = file.tolerance.as_ref().filter(|_| !(least..range).contains(&tolerance)) {
+            let allowed = format!("{least:.3e} or more, and less than the range of speeds, {range}");
+            return error("tolerance", &tolerance, given.span(), &allowed);
+        }
+        let scatter = self.zero_or_more("scatter", &file.scatter, 0.0)?;
+        let step = positive("step", &file.step, STEP * range)?;
+        for (key, value, given, most, what) in [
+            ("scatter", scatter, &file.scatter, 0.5 * range, "half of the range of speeds"),
+            ("step", step, &file.step, range, "the range of speeds"),
+        ] {
+            if let Some(given) = given.as_ref().filter(|_| value > most) {
+                return error(key, &value, given.span(), &format!("up to {most}, {what}"));
+            }
         }
         let seed = file.seed.as_ref().map_or(Ok(SEED), |seed| self.seed(seed))?;
         Ok(Shots {
             number: number as usize,
             speeds: [low, high],
             design,
-            step: positive("step", &file.step, STEP * range)?,
+            step,
             deviation: positive("deviation", &file.deviation, DEVIATION * range)?,
-            scatter: self.zero_or_more("scatter", &file.scatter, 0.0)?,
+            scatter,
             aim: file.aim.unwrap_or_default(),
             seed,
             extension,

@@ -1,7 +1,7 @@
 //! `toron v50`: from a scene with `[shots]` to the curve of perforation.
 
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::designs::Design;
@@ -15,7 +15,9 @@ use super::simulation::{Experiment, Truth};
 use super::{limit, plot, report, shot};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
-use crate::common::run_directory::RunDirectory;
+use crate::common::interrupt::Interrupt;
+use crate::common::run_directory::{RunDirectory, is_file};
+use crate::common::shell;
 use crate::explicit::judgement::warnings;
 use crate::struck::shots::Shots;
 
@@ -40,19 +42,19 @@ pub struct Arguments {
     #[arg(long)]
     restart: bool,
     /// Fire these shots only, as in 1-40: the task of a job array, with a design that is not sequential.
-    #[arg(long, value_name = "FROM-TO", conflicts_with_all = ["collect", "limit", "simulate"])]
+    #[arg(long, value_name = "FROM-TO", allow_hyphen_values = true, conflicts_with_all = ["collect", "limit", "simulate"])]
     shots: Option<String>,
     /// Fire none: join the shots of these directories.
     #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["restart", "limit", "simulate"])]
     collect: Vec<PathBuf>,
-    /// Find the limit without scatter by bisection, and whether the answer around it is monotone.
+    /// Find the limit of the scene's own shot, with its aim and its strength, by bisection, and whether the answer around it is monotone.
     #[arg(long, conflicts_with = "simulate")]
     limit: bool,
     /// Strike nothing: simulate so many experiments of each design, and print how often the intervals hold the truth.
     #[arg(long, value_name = "EXPERIMENTS")]
     simulate: Option<u64>,
     /// The true V50 and deviation of simulated experiments; the middle of the speeds and an eighth of their range if not given.
-    #[arg(long, num_args = 2, value_names = ["V50", "DEVIATION"], requires = "simulate")]
+    #[arg(long, num_args = 2, value_names = ["V50", "DEVIATION"], allow_negative_numbers = true, requires = "simulate")]
     truth: Option<Vec<f64>>,
     /// Add the curves with Firth's correction, which have values where the fates do not mix.
     #[arg(long)]
@@ -82,9 +84,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     let numbers = numbers(&scene, arguments.shots.as_deref())?;
     let findings = shot::before(&scene)?;
+    let place = arguments.output.join(if arguments.limit { LIMIT } else { SHOTS });
+    check_restart(&place, arguments.restart)?;
     let directory = RunDirectory::open(&arguments.output)?;
     print_error(&warnings([(scene.target.name(), &findings[..])]));
-    let records = open(&scene, arguments, if arguments.limit { LIMIT } else { SHOTS })?;
+    let records = open(&scene, &place)?;
     print_error("Ctrl-C ends the run: shots under way are lost, and --restart goes on with the others\n");
     let threads = arguments.threads.unwrap_or_else(rayon::current_num_threads);
     if arguments.limit {
@@ -92,7 +96,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
     }
     let stays = |(number, ended): &(&usize, &Ended)| numbers.contains(number) && run::stays(&scene, ended);
     let ended = records.shots.iter().filter(stays).count();
-    let range = FiringRange::new(&scene, threads, numbers.clone().count().saturating_sub(ended))?;
+    let left = numbers.clone().count().saturating_sub(ended);
+    let range = FiringRange::new(&scene, threads, left, Interrupt::listen()?);
     let records = Mutex::new(records);
     let done = run::series(&range, numbers, &records);
     range.finish();
@@ -102,15 +107,22 @@ pub fn run(arguments: &Arguments) -> Result<(), Error> {
 }
 
 fn interrupted(arguments: &Arguments) -> Error {
-    let (scene, output) = (arguments.scene.display(), arguments.output.display());
-    let mut again = format!("toron v50 {scene} -o {output} --restart");
-    if arguments.limit {
-        again += " --limit";
+    Error::Evaluation(format!("interrupted; the run goes on with\n  {}", again(arguments)))
+}
+
+/// The command by which an interrupted run goes on, with the options that it had.
+fn again(arguments: &Arguments) -> String {
+    let Arguments { scene, output, case, shots, limit, firth, threads, .. } = arguments;
+    let [scene, output] = [scene, output].map(|path| path.display().to_string());
+    let mut words = ["toron", "v50", &scene, "-o", &output, "--restart"].map(str::to_string).to_vec();
+    for (flag, is_given) in [("--limit", limit), ("--firth", firth)] {
+        words.extend(is_given.then(|| flag.to_string()));
     }
-    for (option, value) in [("case", &arguments.case), ("shots", &arguments.shots)] {
-        again += &value.as_ref().map_or(String::new(), |value| format!(" --{option} {value}"));
+    let threads = threads.map(|threads| threads.to_string());
+    for (option, value) in [("--case", case), ("--shots", shots), ("--threads", &threads)] {
+        words.extend(value.iter().flat_map(|value| [option.to_string(), value.clone()]));
     }
-    Error::Evaluation(format!("interrupted; the run goes on with\n  {again}"))
+    shell::command(&words)
 }
 
 /// The shots that are to be fired.
@@ -134,26 +146,32 @@ fn numbers(scene: &Scene, part: Option<&str>) -> Result<RangeInclusive<usize>, E
     }
 }
 
-/// The table that the shots go to, with those that are there.
-fn open(scene: &Scene, arguments: &Arguments, name: &str) -> Result<Records, Error> {
-    let place = arguments.output.join(name);
-    let mut records = Records::new(scene, &place)?;
-    match (records.is_there()?, arguments.restart) {
-        (true, true) => {
-            let count = records.read(&place)?;
-            print_error(&format!("{count} shots stand in {}\n", place.display()));
-        }
+/// That a run goes on with the table at a place if it is there, and begins if it is not.
+///
+/// # Errors
+/// It is asked for the other.
+fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
+    let is_there = is_file(place)?;
+    let place = place.display();
+    match (is_there, restart) {
         (true, false) => {
-            let place = place.display();
             let message = format!("{place} is there, of an earlier run; allowed: --restart, or another directory");
-            return Err(Error::Input(message));
+            Err(Error::Input(message))
         }
         (false, true) => {
-            let output = arguments.output.display();
-            let message = format!("no {name} in {output}; allowed: the directory of the run that was stopped");
-            return Err(Error::Input(message));
+            let message = format!("--restart without {place}; allowed: the directory of the run that was stopped");
+            Err(Error::Input(message))
         }
-        (false, false) => {}
+        _ => Ok(()),
+    }
+}
+
+/// The table that the shots go to, with those that are there.
+fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
+    let mut records = Records::new(scene, place)?;
+    if is_file(place)? {
+        let count = records.read(place)?;
+        print_error(&format!("{count} shots stand in {}\n", place.display()));
     }
     records.open()?;
     Ok(records)
@@ -177,13 +195,21 @@ fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, argument
 }
 
 fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
-    let directory = RunDirectory::open(&arguments.output)?;
-    let mut records = Records::new(scene, &arguments.output.join(SHOTS))?;
-    if records.is_there()? {
-        records.read(&arguments.output.join(SHOTS))?;
-    }
+    let place = arguments.output.join(SHOTS);
+    let mut records = Records::new(scene, &place)?;
+    // Before there is a directory for them.
     for part in &arguments.collect {
-        records.read(&part.join(SHOTS))?;
+        let table = part.join(SHOTS);
+        if !part.is_dir() || !is_file(&table)? {
+            let part = part.display();
+            let message = format!("--collect is {part}, without a table {SHOTS}; allowed: directories of toron v50");
+            return Err(Error::Input(message));
+        }
+        records.read(&table)?;
+    }
+    let directory = RunDirectory::open(&arguments.output)?;
+    if is_file(&place)? {
+        records.read(&place)?;
     }
     records.open()?;
     evaluate(scene, &records, &directory, arguments)
@@ -192,7 +218,8 @@ fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
 fn find_limit(scene: &Scene, threads: usize, records: Records, arguments: &Arguments) -> Result<(), Error> {
     let Shots { speeds: [low, high], tolerance, .. } = scene.shots;
     let shots = limit::shots(high - low, tolerance);
-    let range = FiringRange::new(scene, threads, shots.saturating_sub(records.shots.len()))?;
+    let left = shots.saturating_sub(records.shots.len());
+    let range = FiringRange::new(scene, threads, left, Interrupt::listen()?);
     let found = limit::find(&range, &Mutex::new(records));
     range.finish();
     let Some(found) = found? else { return Err(interrupted(arguments)) };
@@ -235,4 +262,33 @@ fn simulate(scene: &Scene, experiments: u64, arguments: &Arguments) -> Result<()
         report::simulated(&lines)
     ));
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    fn arguments(words: &[&str]) -> Arguments {
+        let line = Line::try_parse_from([&["v50"], words].concat());
+        line.map(|line| line.arguments).expect("arguments")
+    }
+
+    /// What goes on is the same run, whatever its directory is called.
+    #[test]
+    fn a_run_goes_on_with_the_options_that_it_had() {
+        let given = arguments(&["a b.toml", "-o", "it's/there", "--case", "one", "--firth", "--threads", "2"]);
+        let wanted = r"toron v50 'a b.toml' -o 'it'\''s/there' --restart --firth --case one --threads 2";
+        assert_eq!(again(&given), wanted);
+        let given = arguments(&["a.toml", "--shots", "1-40"]);
+        assert_eq!(again(&given), "toron v50 a.toml -o toron-out/v50 --restart --shots 1-40");
+        assert_eq!(again(&arguments(&["a.toml", "--limit"])), "toron v50 a.toml -o toron-out/v50 --restart --limit");
+    }
 }

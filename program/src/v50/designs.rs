@@ -1,5 +1,7 @@
 //! At which speed the next shot is fired: the designs of an experiment.
 
+use statrs::distribution::{ContinuousCDF, Normal};
+
 use super::curve::{Curve, Fate, Mix, mix};
 use super::link::Link;
 use super::search::{GOLDEN, maximum};
@@ -9,7 +11,7 @@ const SHRINKING: f64 = 0.8;
 /// The next shot of the D-optimal design is sought so many deviations about V50, at so many places, and between them.
 const REACH: f64 = 4.0;
 const PLACES: usize = 80;
-/// No shot is slower than this part of the range's lower end.
+/// No shot is to be slower than this part of the range's lower end, and none is slower than this part of what it was to be.
 const SLOWEST: f64 = 0.1;
 
 /// How speeds are chosen.
@@ -30,6 +32,11 @@ pub enum Design {
 pub struct Fired {
     pub nominal: f64,
     pub fate: Fate,
+}
+
+/// The speed of a shot that scatters about what it was to be with this standard deviation: no speed is below 0, however wide the scatter.
+pub fn scattered(nominal: f64, scatter: f64, chance: f64) -> f64 {
+    (nominal + scatter * Normal::standard().inverse_cdf(chance)).max(SLOWEST * nominal)
 }
 
 impl Design {
@@ -178,6 +185,12 @@ mod tests {
         let found = speeds(Design::UpAndDown { step: 10.0 }, 6, |_, speed| speed > 165.0);
         assert_eq!(found, [150.0, 160.0, 170.0, 160.0, 170.0, 160.0]);
         assert_eq!(speeds(Design::UpAndDown { step: 40.0 }, 5, |_, _| true), [150.0, 110.0, 70.0, 30.0, 10.0]);
+    }
+
+    #[test]
+    fn a_shot_is_no_slower_than_a_tenth_of_what_it_was_to_be() {
+        assert!((scattered(100.0, 2.0, 0.975) - 103.919_928).abs() < 1e-5);
+        assert_eq!(scattered(100.0, 200.0, 0.01), 10.0);
     }
 
     /// Neyer's: it leaves a range in which all fates are alike, halves the gap, and then stands 1.138 deviations from V50.

@@ -9,6 +9,14 @@ pub const FEWEST: usize = 4;
 const EXPONENTS: [f64; 3] = [1.5, 2.0, 4.0];
 const LIMITS: [f64; 3] = [0.7, 0.9, 0.99];
 
+/// An exponent beyond this is of a jump and not of a curve; one so near to 1 of a straight line.
+pub const MOST_EXPONENT: f64 = 10.0;
+const LEAST_EXPONENT: f64 = 1.001;
+/// A limit so near to the slowest perforation, over that, is that shot's own speed.
+const OWN_SPEED: f64 = 1e-4;
+/// A curve that leaves more of the variance of the residual speeds than this says no more than their mean.
+const MOST_LEFT: f64 = 0.5;
+
 /// The curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LambertJonas {
@@ -22,9 +30,46 @@ pub struct LambertJonas {
     pub deviation: f64,
 }
 
+/// Why the best curve says nothing of its shots.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Degenerate {
+    /// Its exponent is beyond [`MOST_EXPONENT`].
+    Jump(f64),
+    /// Its exponent goes to 1.
+    Line,
+    /// Its limit is the speed of the slowest perforation, at which this was left.
+    OwnSpeed(f64),
+    /// It leaves this part of the variance of the residual speeds.
+    Left(f64),
+}
+
 impl LambertJonas {
-    /// The curve of perforations, striking and residual speeds; none of fewer than [`FEWEST`], or where the search finds none.
-    pub fn fit(perforations: &[[f64; 2]]) -> Option<LambertJonas> {
+    /// The curve of perforations, striking and residual speeds, or why the best one is none; nothing of fewer than [`FEWEST`], or where the
+    /// search finds none.
+    pub fn fit(perforations: &[[f64; 2]]) -> Option<Result<LambertJonas, Degenerate>> {
+        let best = LambertJonas::best(perforations)?;
+        Some(best.degenerate(perforations).map_or(Ok(best), Err))
+    }
+
+    fn degenerate(&self, perforations: &[[f64; 2]]) -> Option<Degenerate> {
+        let slowest = *perforations.iter().min_by(|one, other| one[0].total_cmp(&other[0]))?;
+        let count = perforations.len() as f64;
+        let mean = perforations.iter().map(|shot| shot[1]).sum::<f64>() / count;
+        let variance = perforations.iter().map(|shot| (shot[1] - mean).powi(2)).sum::<f64>() / count;
+        let left = self.deviation.powi(2) / variance;
+        if self.exponent > MOST_EXPONENT {
+            Some(Degenerate::Jump(self.exponent))
+        } else if self.exponent < LEAST_EXPONENT {
+            Some(Degenerate::Line)
+        } else if self.limit > slowest[0] * (1.0 - OWN_SPEED) {
+            Some(Degenerate::OwnSpeed(slowest[1]))
+        } else {
+            (left > MOST_LEFT).then_some(Degenerate::Left(left))
+        }
+    }
+
+    /// The best curve, whatever it says.
+    fn best(perforations: &[[f64; 2]]) -> Option<LambertJonas> {
         if perforations.len() < FEWEST {
             return None;
         }
@@ -137,13 +182,32 @@ mod tests {
                 .map(|i| limit * (1.0 + 0.07 * f64::from(i)))
                 .map(|speed| [speed, own.residual(speed)])
                 .collect();
-            let found = LambertJonas::fit(&shots).expect("a curve");
+            let found = LambertJonas::fit(&shots).expect("a curve").expect("one that is no degenerate one");
             for (found, expected) in [(found.ratio, ratio), (found.exponent, exponent), (found.limit, limit)] {
                 assert!((found / expected - 1.0).abs() < 1e-5, "{found}, expected {expected}");
             }
             assert!(found.deviation < 1e-6 * limit, "{found:?}");
         }
         assert_eq!(LambertJonas::fit(&[[100.0, 20.0]; 3]), None);
+    }
+
+    /// No parameter is told that the shots do not hold.
+    #[test]
+    fn a_degenerate_curve_is_none() {
+        let of = |shots: &[[f64; 2]]| LambertJonas::fit(shots).expect("a best curve").expect_err("a degenerate one");
+        // All at nearly one speed.
+        let jump = [[59.9924, 34.99], [59.9971, 40.62], [60.0, 38.23], [60.0047, 44.05], [60.0094, 41.13]];
+        assert!(matches!(of(&jump), Degenerate::Jump(exponent) if exponent > 10.0), "{:?}", of(&jump));
+        // The slowest ones keep more than shots beyond them.
+        let line = [[40.0, 3.0], [44.0, 4.0], [48.0, 6.0], [52.0, 12.0], [56.0, 20.0]];
+        assert_eq!(of(&line), Degenerate::Line);
+        let own_speed = [[60.0, 8.7], [60.3, 28.0], [61.0, 33.0], [64.0, 41.0], [70.0, 49.0], [80.0, 60.0]];
+        assert_eq!(of(&own_speed), Degenerate::OwnSpeed(8.7));
+        let scattered = [[60.0, 42.3], [60.5, 37.5], [61.0, 45.0], [61.5, 36.0], [62.0, 44.0], [62.5, 41.0]];
+        let curve = LambertJonas { ratio: 1.0, exponent: 2.0, limit: 50.0, deviation: 3.0 };
+        let left = curve.degenerate(&scattered);
+        assert!(matches!(left, Some(Degenerate::Left(left)) if (left - 9.0 / 10.6556).abs() < 1e-4), "{left:?}");
+        assert_eq!(LambertJonas { deviation: 2.0, ..curve }.degenerate(&scattered), None);
     }
 
     /// The derivatives are those of the residuals.

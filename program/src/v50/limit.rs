@@ -83,16 +83,23 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// A shot that was fired at this speed before.
-    fn known(&self, speed: f64) -> Option<Ended> {
+    /// A shot that has been fired at this speed.
+    fn fired(&self, speed: f64) -> Option<Ended> {
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
-        records.shots.values().find(|ended| ended.shot.speed == speed && stays(self.range.scene, ended)).cloned()
+        records.shots.values().find(|ended| ended.shot.speed == speed).cloned()
     }
 
+    /// The same, if it stays.
+    fn known(&self, speed: f64) -> Option<Ended> {
+        self.fired(speed).filter(|ended| stays(self.range.scene, ended))
+    }
+
+    /// A shot in place of the one that has been fired at this speed, or so many numbers ahead of the next one.
     fn shot(&self, ahead: usize, speed: f64) -> Shot {
+        let again = self.fired(speed).map(|ended| ended.shot.number);
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
         let last = records.shots.keys().next_back().copied().unwrap_or(0);
-        self.range.scene.plain_shot(last + 1 + ahead, speed)
+        self.range.scene.plain_shot(again.unwrap_or(last + 1 + ahead), speed)
     }
 
     /// Whether a shot at this speed goes through; none where it was interrupted.
@@ -115,9 +122,12 @@ impl Search<'_> {
         let unknown: Vec<f64> = speeds.iter().copied().filter(|&speed| self.known(speed).is_none()).collect();
         let shots: Vec<Shot> = unknown.iter().enumerate().map(|(ahead, &speed)| self.shot(ahead, speed)).collect();
         self.range.fire_all(&shots, self.records)?;
+        if self.range.is_interrupted() {
+            return Ok(None);
+        }
         let mut through = Vec::new();
         for &speed in speeds {
-            let Some(ended) = self.known(speed) else { return Ok(None) };
+            let Some(ended) = self.fired(speed) else { return Ok(None) };
             through.push(self.fate(&ended)?);
         }
         Ok(Some(through))
@@ -139,5 +149,52 @@ impl Search<'_> {
                 Err(Error::Evaluation(message))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::common::interrupt::Interrupt;
+    use crate::v50::report;
+    use crate::v50::scene::{Scene, YARN};
+
+    /// Of a table with a shot for every speed that is looked at, so that none is fired: what is found, and said, where these go through.
+    fn found(through: impl Fn(f64) -> bool) -> (Limit, String) {
+        let text = YARN.replace("speeds = [20.0, 300.0]", "speeds = [20.0, 276.0]\ntolerance = 16.0");
+        let scene = Scene::parse("yarn.toml", &text, None).expect("a scene");
+        let mut records = Records::new(&scene, Path::new("limit.csv")).expect("a table");
+        records.shots = (1..=33)
+            .map(|number| {
+                let shot = scene.plain_shot(number, 12.0 + 8.0 * number as f64);
+                let ending = if through(shot.speed) { Ending::Through } else { Ending::Stopped };
+                let verdict = "sound".to_string();
+                (number, Ended { shot, ending, speed_at_end: 1.0, time: 0.1, verdict, seconds: 1.0 })
+            })
+            .collect();
+        let range = FiringRange::new(&scene, 1, 0, Interrupt::default());
+        let limit = find(&range, &Mutex::new(records)).expect("a limit").expect("nothing interrupts");
+        let said = report::limit(&scene, &limit);
+        (limit, said.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+
+    #[test]
+    fn a_limit_is_bracketed_and_an_answer_that_is_not_monotone_is_seen() {
+        let (limit, said) = found(|speed| speed >= 100.0);
+        assert_eq!((limit.bracket, limit.not_monotone), ([84.0, 100.0], None));
+        assert!(
+            said.contains("stopped at 84.00 mm/ms, through at 100.0 mm/ms") && !said.contains("monotone"),
+            "{said}"
+        );
+        // A probe below goes through, or one above is stopped.
+        let (limit, said) = found(|speed| speed >= 100.0 || speed == 60.0);
+        assert_eq!((limit.bracket, limit.not_monotone), ([84.0, 100.0], Some([84.0, 60.0])));
+        let wanted =
+            "The answer is not monotone: a shot at 60.00 mm/ms goes through, and one at 84.00 mm/ms is stopped";
+        assert!(said.contains(wanted), "{said}");
+        let (limit, _) = found(|speed| speed >= 100.0 && speed != 196.0);
+        assert_eq!(limit.not_monotone, Some([196.0, 100.0]));
     }
 }

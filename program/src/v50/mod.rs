@@ -6,6 +6,7 @@
 pub mod command;
 pub mod curve;
 pub mod designs;
+mod difference;
 pub mod lambert_jonas;
 mod likelihood;
 mod limit;

@@ -161,7 +161,8 @@ fn draw_residuals(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
     let speed = unit(&scene.units, SPEED);
     let mut legend =
         vec![(Mark::Point(FATES[0]), "stopped".to_string()), (Mark::Point(FATES[1]), "through".to_string())];
-    if series.residual.is_some() {
+    let fitted = series.residual.and_then(Result::ok);
+    if fitted.is_some() {
         legend.push((Mark::Line(INK), "Lambert and Jonas".to_string()));
     }
     let body = head(area, &format!("Residual speed ({speed})"), &legend)?;
@@ -174,13 +175,13 @@ fn draw_residuals(area: &Area, scene: &Scene, series: &Series) -> Drawn<()> {
             Some((fate.speed, ended.residual().unwrap_or(0.0), fate.through))
         })
         .collect();
-    let fastest = series.residual.map_or(0.0, |curve| curve.residual(high));
+    let fastest = fitted.map_or(0.0, |curve| curve.residual(high));
     let most = points.iter().map(|point| point.1).fold(fastest, f64::max).max(f64::MIN_POSITIVE);
     let x_label = |x: &f64| tick(*x, high - low);
     let y_label = |y: &f64| tick(*y, most);
     let range = -AIR * most..(1.0 + AIR) * most;
     let mut chart = chart(&body, low..high, range, &format!("striking speed ({speed})"), [&x_label, &y_label])?;
-    if let Some(curve) = series.residual {
+    if let Some(curve) = fitted {
         let points = (0..=POINTS).map(|i| low + (high - low) * i as f64 / POINTS as f64);
         chart.draw_series(LineSeries::new(points.map(|speed| (speed, curve.residual(speed))), stroke(INK, 2)))?;
     }

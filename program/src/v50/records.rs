@@ -5,17 +5,21 @@ use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use csv::{Position, ReaderBuilder, StringRecord, WriterBuilder};
 
+use super::difference;
 use super::scene::{Scene, Shot};
 use super::shot::{Ended, Ending};
 use crate::common::error::Error;
-use crate::common::run_directory::{file_error, is_file};
+use crate::common::run_directory::file_error;
 use crate::common::text_table::{NONE, or_dash};
+use crate::common::toml_error::shortened;
 use crate::common::units::{LENGTH, SPEED, TIME};
 use crate::struck::checkpoint;
 use crate::struck::history::title;
 
+/// The ending of the name of the file in which the scene stands that shots are of.
+const SCENE: &str = "scene.toml";
 /// The words of endings.
 const ENDINGS: [&str; 4] = ["stopped", "through", "undecided", "error"];
 
@@ -25,6 +29,8 @@ pub struct Records {
     titles: Vec<String>,
     /// Of which scene and which build of the program they are.
     of: [String; 2],
+    /// The text of the scene.
+    scene: String,
     pub shots: BTreeMap<usize, Ended>,
     file: Option<File>,
 }
@@ -55,38 +61,30 @@ impl Records {
             "error".to_string(),
         ];
         let of = [scene.identity(), checkpoint::build()?].map(|number| format!("{number:08x}"));
-        Ok(Records { place: place.to_path_buf(), titles, of, shots: BTreeMap::new(), file: None })
+        let scene = scene.text.clone();
+        Ok(Records { place: place.to_path_buf(), titles, of, scene, shots: BTreeMap::new(), file: None })
     }
 
-    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or of two ends of which one
-    /// was too early.
+    /// Adds the shots of a file of this scene and this build. One that stands here already has to be the same, or one of the two has no fate.
     ///
     /// # Errors
     /// The file cannot be read, is another table, or of another scene or build.
     pub fn read(&mut self, place: &Path) -> Result<usize, Error> {
-        let mut text = std::fs::read_to_string(place).map_err(|error| file_error(place, &error))?;
-        // A line without an end is of a run that was killed as it wrote it.
-        text.truncate(text.rfind('\n').map_or(0, |end| end + 1));
-        let mut reader = ReaderBuilder::new().from_reader(text.as_bytes());
+        let text = whole_lines(place)?;
+        // A line of too few cells is told in words of its own.
+        let mut reader = ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
         let titles = reader.headers().map_err(|error| file_error(place, &error))?;
         if titles != self.titles {
             let allowed = format!("allowed: {}", self.titles.join(", "));
             return Err(file_error(place, &format!("its columns are not those of shots in these units; {allowed}")));
         }
         let mut count = 0;
-        for (line, record) in (2..).zip(reader.records()) {
+        for record in reader.records() {
             let record = record.map_err(|error| file_error(place, &error))?;
+            let line = record.position().map_or(0, Position::line);
             let wrong = |what: &str| Error::Input(format!("{}:{line}: {what}", place.display()));
-            let ended =
-                parsed(&record).ok_or_else(|| wrong("a line that is of no shot; allowed: the lines of toron v50"))?;
-            let of = [12, 13].map(|column| record.get(column).unwrap_or_default());
-            for (found, (own, what)) in of.iter().zip(self.of.iter().zip(["scene", "build of the program"])) {
-                if found != own {
-                    let allowed = "allowed: shots of this scene, but for number, extension, tolerance, spread, end, sample, pictures, \
-                                   frames and checkpoints, and of this build";
-                    return Err(wrong(&format!("a shot of another {what} ({found}, not {own}); {allowed}")));
-                }
-            }
+            let ended = parsed(&record, &self.titles).map_err(|what| wrong(&what))?;
+            self.check_origin(&record, place).map_err(|what| wrong(&what))?;
             let number = ended.shot.number;
             let kept = match self.shots.get(&number) {
                 None => ended,
@@ -100,19 +98,35 @@ impl Records {
         Ok(count)
     }
 
-    /// Whether the table stands there.
+    /// That a line of a file is of this scene and this build.
     ///
     /// # Errors
-    /// Something else does.
-    pub fn is_there(&self) -> Result<bool, Error> {
-        is_file(&self.place)
+    /// What else it is of, and what is allowed.
+    fn check_origin(&self, record: &StringRecord, place: &Path) -> Result<(), String> {
+        for (column, own, what) in [(12, &self.of[0], "scene"), (13, &self.of[1], "build of the program")] {
+            let found = record.get(column).unwrap_or_default();
+            if found == own {
+                continue;
+            }
+            let scene = std::fs::read_to_string(place.with_extension(SCENE)).ok();
+            let difference = scene.filter(|_| column == 12).and_then(|scene| difference::first(&self.scene, &scene));
+            let difference = difference.map_or(String::new(), |difference| format!(": {difference}"));
+            return Err(format!(
+                "a shot of another {what} ({found}, not {own}){difference}; allowed: shots of this scene, but for {}, and of this build",
+                difference::MAY_DIFFER.join(", ")
+            ));
+        }
+        Ok(())
     }
 
-    /// Writes the table anew, in one go and in the order of the numbers, and opens it for more.
+    /// Writes the table anew, in one go and in the order of the numbers, with the scene beside it, and opens it for more.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// They cannot be written.
     pub fn open(&mut self) -> Result<(), Error> {
+        self.file = None;
+        let scene = self.place.with_extension(SCENE);
+        std::fs::write(&scene, &self.scene).map_err(|error| file_error(&scene, &error))?;
         let error = |error: &dyn std::fmt::Display| file_error(&self.place, error);
         let mut text = line(&self.titles).map_err(|e| error(&e))?;
         for ended in self.shots.values() {
@@ -130,10 +144,14 @@ impl Records {
     /// It cannot be written.
     pub fn add(&mut self, ended: Ended) -> Result<(), Error> {
         let line = line(&self.cells(&ended)).map_err(|error| file_error(&self.place, &error))?;
-        if self.shots.insert(ended.shot.number, ended).is_some() {
-            return self.open();
+        let replaces = self.shots.insert(ended.shot.number, ended).is_some();
+        let Some(file) = self.file.as_mut().filter(|_| !replaces) else { return self.open() };
+        let written = file.write_all(&line);
+        if written.is_err() {
+            // No line goes behind half of one: the next shot writes the table anew.
+            self.file = None;
         }
-        self.file.as_mut().map_or(Ok(()), |file| file.write_all(&line)).map_err(|error| file_error(&self.place, &error))
+        written.map_err(|error| file_error(&self.place, &error))
     }
 
     fn cells(&self, ended: &Ended) -> Vec<String> {
@@ -172,45 +190,69 @@ fn line(cells: &[String]) -> Result<Vec<u8>, csv::Error> {
     writer.into_inner().map_err(|error| error.into_error().into())
 }
 
-/// The shot of a line.
-fn parsed(record: &StringRecord) -> Option<Ended> {
-    let number = |column: usize| record.get(column)?.parse::<f64>().ok();
-    let seed = match record.get(5)? {
-        NONE => None,
-        seed => Some(seed.parse().ok()?),
-    };
-    let shot = Shot {
-        number: record.get(0)?.parse().ok()?,
-        nominal: number(1)?,
-        speed: number(2)?,
-        aim: [number(3)?, number(4)?],
-        seed,
-    };
-    let ending = match ENDINGS.iter().position(|word| record.get(6) == Some(word))? {
-        0 => Ending::Stopped,
-        1 => Ending::Through,
-        2 => Ending::Undecided,
-        _ => Ending::Error(record.get(14)?.to_string()),
-    };
-    Some(Ended {
-        shot,
-        ending,
-        speed_at_end: number(8)?,
-        time: number(9)?,
-        verdict: record.get(10)?.to_string(),
-        seconds: number(11)?,
+/// The text of a file, without a last line that has no end: that is of a run that was killed as it wrote it.
+fn whole_lines(place: &Path) -> Result<String, Error> {
+    let mut bytes = std::fs::read(place).map_err(|error| file_error(place, &error))?;
+    bytes.truncate(bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1));
+    if bytes.is_empty() {
+        return Err(file_error(place, &"empty, or without a whole line; allowed: the table of an earlier run"));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+        Error::Input(format!("{}:{line}: no text in UTF-8; allowed: the lines of toron v50", place.display()))
     })
 }
 
-/// Which of two lines of one shot tells more: one that was undecided gives way to a later end. None where they are of two shots.
+/// The shot of a line.
+///
+/// # Errors
+/// A cell is of no shot: its column, the cell and what is allowed.
+fn parsed(record: &StringRecord, titles: &[String]) -> Result<Ended, String> {
+    if record.len() != titles.len() {
+        return Err(format!("a line of {} cells; allowed: {}, those of toron v50", record.len(), titles.len()));
+    }
+    let wrong = |column: usize, allowed: &str| {
+        format!("{} is \"{}\"; allowed: {allowed}", titles[column], shortened(&record[column]))
+    };
+    let number = |column: usize| record[column].parse::<f64>().map_err(|_| wrong(column, "a number"));
+    let whole = |column: usize, allowed: &str| record[column].parse::<u64>().map_err(|_| wrong(column, allowed));
+    let shot = Shot {
+        number: whole(0, "a whole number")? as usize,
+        nominal: number(1)?,
+        speed: number(2)?,
+        aim: [number(3)?, number(4)?],
+        seed: if &record[5] == NONE { None } else { Some(whole(5, "a whole number, or -")?) },
+    };
+    let ending = match ENDINGS.iter().position(|word| record[6] == **word) {
+        Some(0) => Ending::Stopped,
+        Some(1) => Ending::Through,
+        Some(2) => Ending::Undecided,
+        Some(_) => Ending::Error(record[14].to_string()),
+        None => return Err(wrong(6, &ENDINGS.join(", "))),
+    };
+    let verdict = record[10].to_string();
+    Ok(Ended { shot, ending, speed_at_end: number(8)?, time: number(9)?, verdict, seconds: number(11)? })
+}
+
+/// Which of two lines of one shot tells more: a fate before none, and without one the later end before an earlier one or an error. None
+/// where they are of two shots, or of two fates.
 fn joined<'a>(one: &'a Ended, other: &'a Ended) -> Option<&'a Ended> {
-    let gives_way = |early: &Ended, late: &Ended| early.ending == Ending::Undecided && early.time < late.time;
-    // But for how long it took.
-    let same = one.ending == other.ending && one.speed_at_end == other.speed_at_end && one.time == other.time;
-    match one.shot == other.shot {
-        true if same || gives_way(other, one) => Some(one),
-        true if gives_way(one, other) => Some(other),
-        _ => None,
+    if one.shot != other.shot {
+        return None;
+    }
+    match (one.fate(), other.fate()) {
+        (Some(_), None) => Some(one),
+        (None, Some(_)) => Some(other),
+        // But for how long it took, to the bit.
+        (Some(_), Some(_)) => {
+            let bits = |ended: &Ended| [ended.speed_at_end, ended.time].map(f64::to_bits);
+            (one.ending == other.ending && bits(one) == bits(other)).then_some(one)
+        }
+        (None, None) => {
+            let time = |ended: &Ended| if ended.ending == Ending::Undecided { ended.time } else { f64::NEG_INFINITY };
+            Some(if time(other) > time(one) { other } else { one })
+        }
     }
 }
 
@@ -254,13 +296,6 @@ mod tests {
         assert_eq!(records.shots.remove(&4).map(|ended| ended.shot), Some(error.shot));
         assert_eq!(again.shots, records.shots);
 
-        // Of an undecided shot the later end stands, whichever is read first; a decided one is no other than it is.
-        let mut later = ended(3, Ending::Through);
-        later.time = 0.2;
-        let early = ended(3, Ending::Undecided);
-        assert_eq!((joined(&early, &later), joined(&later, &early)), (Some(&later), Some(&later)));
-        assert_eq!(joined(&ended(3, Ending::Stopped), &later), None);
-
         let refused = |change: &dyn Fn(&str) -> String, scene: &Scene| {
             std::fs::write(&place, change(&text)).expect("it is written");
             let mut records = Records::new(scene, &place).expect("a table");
@@ -270,8 +305,81 @@ mod tests {
         let same = |text: &str| text.to_string();
         assert!(refused(&same, &self::scene(2)).contains("shots.csv:2: a shot of another scene"));
         assert!(refused(&|text| text.replace("0.1,-", "0.2,-"), &scene).contains("another shot 1 than the one before"));
-        assert!(refused(&|text| text.replace("through", "over"), &scene).contains("a line that is of no shot"));
-        assert!(refused(&|text| text.replace("mm/ms", "m/s"), &scene).contains("columns are not those"));
+        for (from, to, message) in [
+            ("through", "over", "shots.csv:2: ending is \"over\"; allowed: stopped, through, undecided, error"),
+            ("2,100,", "2,fast,", "shots.csv:3: nominal_speed (mm/ms) is \"fast\"; allowed: a number"),
+            ("2,100,", "2\n100,", "shots.csv:3: a line of 1 cells; allowed: 15, those of toron v50"),
+            ("mm/ms", "m/s", "shots.csv: its columns are not those of shots in these units"),
+        ] {
+            let error = refused(&|text| text.replacen(from, to, 1), &scene);
+            assert!(error.contains(message), "{message}: {error}");
+        }
+        assert!(refused(&|_| String::new(), &scene).contains("shots.csv: empty, or without a whole line"));
+        // A character that is cut is no harm in a line without an end, and named in another.
+        let cut = [text.as_bytes(), b"5,\xc3"].concat();
+        std::fs::write(&place, &cut).expect("it is written");
+        assert_eq!(Records::new(&scene, &place).expect("a table").read(&place).expect("the shots"), 4);
+        std::fs::write(&place, [&cut, &b"\n"[..]].concat()).expect("it is written");
+        let error = Records::new(&scene, &place).expect("a table").read(&place).expect_err("no text");
+        assert!(error.to_string().contains("shots.csv:6: no text in UTF-8"), "{error}");
         std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+
+    /// Shots of another scene are refused by the key that differs, where that scene stands beside the table.
+    #[test]
+    fn another_scene_is_told_by_its_key() {
+        let folder = std::env::temp_dir().join(format!("toron-scenes-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let place = folder.join("shots.csv");
+        let mut records = Records::new(&scene(1), &place).expect("a table");
+        records.open().expect("it is written");
+        records.add(ended(1, Ending::Stopped)).expect("it is written");
+        let error = Records::new(&scene(2), &place).expect("a table").read(&place).expect_err("another seed");
+        assert!(error.to_string().contains("shots.seed is 2, and 1 there; allowed: shots of this scene"), "{error}");
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+
+    /// Behind a line that could not be written nothing is appended: the next shot writes the table anew, with the one that was lost.
+    #[test]
+    fn no_line_goes_behind_half_of_one() {
+        let folder = std::env::temp_dir().join(format!("toron-half-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let place = folder.join("shots.csv");
+        let mut records = Records::new(&scene(1), &place).expect("a table");
+        records.open().expect("it is written");
+        // Opened for reading alone: nothing can be written.
+        records.file = Some(File::open(&place).expect("a table"));
+        records.add(ended(1, Ending::Stopped)).expect_err("it cannot be written");
+        std::fs::write(&place, format!("{}1,10", std::fs::read_to_string(&place).expect("a table")))
+            .expect("half a line");
+        records.add(ended(2, Ending::Stopped)).expect("it is written");
+        let mut again = Records::new(&scene(1), &place).expect("a table");
+        assert_eq!((again.read(&place).expect("the shots"), again.shots), (2, records.shots));
+        std::fs::remove_dir_all(&folder).expect("it is removed");
+    }
+
+    /// Of two lines of a shot the one with a fate stands, else the later end, whichever is read first; two fates are none.
+    #[test]
+    fn of_two_lines_the_one_that_tells_more_stands() {
+        let at = |ending: Ending, time: f64| Ended { time, ..ended(3, ending) };
+        let error = || Ended { speed_at_end: f64::NAN, ..at(Ending::Error("it failed".to_string()), 0.3) };
+        for (less, more) in [
+            (at(Ending::Undecided, 0.1), at(Ending::Through, 0.2)),
+            (at(Ending::Undecided, 0.4), at(Ending::Stopped, 0.2)),
+            (at(Ending::Undecided, 0.1), at(Ending::Undecided, 0.2)),
+            (error(), at(Ending::Undecided, 0.1)),
+            (error(), at(Ending::Through, 0.1)),
+        ] {
+            for (one, other) in [(&less, &more), (&more, &less)] {
+                assert_eq!(joined(one, other), Some(&more));
+            }
+        }
+        assert!(joined(&error(), &error()).is_some());
+        let stopped = at(Ending::Stopped, 0.2);
+        let slower = Ended { seconds: 9.0, ..stopped.clone() };
+        assert_eq!(joined(&stopped, &slower), Some(&stopped));
+        for other in [at(Ending::Through, 0.2), at(Ending::Stopped, 0.3), ended(4, Ending::Stopped)] {
+            assert_eq!(joined(&stopped, &other), None);
+        }
     }
 }

@@ -62,15 +62,11 @@ impl Watch for FiringRange<'_> {
 
 impl<'a> FiringRange<'a> {
     /// For so many shots.
-    ///
-    /// # Errors
-    /// Interrupts cannot be listened for.
-    pub fn new(scene: &'a Scene, threads: usize, all: usize) -> Result<FiringRange<'a>, Error> {
-        let interrupt = Interrupt::listen()?;
+    pub fn new(scene: &'a Scene, threads: usize, all: usize, interrupt: Interrupt) -> FiringRange<'a> {
         let template = "{msg} {wide_bar} {percent} %, {eta} left";
         let bar = progress::bar(TICKS * all as u64, template, ProgressDrawTarget::stderr());
         let (begun, ended, ticks) = (Instant::now(), AtomicUsize::new(0), Mutex::new(Vec::new()));
-        Ok(FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks })
+        FiringRange { scene, threads, interrupt, bar, begun, ended, all, ticks }
     }
 
     pub fn is_interrupted(&self) -> bool {
@@ -122,7 +118,13 @@ impl<'a> FiringRange<'a> {
     fn keep(&self, ended: Ended, records: &Mutex<Records>) -> Result<(), Error> {
         self.progress(&ended.shot, 1.0);
         let count = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
-        let seconds = self.begun.elapsed().as_secs_f64() / count as f64 * self.all.saturating_sub(count) as f64;
+        self.say(&self.line(&ended, count, self.begun.elapsed().as_secs_f64()));
+        records.lock().unwrap_or_else(PoisonError::into_inner).add(ended)
+    }
+
+    /// What is said of a shot with which so many have ended in so many seconds, and how long the others take if they are like these.
+    fn line(&self, ended: &Ended, count: usize, seconds: f64) -> String {
+        let seconds = seconds / count as f64 * self.all.saturating_sub(count) as f64;
         let speed = unit(&self.scene.units, SPEED);
         let how = match &ended.ending {
             Ending::Stopped => "stopped".to_string(),
@@ -134,13 +136,27 @@ impl<'a> FiringRange<'a> {
             true => format!("; {count} of {}, about {:.0} min left", self.all, (seconds / 60.0).ceil()),
             false => String::new(),
         };
-        let line = format!("shot {} at {} {speed}: {how}{left}", ended.shot.number, number(ended.shot.speed));
+        format!("shot {} at {} {speed}: {how}{left}", ended.shot.number, number(ended.shot.speed))
+    }
+
+    /// Above the bar, if there is one.
+    fn say(&self, line: &str) {
         if self.bar.is_hidden() {
-            print_error(&(line + "\n"));
+            print_error(&format!("{line}\n"));
         } else {
             self.bar.println(line);
         }
-        records.lock().unwrap_or_else(PoisonError::into_inner).add(ended)
+    }
+
+    /// The shot of the table, if it is this one and stays; another one of its number is named.
+    fn known(&self, shot: &Shot, records: &Mutex<Records>) -> Option<Ended> {
+        let records = records.lock().unwrap_or_else(PoisonError::into_inner);
+        let ended = records.shots.get(&shot.number)?;
+        if let Some(difference) = shot.difference(&ended.shot) {
+            self.say(&format!("shot {} {difference} in the table: it is fired anew", shot.number));
+            return None;
+        }
+        stays(self.scene, ended).then(|| ended.clone())
     }
 }
 
@@ -149,14 +165,14 @@ fn pool(threads: usize) -> Result<rayon::ThreadPool, Error> {
     pool.map_err(|error| Error::Evaluation(format!("no threads for a shot: {error}")))
 }
 
-/// Whether a shot stays as it ended: it was undecided no earlier than it would be now.
+/// Whether a shot stays as it ended: it has a fate, or was undecided no earlier than it would be now.
 pub fn stays(scene: &Scene, ended: &Ended) -> bool {
-    ended.ending != Ending::Undecided || ended.time >= scene.last() * (1.0 - ROUNDING)
-}
-
-/// The numbers of the shots that have to be fired.
-fn due(scene: &Scene, records: &Records, numbers: RangeInclusive<usize>) -> Vec<usize> {
-    numbers.filter(|number| !records.shots.get(number).is_some_and(|ended| stays(scene, ended))).collect()
+    match ended.ending {
+        Ending::Stopped | Ending::Through => true,
+        Ending::Undecided => ended.time >= scene.last() * (1.0 - ROUNDING),
+        // What was missing, memory or a file, may be there now.
+        Ending::Error(_) => false,
+    }
 }
 
 /// Of the shots that are there those of the series: of its numbers, and of a sequential design up to the first that is missing or that the
@@ -191,10 +207,7 @@ pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mut
         let (mut before, mut without_fate): (Vec<Fired>, usize) = Default::default();
         for number in numbers {
             let shot = scene.shot(number, design.speed(number, &before, speeds));
-            let known = {
-                let records = records.lock().unwrap_or_else(PoisonError::into_inner);
-                records.shots.get(&number).filter(|ended| ended.shot == shot && stays(scene, ended)).cloned()
-            };
+            let known = range.known(&shot, records);
             let Some(ended) = known.map_or_else(|| range.fire_one(&shot, records), |known| Ok(Some(known)))? else {
                 return Ok(false);
             };
@@ -206,9 +219,9 @@ pub fn series(range: &FiringRange, numbers: RangeInclusive<usize>, records: &Mut
         }
         return Ok(true);
     }
-    let due = due(scene, &records.lock().unwrap_or_else(PoisonError::into_inner), numbers);
-    let shots: Vec<Shot> = due.iter().map(|&number| scene.shot(number, design.speed(number, &[], speeds))).collect();
-    range.fire_all(&shots, records)?;
+    let shots = numbers.map(|number| scene.shot(number, design.speed(number, &[], speeds)));
+    let due: Vec<Shot> = shots.filter(|shot| range.known(shot, records).is_none()).collect();
+    range.fire_all(&due, records)?;
     Ok(!range.is_interrupted())
 }
 
@@ -276,6 +289,39 @@ mod tests {
         };
         assert_eq!(of(Ending::Stopped), [1, 2, 3, 4]);
         assert_eq!(of(Ending::Through), [1]);
+    }
+
+    /// What stays of a table are the shots that those of the scene equal to the bit; one with an error, or another aim, is fired anew.
+    #[test]
+    fn shots_of_the_table_are_known_to_the_bit() {
+        let scene = Scene::parse("yarn.toml", &format!("{YARN}design = \"even\"\n"), None).expect("a scene");
+        let shot = |number: usize| scene.shot(number, scene.design().speed(number, &[], scene.shots.speeds));
+        let endings = [Ending::Through, Ending::Stopped, Ending::Error("no memory".to_string()), Ending::Undecided];
+        let shots: Vec<_> = (1..).zip(endings).map(|(number, ending)| (number, shot(number).nominal, ending)).collect();
+        let mut records = records(&scene, &shots);
+        let speed = &mut records.shots.get_mut(&2).expect("a shot").shot.speed;
+        *speed = speed.next_up();
+        let records = Mutex::new(records);
+        let range = FiringRange::new(&scene, 1, 4, Interrupt::default());
+        let known: Vec<bool> = (1..=5).map(|number| range.known(&shot(number), &records).is_some()).collect();
+        // It was undecided at the end that it would have again.
+        assert_eq!(known, [true, false, false, true, false]);
+        assert_eq!(numbers(&scene, &records.into_inner().expect("the table")), [1, 3, 4]);
+        let (one, other) = (shot(1), Shot { seed: Some(4), ..shot(1) });
+        assert_eq!(one.difference(&other).as_deref(), Some("has no seed here, and seed 4"));
+    }
+
+    #[test]
+    fn a_shot_that_ends_says_how_long_the_others_take() {
+        let scene = Scene::parse("yarn.toml", YARN, None).expect("a scene");
+        let range = FiringRange::new(&scene, 1, 6, Interrupt::default());
+        let through = ended(scene.shot(3, 100.0), Ending::Through);
+        let said = "shot 3 at 100.0 mm/ms: through, 1.000 mm/ms left";
+        assert_eq!(range.line(&through, 2, 60.0), format!("{said}; 2 of 6, about 2 min left"));
+        assert_eq!(range.line(&through, 5, 300.5), format!("{said}; 5 of 6, about 2 min left"));
+        assert_eq!(range.line(&through, 6, 300.0), said);
+        let error = ended(scene.shot(4, 100.0), Ending::Error("no memory".to_string()));
+        assert_eq!(range.line(&error, 6, 300.0), "shot 4 at 100.0 mm/ms: an error: no memory");
     }
 
     #[test]

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use statrs::distribution::{ContinuousCDF, Normal};
-
-use super::designs::Design;
+use super::designs::{Design, scattered};
 use crate::common::chance::uniform;
 use crate::common::error::Error;
 use crate::common::toml_file::{self, Source};
+use crate::common::units::number;
 use crate::impact::scene::Striker;
 use crate::material::model::Material;
 use crate::strength::scatter::Strength;
@@ -24,6 +23,8 @@ const SEEDS: f64 = 1e12;
 
 /// The scene.
 pub struct Scene {
+    /// The file's.
+    pub text: String,
     pub title: String,
     pub units: UnitSystem,
     pub shots: Shots,
@@ -51,6 +52,23 @@ pub struct Shot {
     pub seed: Option<u64>,
 }
 
+impl Shot {
+    /// In what it is another shot than one of its number: `has speed 45.1 here, and speed 45.2`.
+    pub fn difference(&self, other: &Shot) -> Option<String> {
+        if self == other {
+            return None;
+        }
+        let figures = |shot: &Shot| {
+            let seed = shot.seed.map_or("no seed".to_string(), |seed| format!("seed {seed}"));
+            let [x, y] = shot.aim;
+            let (nominal, speed) = (shot.nominal, shot.speed);
+            [format!("nominal speed {nominal}"), format!("speed {speed}"), format!("aim [{x}, {y}]"), seed]
+        };
+        let mut pairs = figures(self).into_iter().zip(figures(other));
+        pairs.find(|(own, other)| own != other).map(|(own, other)| format!("has {own} here, and {other}"))
+    }
+}
+
 /// What a number of chance is for.
 #[derive(Clone, Copy)]
 enum Chance {
@@ -75,7 +93,8 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::read`].
     pub fn parse(name: &str, text: &str, case: Option<&str>) -> Result<Scene, Error> {
-        let tables: toml::Table = Source { name, text }.parse()?;
+        let source = Source { name, text };
+        let tables: toml::Table = source.parse()?;
         let wanted = "allowed: a table [shots] with number and speeds at least";
         let shots = |shots: Option<Shots>| {
             shots.ok_or_else(|| Error::Input(format!("{name}: no shots; {wanted} (see docs/guides/v50.md)")))
@@ -84,37 +103,38 @@ impl Scene {
             let scene = fabric::scene::Scene::parse(name, text)?;
             let case = one(name, scene.cases, case, |case| &case.name)?;
             let (title, units) = (scene.title, scene.units);
-            Scene { title, units, shots: shots(scene.shots)?, target: Target::Panel(Box::new(case)) }
+            let (text, target) = (text.to_string(), Target::Panel(Box::new(case)));
+            Scene { text, title, units, shots: shots(scene.shots)?, target }
         } else {
             let scene = impact::scene::Scene::parse(name, text)?;
             let case = one(name, scene.cases, case, |case| &case.name)?;
             let (title, units) = (scene.title, scene.units);
-            Scene { title, units, shots: shots(scene.shots)?, target: Target::Yarn(Box::new(case)) }
+            let (text, target) = (text.to_string(), Target::Yarn(Box::new(case)));
+            Scene { text, title, units, shots: shots(scene.shots)?, target }
         };
-        scene.check(name)?;
+        scene.check(&source)?;
         Ok(scene)
     }
 
-    fn check(&self, name: &str) -> Result<(), Error> {
+    fn check(&self, source: &Source) -> Result<(), Error> {
+        let refused = |message: &str| Err(Error::Input(format!("{}: {message}", source.name)));
         if !self.target.can_fail() {
-            let message = "failure is none: nothing breaks, and every shot is stopped; allowed: failure = \"uniaxial\" or \"multiaxial\"";
-            return Err(Error::Input(format!("{name}: {message}")));
+            return refused(
+                "failure is none: nothing breaks, and every shot is stopped; allowed: failure = \"uniaxial\" or \"multiaxial\"",
+            );
         }
-        let in_cell = self.shots.aim == AimName::Cell;
-        let refused = match &self.target {
-            Target::Yarn(case) => match case.striker {
-                Striker::Driven | Striker::Cylinder { held: true, .. } => {
-                    "striker is driven, or held at its speed: nothing stops it; allowed: a cylinder that is free"
-                }
-                Striker::Cylinder { .. } if in_cell => "aim is \"cell\" of a yarn; allowed: fixed",
-                Striker::Cylinder { .. } => return Ok(()),
-            },
-            Target::Panel(case) if in_cell && case.cloth.part() == Part::Quarter => {
-                "aim is \"cell\" of a quarter, which is struck in the middle; allowed: fixed, or part = \"whole\""
-            }
-            Target::Panel(_) => return Ok(()),
-        };
-        Err(Error::Input(format!("{name}: {refused}")))
+        if let Target::Yarn(case) = &self.target
+            && matches!(case.striker, Striker::Driven | Striker::Cylinder { held: true, .. })
+        {
+            return refused(
+                "striker is driven, or held at its speed: nothing stops it; allowed: a cylinder that is free",
+            );
+        }
+        if self.shots.aim == AimName::Cell {
+            let has_cell = self.target.has_cell();
+            has_cell.map_err(|message| source.error(source.place("shots", "aim"), &message))?;
+        }
+        Ok(())
     }
 
     /// That something is chance in the shots of a series: else their fates are a step, whose place is found without statistics.
@@ -144,22 +164,19 @@ impl Scene {
     /// The shot of this number that is to have this speed. What is chance in it follows from the seed and the number alone.
     pub fn shot(&self, number: usize, nominal: f64) -> Shot {
         let chance = |what: Chance| uniform(self.shots.seed, [number as u64, what as u64]);
-        let mut aim = self.target.aim();
+        let mut aim = self.target.aim().unwrap_or_default();
         if let (Target::Panel(case), AimName::Cell) = (&self.target, self.shots.aim) {
             let parts = [Chance::AlongWarp, Chance::AlongWeft].map(|what| chance(what) - 0.5);
-            for (edge, part) in case.cloth.cell().iter().zip(parts) {
-                aim = [aim[0] + part * edge[0], aim[1] + part * edge[1]];
-            }
+            aim = in_cell(aim, case.cloth.cell(), parts);
         }
-        // No speed is below 0, however wide the scatter.
-        let speed = nominal + self.shots.scatter * Normal::standard().inverse_cdf(chance(Chance::Speed));
+        let speed = scattered(nominal, self.shots.scatter, chance(Chance::Speed));
         let seed = self.target.seed().map(|_| (SEEDS * chance(Chance::Strength)) as u64);
-        Shot { number, nominal, speed: speed.max(0.1 * nominal), aim, seed }
+        Shot { number, nominal, speed, aim, seed }
     }
 
     /// The scene's own shot at this speed, in which nothing is chance.
     pub fn plain_shot(&self, number: usize, speed: f64) -> Shot {
-        Shot { number, nominal: speed, speed, aim: self.target.aim(), seed: self.target.seed() }
+        Shot { number, nominal: speed, speed, aim: self.target.aim().unwrap_or_default(), seed: self.target.seed() }
     }
 
     /// How long a shot may take.
@@ -184,6 +201,12 @@ impl Scene {
         };
         crc32fast::hash(format!("{:?} {case} {end} {decides} {shots:?}", self.units.names()).as_bytes())
     }
+}
+
+/// The place in a cell about a middle, so many edges away from it.
+fn in_cell(middle: [f64; 2], edges: [[f64; 2]; 2], parts: [f64; 2]) -> [f64; 2] {
+    let along = |place: [f64; 2], (edge, part): ([f64; 2], f64)| [place[0] + part * edge[0], place[1] + part * edge[1]];
+    edges.into_iter().zip(parts).fold(middle, along)
 }
 
 /// The only case, or the one of this name.
@@ -234,11 +257,36 @@ impl Target {
         }
     }
 
-    fn aim(&self) -> [f64; 2] {
+    /// Where a panel is struck; a yarn is struck in its middle.
+    pub fn aim(&self) -> Option<[f64; 2]> {
         match self {
-            Target::Panel(case) => case.sphere.aim,
-            Target::Yarn(_) => [0.0; 2],
+            Target::Panel(case) => Some(case.sphere.aim),
+            Target::Yarn(_) => None,
         }
+    }
+
+    /// That it has a cell of a weave about where it is struck, and all of that cell.
+    ///
+    /// # Errors
+    /// What is allowed for `aim`.
+    fn has_cell(&self) -> Result<(), String> {
+        let Target::Panel(case) = self else { return Err("aim is \"cell\" of a yarn; allowed: fixed".to_string()) };
+        if case.cloth.part() == Part::Quarter {
+            let message =
+                "aim is \"cell\" of a quarter, which is struck in the middle; allowed: fixed, or part = \"whole\"";
+            return Err(message.to_string());
+        }
+        let (middle, edges) = (case.sphere.aim, case.cloth.cell());
+        for parts in [[-0.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [0.5, 0.5]] {
+            let corner = in_cell(middle, edges, parts);
+            case.cloth.covers(corner).map_err(|allowed| {
+                let [[x, y], [at_x, at_y]] = [middle, corner].map(|place| place.map(number));
+                format!(
+                    "aim is \"cell\" about [{x}, {y}], a corner of which lies at [{at_x}, {at_y}]; allowed: corners {allowed}, or aim = \"fixed\""
+                )
+            })?;
+        }
+        Ok(())
     }
 
     /// Of the strength, where that scatters.
@@ -386,12 +434,33 @@ mod tests {
         }
     }
 
+    /// A cell about the aim has to be panel altogether.
+    #[test]
+    fn no_shot_misses_the_panel() {
+        let about = |aim: &str| {
+            let text = panel("whole", "aim = \"cell\"", 10.0).expect("a scene").text;
+            let text = text.replace("[scene]\n", &format!("[scene]\naim = {aim}\n"));
+            Scene::parse("shots.toml", &text, None).map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(about("[2.2, -2.2]"), Ok(()));
+        let error = about("[2.3, 0.0]").expect_err("its corners are at 3.05");
+        let wanted = "aim is \"cell\" about [2.300, 0], a corner of which lies at [3.047, -0.7471]; allowed: corners within the panel's outline, x from -3.000 to 3.000";
+        assert!(error.contains(wanted), "{error}");
+    }
+
     #[test]
     fn scenes_that_cannot_be_shot_at_are_refused() {
         let error = Scene::parse("yarn.toml", &YARN.replace("failure = \"uniaxial\"\n", ""), None).map(|_| ());
         assert!(error.is_err_and(|error| error.to_string().contains("failure is none: nothing breaks")));
         for (part, shots, message) in [
-            ("quarter", "aim = \"cell\"", "aim is \"cell\" of a quarter"),
+            ("quarter", "aim = \"cell\"", "shots.toml:25: aim is \"cell\" of a quarter"),
+            ("whole", "scatter = 21.0", "scatter is 21; allowed: up to 20, half of the range of speeds"),
+            (
+                "whole",
+                "tolerance = 40.0",
+                "tolerance is 40; allowed: 1.200e-7 or more, and less than the range of speeds, 40",
+            ),
+            ("whole", "design = \"up-and-down\"\nstep = 41.0", "step is 41; allowed: up to 40, the range of speeds"),
             ("whole", "extension = 0.5", "extension is 0.5; allowed: 1 to 100"),
             ("whole", "seed = -1", "seed is -1; allowed: a whole number >= 0"),
             ("whole", "tolerance = 1e-9", "tolerance is 0.000000001; allowed: 1.2"),

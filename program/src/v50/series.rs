@@ -1,7 +1,7 @@
 //! What came of a series: how many shots ended how, the curves, and what else is said of them.
 
 use super::curve::{Curve, Fate, Mix, mix};
-use super::lambert_jonas::LambertJonas;
+use super::lambert_jonas::{Degenerate, LambertJonas};
 use super::link::Link;
 use super::shot::{Ended, Ending};
 use super::test_houses::{self, Mean};
@@ -20,7 +20,8 @@ pub struct Series {
     pub means: Vec<Mean>,
     /// With a spread: the one of the most shots within it.
     pub within: Option<(f64, Option<Mean>)>,
-    pub residual: Option<LambertJonas>,
+    /// The curve of the residual speeds, or why there is none; nothing of too few.
+    pub residual: Option<Result<LambertJonas, Degenerate>>,
 }
 
 impl Series {

@@ -1,8 +1,12 @@
 //! One shot from its first step to its fate.
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use super::curve::Fate;
 use super::scene::{Scene, Shot, Target};
 use crate::common::error::Error;
+use crate::common::text_table::NONE;
 use crate::explicit::judgement::{Finding, verdict};
 use crate::fabric::run::StruckPanel;
 use crate::fabric::summary::Figures;
@@ -91,22 +95,29 @@ pub fn before(scene: &Scene) -> Result<Vec<Finding>, Error> {
     }
 }
 
-/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error has
-/// ended too.
+/// Fires a shot, in the threads of the pool that this is called in; none where it was interrupted. A shot that ends with an error, or in
+/// which the program fails, has ended too.
 pub fn fire(scene: &Scene, shot: &Shot, watch: &dyn Watch) -> Option<Ended> {
-    let mut watcher = Watcher { watch, shot };
-    match strike(scene, shot, &mut watcher) {
-        Ok(ended) => ended,
-        Err(error) => {
-            let (verdict, ending) = ("-".to_string(), Ending::Error(error.to_string()));
-            Some(Ended { shot: *shot, ending, speed_at_end: shot.speed, time: 0.0, verdict, seconds: 0.0 })
-        }
-    }
+    // Of a shot that fails nothing is used again.
+    let struck = catch_unwind(AssertUnwindSafe(|| strike(scene, shot, &mut Watcher { watch, shot })));
+    let message = match struck {
+        Ok(Ok(ended)) => return ended,
+        Ok(Err(error)) => error.to_string(),
+        Err(panic) => format!("the program fails in this shot: {}", said(&*panic)),
+    };
+    let (verdict, ending) = (NONE.to_string(), Ending::Error(message));
+    Some(Ended { shot: *shot, ending, speed_at_end: shot.speed, time: 0.0, verdict, seconds: 0.0 })
+}
+
+/// What a panic says.
+fn said(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<&str>().copied();
+    text.or(panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("without a message")
 }
 
 fn strike(scene: &Scene, shot: &Shot, watcher: &mut Watcher) -> Result<Option<Ended>, Error> {
     // Scatter, and some designs, leave the range that the scene's reader has looked at.
-    scene.target.inner().bears_strike(shot.speed, &scene.units).map_err(Error::Input)?;
+    scene.target.inner().bears_strike("speed", shot.speed, &scene.units).map_err(Error::Input)?;
     match scene.target.at(shot, scene.last()) {
         Target::Panel(case) => {
             let struck = StruckPanel::new(&case)?;
@@ -153,6 +164,27 @@ mod tests {
         fn interrupts(&self) -> bool {
             false
         }
+    }
+
+    /// It fails as soon as it is told of anything.
+    struct Failing;
+
+    impl Watch for Failing {
+        fn progress(&self, shot: &Shot, _: f64) {
+            panic!("of shot {}", shot.number);
+        }
+
+        fn interrupts(&self) -> bool {
+            false
+        }
+    }
+
+    /// A shot in which the program fails is an error, by which the other shots of the series are not lost.
+    #[test]
+    fn a_shot_in_which_the_program_fails_is_an_error() {
+        let scene = Scene::parse("yarn.toml", YARN, None).expect("a scene");
+        let ended = fire(&scene, &scene.plain_shot(3, 100.0), &Failing).expect("it ends");
+        assert_eq!(ended.ending, Ending::Error("the program fails in this shot: of shot 3".to_string()));
     }
 
     /// A shot that has left the range for speeds that no yarn bears is an error with what is allowed, not a run.

@@ -8,9 +8,10 @@ use super::foreign::file::MeshFile;
 use super::foreign::reader::Foreign;
 use super::layup::{Layup, Ply};
 use super::model::Model;
-use super::panel::Part;
+use super::panel::{Outline, Part};
 use crate::common::error::Error;
 use crate::common::toml_file::Source;
+use crate::common::units::number;
 use toron::host::units::UnitSystem;
 
 #[derive(Clone, Debug)]
@@ -98,6 +99,31 @@ impl Cloth {
             }
             Cloth::Foreign(foreign) => [[2.0 * foreign.pitch[1], 0.0], [0.0, 2.0 * foreign.pitch[0]]],
         }
+    }
+
+    /// That a place is within the panel's outline; of a mesh, whose outline is not known, within the box about its nodes.
+    ///
+    /// # Errors
+    /// It lies outside: what is allowed.
+    pub fn covers(&self, place: [f64; 2]) -> Result<(), String> {
+        let ends = match self {
+            Cloth::Woven(layup) => match layup.plies[0].woven.panel.outline {
+                Outline::Circle(radius) if place[0].hypot(place[1]) <= radius => return Ok(()),
+                Outline::Circle(radius) => {
+                    return Err(format!("within the panel's outline, up to {} from the middle", number(radius)));
+                }
+                Outline::Rectangle(half) => half.map(|half| [-half, half]),
+            },
+            Cloth::Foreign(foreign) => [0, 1].map(|axis| {
+                let places = foreign.model.nodes.iter().map(|node| node[axis]);
+                places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+            }),
+        };
+        if ends.iter().zip(place).all(|([low, high], at)| (*low..=*high).contains(&at)) {
+            return Ok(());
+        }
+        let [x, y] = ends.map(|ends| ends.map(number).join(" to "));
+        Err(format!("within the panel's outline, x from {x} and y from {y}"))
     }
 
     /// The largest pitch.

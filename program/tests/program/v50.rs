@@ -123,13 +123,59 @@ fn shots_are_the_same_however_they_are_split() {
         fails(&run(&scene, &joined, &["--collect", parts]), "a shot of another scene");
     }
     assert_eq!(shots(&joined), expected);
-    fails(&run(&scene, &killed, &["--restart"]), "a shot of another scene");
+    fails(
+        &run(&scene, &killed, &["--restart"]),
+        ": shots.seed is 2, and not given there; allowed: shots of this scene",
+    );
     std::fs::write(&scene, panel("even", 10, "")).expect("the scene is written");
     let table = whole.join("shots.csv");
     let text = std::fs::read_to_string(&table).expect("a table");
     let build = text.lines().nth(1).and_then(|line| line.split(',').nth(13)).expect("a build").to_string();
     std::fs::write(&table, text.replace(&build, "00000000")).expect("it is written");
     fails(&run(&scene, &whole, &["--restart"]), "a shot of another build of the program");
+}
+
+/// What is refused leaves nothing, and says what is allowed.
+#[test]
+fn a_run_that_is_refused_leaves_no_directory() {
+    let (folder, scene) = place("refused", &panel("even", 10, ""));
+    let output = folder.join("new");
+    let empty = folder.to_str().expect("a path");
+    for (arguments, message) in [
+        (
+            vec!["--collect", "nowhere"],
+            "--collect is nowhere, without a table shots.csv; allowed: directories of toron v50".to_string(),
+        ),
+        (vec!["--collect", empty], format!("--collect is {empty}, without a table shots.csv")),
+        (
+            vec!["--restart"],
+            format!("--restart without {}; allowed: the directory", output.join("shots.csv").display()),
+        ),
+        (vec!["--shots", "-3"], "--shots is -3; allowed: FROM-TO".to_string()),
+        (
+            vec!["--simulate", "9", "--truth", "45", "-1"],
+            "--truth is 45 -1; allowed: a speed, and a finite deviation".to_string(),
+        ),
+    ] {
+        fails(&run(&scene, &output, &arguments), &message);
+        assert!(!output.exists(), "{message}");
+    }
+}
+
+/// With until = "decided" a shot that goes through ends as soon as that is certain, earlier than by the rules of others, and counts.
+#[test]
+fn a_decided_shot_is_through() {
+    let text = panel("even", 2, "").replace("[60.0, 200.0]", "[240.0, 260.0]").replace("aim = \"cell\"\n", "");
+    let fast = |until: &str| text.replace("end = 0.02\n", &format!("end = 0.02\n{until}"));
+    let [decided, whole] = [("decided", "until = \"decided\"\n"), ("whole", "")].map(|(name, until)| {
+        let (folder, scene) = place(name, &fast(until));
+        let answer = run(&scene, &folder.join("shots"), &[]);
+        fails(&answer, "no curve: all shots went through");
+        assert!(String::from_utf8_lossy(&answer.stdout).contains("2 through, 0 undecided"));
+        let end = |line: &String| line.split(',').nth(9).and_then(|time| time.parse::<f64>().ok()).expect("a time");
+        shots(&folder.join("shots")).iter().map(end).collect::<Vec<f64>>()
+    });
+    assert!(decided.iter().zip(&whole).all(|(early, late)| early < late), "{decided:?} {whole:?}");
 }
 
 /// A sequential design goes on where it stopped, and has no part that could be fired alone.
@@ -197,7 +243,7 @@ fn a_yarn_has_a_limit() {
             "speeds = [300.0, 20.0]",
             "speeds is [300, 20]; allowed: the slowest and then the fastest",
         ),
-        ("speeds = [20.0, 300.0]", "speeds = [20.0, 3e6]", "speed is 3000000; allowed: up to"),
+        ("speeds = [20.0, 300.0]", "speeds = [20.0, 3e6]", "the fastest of speeds is 3000000; allowed: up to"),
         ("number = 6", "number = 6\nstep = 3.0", "step is 3; allowed: with design = \"up-and-down\""),
         ("number = 6", "number = 6\naim = \"cell\"", "aim is \"cell\" of a yarn; allowed: fixed"),
         ("radius = 1.0", "radius = 1.0\nheld = true", "nothing stops it; allowed: a cylinder that is free"),
@@ -217,7 +263,8 @@ fn a_yarn_has_a_limit() {
         ("[20.0, 25.0]", "all shots were stopped, the fastest at"),
         ("[290.0, 300.0]", "all shots went through, the slowest at"),
     ] {
-        std::fs::write(&scene, text.replacen("[20.0, 300.0]", speeds, 1)).expect("the scene is written");
+        std::fs::write(&scene, text.replacen("[20.0, 300.0]\ntolerance = 20.0", speeds, 1))
+            .expect("the scene is written");
         let output = folder.join(format!("one-fate-{}", speeds.len()));
         fails(&run(&scene, &output, &[]), message);
         fails(&run(&scene, &output.join("limit"), &["--limit"]), "at both of which shots");
