@@ -1,7 +1,7 @@
 //! Whether it is certain that what strikes goes through, although torn ends still rub on it.
 //!
-//! Two bounds together, since neither is one of mechanics alone, and at some looks in a row. What still acts on it: the mean force over
-//! the last sixteenth of a radius would have to be kept up for `REACH` radii to stop it. And what might still bear: yarns ahead of it
+//! Two bounds together, since neither is one of mechanics alone, and at some looks in a row. What still acts on it: the mean force since
+//! the last look would have to be kept up for `REACH` radii to stop it. And what might still bear: yarns ahead of it
 //! that are not torn where it strikes. Of each kind, a family of a ply, as many must be torn, and each of those ahead may take as much
 //! energy as if the torn ones of its kind had taken all that the striker has lost. Where both leave it moving, nothing that was seen in
 //! this shot stops it.
@@ -17,9 +17,9 @@ use crate::weave::model::{Model, Yarn};
 use crate::weave::torn;
 
 /// How many times it is looked at on the way of one radius; the force is that since the last look.
-const LOOKS: f64 = 16.0;
+const LOOKS: f64 = 48.0;
 /// At so many looks in a row both bounds have to hold: ends that are pressed aside may push it for a moment.
-const IN_A_ROW: u32 = 3;
+const IN_A_ROW: u32 = 4;
 /// For how many radii that force may act.
 const REACH: f64 = 6.0;
 /// A yarn that is torn farther from the aim than so many radii, at a clamp for instance, still has its middle ahead.
@@ -168,8 +168,8 @@ mod tests {
         assert!(torn().decided(200.0, 0.0, IN_A_ROW));
         assert!(!torn().decided(200.0, 0.0, IN_A_ROW - 1), "it may be pushed for a moment");
         assert!(!Shot::new("").decided(60.0, 0.0, IN_A_ROW), "nothing is torn");
-        // Kept up for six radii its force would take 2 × 50 m/s × 0.263 m/s × 16/1.01 × 6, the square of 50 m/s.
-        assert!(torn().decided(200.0, 0.25, IN_A_ROW) && !torn().decided(200.0, 0.27, IN_A_ROW), "it is braked");
+        // Kept up for six radii its force would take 2 × 50 m/s × 0.088 m/s × 48/1.01 × 6, the square of 50 m/s.
+        assert!(torn().decided(200.0, 0.085, IN_A_ROW) && !torn().decided(200.0, 0.09, IN_A_ROW), "it is braked");
     }
 
     #[test]

@@ -8,8 +8,8 @@ use toml::de::{DeTable, DeValue};
 use crate::common::toml_error::shortened;
 
 /// Keys of a scene on which no shot's outcome depends.
-pub const MAY_DIFFER: [&str; 9] =
-    ["number", "extension", "tolerance", "spread", "end", "sample", "pictures", "frames", "checkpoints"];
+pub const MAY_DIFFER: [&str; 8] =
+    ["number", "extension", "tolerance", "spread", "sample", "pictures", "frames", "checkpoints"];
 const TITLE: &str = "title";
 
 /// The first key that differs, with the values of this scene and of that; none where no key does, but what a file says that they name.
@@ -76,7 +76,6 @@ mod tests {
         let of = |from: &str, to: &str| first(scene, &scene.replace(from, to));
         for (from, to) in [
             ("number = 6", "number = 9"),
-            ("0.2", "0.4"),
             ("one", "two"),
             ("0.01", "10e-3"),
             ("# mm", "# of the yarn"),

@@ -159,7 +159,7 @@ pub fn no_curve(scene: &Scene, series: &Series) -> Option<Error> {
     let far = NEAR_END * (high - low);
     let message = match series.mix {
         _ if series.fates.len() < 2 => format!(
-            "{} shots have a known fate, {undecided} are undecided, {errors} ended with an error; allowed: two or more, by a later end or \
+            "{} shots have a known fate, {undecided} are undecided, {errors} ended with an error; allowed: two or more, by a larger extension or \
              what the errors say",
             series.fates.len()
         ),

@@ -235,10 +235,7 @@ fn no_fates(scene: &Scene, last: &Ended) -> Error {
         }
         _ => {
             let extension = scene.shots.extension;
-            (
-                format!("undecided at {}", number(last.time)),
-                format!("a later end, or a larger extension than {extension}"),
-            )
+            (format!("undecided at {}", number(last.time)), format!("a larger extension than {extension}"))
         }
     };
     Error::Evaluation(format!(
