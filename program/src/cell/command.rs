@@ -19,6 +19,7 @@ use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress;
 use crate::common::run_directory::{RunDirectory, file_error};
+use crate::common::shell;
 use crate::struck::command::Checkpoint;
 use crate::struck::run::{End, Observer};
 use crate::struck::sample::Sample;
@@ -76,8 +77,8 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
         print(&report::report(&scene, &model, &outcomes, output));
     }
     if run.is_interrupted() {
-        let (path, output) = (path.display(), output.display());
-        failures.push(Error::Evaluation(format!("the run goes on with\n  toron cell {path} -o {output} --restart")));
+        failures
+            .push(Error::Evaluation(format!("the run goes on with\n  {}", shell::again("cell", path, output, &[]))));
     }
     if let Some(first) = failures.first() {
         let text = failures.iter().map(Error::to_string).collect::<Vec<_>>().join("\n");

@@ -19,6 +19,7 @@ use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress::{self, Lines};
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
+use crate::common::shell;
 use crate::common::text_table::write_csv;
 use crate::common::units::{SPEED, TIME, number, unit};
 use crate::common::vtk::Frames;
@@ -155,7 +156,7 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
         }
     }
     if interrupt.is_asked() && !errors.is_empty() {
-        let again = format!("toron {} {} -o {} --restart", S::COMMAND, path.display(), output.display());
+        let again = shell::again(S::COMMAND, path, output, &[]);
         errors.push(Error::Evaluation(format!("the run goes on with\n  {again}")));
     }
     combine(&errors)

@@ -113,16 +113,15 @@ fn interrupted(arguments: &Arguments) -> Error {
 /// The command by which an interrupted run goes on, with the options that it had.
 fn again(arguments: &Arguments) -> String {
     let Arguments { scene, output, case, shots, limit, firth, threads, .. } = arguments;
-    let [scene, output] = [scene, output].map(|path| path.display().to_string());
-    let mut words = ["toron", "v50", &scene, "-o", &output, "--restart"].map(str::to_string).to_vec();
+    let mut options = Vec::new();
     for (flag, is_given) in [("--limit", limit), ("--firth", firth)] {
-        words.extend(is_given.then(|| flag.to_string()));
+        options.extend(is_given.then(|| flag.to_string()));
     }
     let threads = threads.map(|threads| threads.to_string());
     for (option, value) in [("--case", case), ("--shots", shots), ("--threads", &threads)] {
-        words.extend(value.iter().flat_map(|value| [option.to_string(), value.clone()]));
+        options.extend(value.iter().flat_map(|value| [option.to_string(), value.clone()]));
     }
-    shell::command(&words)
+    shell::again("v50", scene, output, &options)
 }
 
 /// The shots that are to be fired.

@@ -29,7 +29,7 @@ pub struct Met {
 
 /// Newton's steps, of which a point that has moved little since the last call needs one or two.
 const STEPS: usize = 8;
-/// A step this short is the last one: the next would be as long as its square.
+/// A step this short is the last one: the next one of Newton's would be as long as its square.
 const CLOSE: f64 = 1e-5;
 /// A point that has moved far is followed over this many faces.
 const MOVES: usize = 6;

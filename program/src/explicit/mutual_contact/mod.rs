@@ -37,7 +37,7 @@ pub struct Parameters {
     pub stiffness: f64,
     /// Coulomb's coefficient.
     pub friction: f64,
-    /// How near a node must be to a face, beyond half of its diagonal, to be looked at in every step until the next search.
+    /// How near a node must be to a face, beyond half of its diagonal, to be followed until the next search.
     pub margin: f64,
     /// Deeper nodes have not come through this face.
     pub deepest: f64,
