@@ -229,7 +229,7 @@ impl Arguments<'_> {
         // SAFETY: `properties` has refused a state_count below the law's number of variables, and there are as many.
         let state = unsafe { &*self.old_state.cast::<[Cell<f64>; HYPERELASTIC_STATE]>() };
         evaluate_call(
-            Call { source: properties, f: self.f, fibre, limit, state, tangent, sink: &mut answer },
+            Call { source: properties, f: self.f, fibre, limit: Some(&limit), state, tangent, sink: &mut answer },
             Level::Avx512,
         )?;
         self.finish(answer, || 0.5 * properties.first().copied().unwrap_or_default())

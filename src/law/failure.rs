@@ -50,13 +50,8 @@ impl<R: Real> Failure<R> {
     pub fn at(self, limit: R) -> Self {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
         let own = zero.lt(limit);
-        let limit = limit.max(R::splat(LEAST_LIMIT));
-        Failure {
-            limit: R::select(own, limit, self.limit),
-            inverse_limit: R::select(own, one / limit, self.inverse_limit),
-            threshold: R::select(own, zero, self.threshold),
-            ..self
-        }
+        let limit = R::select(own, limit.max(R::splat(LEAST_LIMIT)), self.limit);
+        Failure { limit, inverse_limit: one / limit, threshold: R::select(own, zero, self.threshold), ..self }
     }
 
     /// Whether a point may have this limit of its own: a finite number, not negative.

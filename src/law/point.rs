@@ -85,16 +85,16 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
-        self.point_limited(f, fibre, T::splat(0.0), state, tangent)
+        self.point_limited(f, fibre, None, state, tangent)
     }
 
-    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim), or 0.
+    /// As [`point_with`](Self::point_with), for a point that may have a limit of its own, ln(1 + ε_lim), which is 0 for that of the law.
     #[inline(never)]
     pub(super) fn point_limited<D: Derivative<N>, const N: usize>(
         &self,
         f: &[[T; 3]; 3],
         fibre: Option<[T; 3]>,
-        limit: T,
+        limit: Option<&T>,
         state: &[T; HYPERELASTIC_STATE],
         tangent: D,
     ) -> (Point<T>, [T; N]) {
@@ -272,7 +272,7 @@ fn evaluate<
     source: L,
     f: F,
     fibre: Option<[T; 3]>,
-    limit: T,
+    limit: Option<&T>,
     state: O,
     tangent: D,
     sink: S,
@@ -298,13 +298,13 @@ fn evaluate<
 }
 
 /// A call from a host: the properties or a law prepared from them, a point, and what becomes of the results.
-pub(crate) struct Call<T, L, F, O, D, S, const N: usize> {
+pub(crate) struct Call<'a, T, L, F, O, D, S, const N: usize> {
     pub source: L,
     pub f: F,
     /// A fibre direction of any length, or `None` for that of the properties.
     pub fibre: Option<[T; 3]>,
-    /// ln(1 + ε_lim) of a point that has a limit of its own; 0 for that of the properties.
-    pub limit: T,
+    /// ln(1 + ε_lim) of a point that may have a limit of its own, which is 0 for that of the properties. Read if failure is requested.
+    pub limit: Option<&'a T>,
     /// If it is an array, in cells, since the sink may overwrite it with the new one.
     pub state: O,
     pub tangent: D,
@@ -319,7 +319,7 @@ impl<
     D: Derivative<N>,
     S: Sink<T, N>,
     const N: usize,
-> Call<T, L, F, O, D, S, N>
+> Call<'_, T, L, F, O, D, S, N>
 {
     /// Prepares the law and evaluates it in the number type `R`.
     ///
@@ -364,7 +364,7 @@ pub(crate) fn evaluate_call<
     S: Sink<T, N>,
     const N: usize,
 >(
-    call: Call<T, L, F, O, D, S, N>,
+    call: Call<'_, T, L, F, O, D, S, N>,
     level: Level,
 ) -> Result<(), Error> {
     #[cfg(target_arch = "x86_64")]
@@ -379,7 +379,7 @@ pub(crate) fn evaluate_call<
             S: Sink<T, N>,
             const N: usize,
         >(
-            call: Call<T, L, F, O, D, S, N>,
+            call: Call<'_, T, L, F, O, D, S, N>,
         ) -> Result<(), Error> {
             call.evaluate::<T::Point>()
         }
@@ -429,10 +429,10 @@ struct MaterialAxes<A, R: Real> {
     usable: R::Mask,
 }
 
-/// What a point has besides its axes: F, by columns, a limit of its own, ln(1 + ε_lim), or 0, and the old state.
+/// What a point has besides its axes: F, by columns, perhaps a limit of its own, and the old state.
 struct Inputs<'a, T, R, O> {
     f: &'a [[R; 3]; 3],
-    limit: T,
+    limit: Option<&'a T>,
     state: &'a O,
 }
 
@@ -460,21 +460,14 @@ fn point_in<
 ) -> Result<(), Error> {
     let (stretch, images) = Stretch::new(f, axes);
     let law = source.law(own)?;
-    let (shear, mut law) = (law.shears, law.lanes::<R>());
+    let (shear, law) = (law.shears, law.lanes::<R>());
     let (section, [a, b]) = Section::new(&stretch, images, axes);
     let images = [images[0], a, b];
     let logarithms = Logarithms::new(&stretch, &section);
     let early = if D::EARLY { Some(Bases::new(&stretch, &section, &images)) } else { None };
     let strain = Strain::new(&stretch, &section, &logarithms);
     let kinematics = Kinematics { stretch: &stretch, section: &section, images, strain: &strain };
-    let (power, mut failure) = source.power_and_failure(&law, &strain);
-    let mut may_have = R::splat(0.0).le(R::splat(0.0));
-    let given: f64 = limit.into();
-    if given != 0.0 {
-        let limit = R::of(limit);
-        (failure, may_have) = (failure.at(limit), Failure::is_limit(limit));
-    }
-    law.failure = failure;
+    let (power, failure) = source.power_and_failure(&law, &strain);
     let k = law.kirchhoff(&stretch, &strain, power);
     let deformed = Deformed { law: &law, kinematics, k: &k, shear };
     let request = tangent.request();
@@ -484,17 +477,23 @@ fn point_in<
     };
     let entries = tangent.of(deformed, frame, A::ALONG_COORDINATES, early);
     let latch = R::of(state.entry(FAILED));
-    let nan_if_invalid = R::select(usable & may_have, strain.nan_if_invalid, R::splat(f64::NAN));
+    let nan_if_invalid = R::select(usable, strain.nan_if_invalid, R::splat(f64::NAN));
     let r = deformed.respond(frame, nan_if_invalid, latch, request);
-    let h = law.history(&failure, &strain, stretch.shear_invariant(), &k, r.updated, latch, request, shear);
-    // This check comes after the stress, so that the stress need not wait for the tangent.
     let zero = R::splat(0.0);
+    let limit = if request.failure { limit.map(|&limit| R::of(limit)) } else { None };
+    // As late as can be, since the compiler moves nothing across this decision.
+    let (index, updated) = match limit {
+        None if request.failure => (failure.index(&strain), r.updated),
+        None => (zero, r.updated),
+        Some(limit) => (failure.at(limit).index(&strain), r.updated & Failure::is_limit(limit)),
+    };
+    let h = law.history(index, &strain, stretch.shear_invariant(), &k, updated, latch, request, shear);
+    // This check comes after the stress, so that the stress need not wait for the tangent.
     let representable = if may_overflow { nan_unless_finite(&entries).le(zero) } else { zero.le(zero) };
-    if !R::holds(r.updated & representable) {
+    if !R::holds(updated & representable) {
         let failed = R::select(Failure::intact(latch), zero, R::splat(1.0)).value();
-        let code: f64 = law.status_code(f, &stretch, [usable, may_have], latch).value().into();
-        let wave_modulus = R::select(representable, r.wave_modulus, law.k_el).value();
-        sink.take(Point::unchanged(state, failed, wave_modulus, code as i32), None, [T::splat(0.0); N]);
+        let code: f64 = law.status_code(f, &stretch, usable, limit.map(Failure::is_limit), latch).value().into();
+        sink.take(Point::unchanged(state, failed, law.k_el.value(), code as i32), None, [T::splat(0.0); N]);
         return Ok(());
     }
     let failed = h.failed.value();

@@ -113,12 +113,12 @@ impl<R: Real> Deformed<'_, R> {
 }
 
 impl<R: Real> Hyperelastic<R> {
-    /// The new state by this criterion, given [`Response::updated`]. The latch is finite at every point.
+    /// The new state with this failure index, given [`Response::updated`]. The latch is finite at every point.
     #[inline(always)]
     #[allow(clippy::too_many_arguments)] // results of several stages, which have no more in common than this call
     pub(crate) fn history(
         &self,
-        failure: &Failure<R>,
+        failure_index: R,
         strain: &Strain<R>,
         i_ld: R,
         k: &Kirchhoff<R>,
@@ -128,19 +128,26 @@ impl<R: Real> Hyperelastic<R> {
         shear: bool,
     ) -> History<R> {
         let (zero, one) = (R::splat(0.0), R::splat(1.0));
-        let index = if request.failure { failure.index(strain) } else { zero };
         History {
             energies: if request.energies { self.energies(strain, i_ld, k, shear) } else { [zero; 4] },
             invariants: [strain.i_el, strain.i_tc, strain.i_td, i_ld],
-            failure_index: index,
-            failed: R::select(!Failure::intact(latch) | (updated & Failure::reached(index)), one, zero),
+            failure_index,
+            failed: R::select(!Failure::intact(latch) | (updated & Failure::reached(failure_index)), one, zero),
         }
     }
 
     /// The status code, as a number, of a point whose state is not updated: the reason why it cannot be evaluated, or 0 if it
-    /// has failed before. `usable` says whether its fibre direction is finite and not zero, and whether a limit of its own is allowed.
+    /// has failed before. `usable` says whether its fibre direction is finite and not zero, `limit` whether a limit of its own is
+    /// allowed, if it has one.
     #[inline(always)]
-    pub(crate) fn status_code(&self, f: &[[R; 3]; 3], d: &Stretch<R>, usable: [R::Mask; 2], latch: R) -> R {
+    pub(crate) fn status_code(
+        &self,
+        f: &[[R; 3]; 3],
+        d: &Stretch<R>,
+        usable: R::Mask,
+        limit: Option<R::Mask>,
+        latch: R,
+    ) -> R {
         let zero = R::splat(0.0);
         let code = |status: i32| R::splat(f64::from(status));
         // A number times zero is zero unless it is NaN or infinite. If F is too large, its determinant is meaningless.
@@ -154,10 +161,12 @@ impl<R: Real> Hyperelastic<R> {
         let inverted = (d.jacobian.le(zero) | d.square.le(zero)) & size.lt(R::splat(R::SQUARES.1));
         // Later lines take precedence. In this order: latch set, F not finite, fibre direction or limit not usable, F inverted, else
         // overflow.
-        let [fibre, limit] = usable;
         let error = R::select(inverted, code(status::INVERTED), code(status::OVERFLOW));
-        let error = R::select(limit, error, code(status::LIMIT));
-        let error = R::select(fibre, error, code(status::FIBRE_DIRECTION));
+        let error = match limit {
+            Some(allowed) => R::select(allowed, error, code(status::LIMIT)),
+            None => error,
+        };
+        let error = R::select(usable, error, code(status::FIBRE_DIRECTION));
         let error = R::select(finite.le(zero), error, code(status::NOT_FINITE));
         let failed = R::select((latch * zero).le(zero), zero, code(status::STATE_NOT_FINITE));
         R::select(Failure::intact(latch), error, failed)

@@ -13,7 +13,7 @@ use toron::law::block::{Pointers, Strides, components, components_mut};
 use toron::law::parameters::SIGMA_LIM;
 use toron::law::state::{FAILED, FAILURE_INDEX, HYPERELASTIC_STATE};
 use toron::law::status;
-use toron::{Arrays, Hyperelastic, Level, Request};
+use toron::{Arrays, Hyperelastic, Level, Measure, Request};
 
 const PROPERTIES: [f64; 11] = [82341.0, 1055.0, 2.2, 649.74, 0.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
 /// 0 is that of the properties.
@@ -82,7 +82,9 @@ fn block(
 /// Whatever the number of points, the instructions, what is requested and where the fibre comes from.
 #[test]
 fn a_block_gives_each_point_what_the_law_with_its_limit_gives() {
-    for properties in [PROPERTIES, [82341.0, 1055.0, 2.2, 649.74, 90.0, 0.0, 1.8, 0.1, 0.6, 0.0, 0.8]] {
+    let oblique = [82341.0, 1055.0, 2.2, 649.74, 90.0, 0.0, 1.8, 0.1, 0.6, 0.0, 0.8];
+    let along = [82341.0, 1055.0, 2.2, 649.74, 90.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
+    for properties in [PROPERTIES, oblique, along] {
         let law = Hyperelastic::new(&properties).expect("valid properties");
         let mut failed = [0; 2];
         for level in levels() {
@@ -305,6 +307,80 @@ fn a_limit_that_means_nothing_is_an_error_of_its_point() {
     };
     let error = law.block(short).expect_err("eight limits of nine").to_string();
     assert!(error.contains("entries of limit"), "{error}");
+}
+
+/// All that a point asks for, and its status.
+#[derive(Clone, Copy)]
+struct Results {
+    stress: [f64; 6],
+    state: [f64; STATE],
+    tangent: [f64; 36],
+    wave_speed: f64,
+    code: i32,
+}
+
+/// A point on its own: the entry for a point does with a limit what a block does, also with one that means nothing.
+#[test]
+fn a_point_is_as_a_block_of_it() {
+    let law = Hyperelastic::new(&PROPERTIES).expect("valid properties");
+    let (mut fine, mut refused, mut wrong) = (0, 0, 0);
+    for (i, f) in gradients(60).iter().enumerate() {
+        let mut f = *f;
+        if i % 5 == 0 {
+            f.m11 = if i % 2 == 0 { f64::NAN } else { -1.0 };
+        }
+        let mut old = [0.0; STATE];
+        old[FAILED] = if i % 7 == 0 { 1.0 } else { 0.0 };
+        for own in LIMITS.into_iter().chain([-1.0, f64::NAN, f64::INFINITY]) {
+            let fresh = Results { stress: [7.0; 6], state: old, tangent: [7.0; 36], wave_speed: 7.0, code: 7 };
+            let [mut point, mut block] = [fresh; 2];
+            let arrays = Point {
+                density: 1.35e-9,
+                deformation_gradient: f.as_ptr(),
+                state_old: old.as_ptr(),
+                state_new: point.state.as_mut_ptr(),
+                stress: point.stress.as_mut_ptr(),
+                tangent: point.tangent.as_mut_ptr(),
+                wave_speed: &raw mut point.wave_speed,
+                limit: &raw const own,
+                ..Point::empty()
+            };
+            // SAFETY: arrays of one point.
+            point.code =
+                unsafe { hyperelastic_point_with_properties_f64(PROPERTIES.as_ptr(), 11, &arrays, null_mut(), 0) };
+            let state = block.state.as_mut_ptr();
+            let arrays = Pointers {
+                density: 1.35e-9,
+                deformation_gradient: components(f.as_ptr(), 1),
+                limit: &raw const own,
+                energies_old: state,
+                invariants_old: state.wrapping_add(4),
+                failure_old: state.wrapping_add(8),
+                energies: state,
+                invariants: state.wrapping_add(4),
+                failure: state.wrapping_add(8),
+                stress: components_mut(block.stress.as_mut_ptr(), 1),
+                tangent: block.tangent.as_mut_ptr(),
+                wave_speed: &raw mut block.wave_speed,
+                measure: Measure::Material,
+                ..Pointers::without_arrays(1, 1)
+            };
+            // SAFETY: arrays of one point.
+            block.code = unsafe { law.raw_block(&arrays) }.expect("a good call");
+            assert_eq!((point.code, point.state[FAILED]), (block.code, block.state[FAILED]), "{i} {own}");
+            let numbers =
+                |of: &Results| -> Vec<f64> { [&of.stress[..], &of.state, &of.tangent, &[of.wave_speed]].concat() };
+            for (a, b) in numbers(&point).iter().zip(numbers(&block)) {
+                assert!((a - b).abs() <= 1e-9 * b.abs().max(1e-3), "{i} {own}: {a} {b}");
+            }
+            match point.code {
+                status::OK => fine += 1,
+                status::LIMIT => refused += 1,
+                _ => wrong += 1,
+            }
+        }
+    }
+    assert!(fine > 300 && refused > 100 && wrong > 50, "{fine} {refused} {wrong}");
 }
 
 const LINEAR: [f64; 10] = [79414.0, 794.14, 126.0, 3637.0, 1.0, 0.2, 0.0, 0.0, 0.0, 1.0];

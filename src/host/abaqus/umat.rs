@@ -16,7 +16,7 @@ use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::level::Level;
 use crate::law::number::vector::{cross, dot};
-use crate::law::parameters;
+use crate::law::parameters::HYPERELASTIC_PROPERTIES as PROPERTIES;
 use crate::law::point::{Call, Point, Sink, evaluate_call};
 use crate::law::state::HYPERELASTIC_STATE;
 use crate::law::status;
@@ -133,28 +133,28 @@ impl StandardLaw for Hyperelastic<f64> {
         let message = Message { text: message, capacity };
         // SAFETY: as above.
         unsafe {
-            let mut limit = 0.0;
-            if !call.is_usual() {
+            let mut limit = None;
+            if !call.is_usual(PROPERTIES) {
                 let code = check(call, &mut limit, message);
                 if code != status::OK {
                     return code;
                 }
             }
             if call.ddsdde.is_null() {
-                without_tangent(call, limit, message)
+                without_tangent(call, limit.as_ref(), message)
             } else {
-                with_tangent(call, limit, message)
+                with_tangent(call, limit.as_ref(), message)
             }
         }
     }
 }
 
 impl Umat {
-    /// Whether nothing is missing or wrong in a call for a point in three dimensions with the hyperelastic law: every argument is looked
-    /// at only if something is, or if the element is two-dimensional.
+    /// Whether nothing is missing or wrong in a call for a point in three dimensions with the hyperelastic law and a card of so many
+    /// `constants`: every argument is looked at only if something is, or if the element is two-dimensional.
     #[inline(always)]
-    fn is_usual(&self) -> bool {
-        let usual = (self.ndi ^ 3) | (self.nshr ^ 3) | (self.nprops ^ parameters::HYPERELASTIC_PROPERTIES as i32) == 0;
+    fn is_usual(&self, constants: usize) -> bool {
+        let usual = (self.ndi ^ 3) | (self.nshr ^ 3) | (self.nprops ^ constants as i32) == 0;
         let usual = usual && self.nstatv >= HYPERELASTIC_STATE as i32 && self.nlgeom != 0;
         let missing = self.stress.is_null() || self.statev.is_null() || self.sse.is_null() || self.pnewdt.is_null();
         usual && !(missing || self.dfgrd1.is_null() || self.props.is_null())
@@ -165,10 +165,13 @@ impl Umat {
 /// As for [`StandardLaw::umat`].
 #[cold]
 #[inline(never)]
-unsafe fn check(call: &Umat, limit: &mut f64, message: Message) -> i32 {
+unsafe fn check(call: &Umat, limit: &mut Option<f64>, message: Message) -> i32 {
     let body = || {
-        call.law::<Hyperelastic>()?;
-        *limit = call.limit::<Hyperelastic>()?;
+        // The kernel checks the properties too.
+        if !call.is_usual(PROPERTIES + 1) {
+            call.law::<Hyperelastic>()?;
+        }
+        *limit = Some(call.limit::<Hyperelastic>()?);
         Ok(status::OK)
     };
     // SAFETY: the message is the caller's.
@@ -178,7 +181,7 @@ unsafe fn check(call: &Umat, limit: &mut f64, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked.
 #[inline(never)]
-unsafe fn without_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
+unsafe fn without_tangent(call: &Umat, limit: Option<&f64>, message: Message) -> i32 {
     // SAFETY: the caller's arrays and message.
     unsafe { hyperelastic(call, limit, message, Stress::<true>) }
 }
@@ -186,7 +189,7 @@ unsafe fn without_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is not null.
 #[inline(never)]
-unsafe fn with_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
+unsafe fn with_tangent(call: &Umat, limit: Option<&f64>, message: Message) -> i32 {
     // SAFETY: as above.
     unsafe { hyperelastic(call, limit, message, JaumannModulus) }
 }
@@ -196,7 +199,12 @@ unsafe fn with_tangent(call: &Umat, limit: f64, message: Message) -> i32 {
 /// # Safety
 /// As for [`StandardLaw::umat`]; the arguments have been checked, and DDSDDE is there if `tangent` is that.
 #[inline(always)]
-unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(call: &Umat, limit: f64, message: Message, tangent: D) -> i32
+unsafe fn hyperelastic<D: Derivative<N>, const N: usize>(
+    call: &Umat,
+    limit: Option<&f64>,
+    message: Message,
+    tangent: D,
+) -> i32
 where
     for<'a> &'a Results<'a>: Sink<f64, N>,
 {
@@ -207,7 +215,7 @@ where
         // SAFETY: not null, and of the sizes that `Umat` promises.
         let (source, f, state) = unsafe {
             (
-                slice::from_raw_parts(sink.call.props, parameters::HYPERELASTIC_PROPERTIES),
+                slice::from_raw_parts(sink.call.props, PROPERTIES),
                 &*sink.call.dfgrd1.cast::<[[f64; 3]; 3]>(),
                 &*sink.call.statev.cast::<[Cell<f64>; HYPERELASTIC_STATE]>(),
             )

@@ -290,7 +290,7 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
     // SAFETY: the block is plain: its fibre, which is not null, is one array of three components.
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
     // SAFETY: the block is plain: null, or the number of the only point.
-    let limit = if block.limit.is_null() | block.failure.is_null() { T::splat(0.0) } else { unsafe { *block.limit } };
+    let limit = unsafe { block.limit.as_ref() };
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
     let level = Level::Avx512;

@@ -145,6 +145,16 @@ unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> 
     }
 }
 
+/// A point's own limit. It is looked up where it is passed on: read with the other arrays, it would cost all calls a register.
+///
+/// # Safety
+/// What [a caller promises](super#what-a-caller-promises).
+#[inline(always)]
+unsafe fn limit<'a, T>(point: &Point<T>) -> Option<&'a T> {
+    // SAFETY: null or one number.
+    unsafe { point.limit.as_ref() }
+}
+
 /// The sink for the stress alone, or with the new state.
 struct StressAnswer<'a, T, const STATE: bool> {
     stress: *mut T,
@@ -189,16 +199,16 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
         Some(state) => state,
         None => fresh.write(cells([T::splat(0.0); HYPERELASTIC_STATE])),
     };
-    // SAFETY: null or one number.
-    let limit = if point.limit.is_null() | state_new.is_null() { T::splat(0.0) } else { unsafe { *point.limit } };
     let mut status = status::OK;
     let nothing_else = modes.is_null() && wave_speed.is_null() && tangent.is_null();
     if nothing_else && !stress.is_null() {
         // What most callers want is compiled for them.
         if state_new.is_null() {
             let sink = StressAnswer::<T, false> { stress, state: state_new, status: &mut status };
-            evaluate_call(Call { source, f, fibre, limit, state, tangent: Stress::<false>, sink }, level)?;
+            evaluate_call(Call { source, f, fibre, limit: None, state, tangent: Stress::<false>, sink }, level)?;
         } else {
+            // SAFETY: the caller's point.
+            let limit = unsafe { limit(point) };
             let sink = StressAnswer::<T, true> { stress, state: state_new, status: &mut status };
             evaluate_call(Call { source, f, fibre, limit, state, tangent: Stress::<true>, sink }, level)?;
         }
@@ -215,6 +225,8 @@ unsafe fn evaluate<T: Registers, L: Source<T>>(source: L, point: *const Point<T>
         modes: !modes.is_null(),
         wave_modulus: !wave_speed.is_null(),
     };
+    // SAFETY: as above.
+    let limit = unsafe { limit(point) };
     let sink = PointAnswer { stress, state: state_new, modes, density, wave_speed, tangent, status: &mut status };
     if tangent.is_null() {
         evaluate_call(Call { source, f, fibre, limit, state, tangent: NoTangent(request), sink }, level)?;

@@ -91,10 +91,7 @@ pub(super) unsafe fn scalar<T: Registers + Precision>(call: &Umat<T>) -> Result<
     let (source, f, state) = unsafe { element(cm, hsv, nhv) }?;
     let mut status = status::OK;
     let sink = Element { sig, hsv, failel, status: &mut status };
-    evaluate_call(
-        Call { source, f, fibre: None, limit: T::splat(0.0), state, tangent: Stress::<true>, sink },
-        Level::Avx512,
-    )?;
+    evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent: Stress::<true>, sink }, Level::Avx512)?;
     Ok(status)
 }
 
@@ -117,7 +114,7 @@ pub(super) unsafe fn scalar_tangent<T: Registers + Precision>(call: &Utan<T>) ->
         status: &mut status,
     };
     let tangent = SixBySix(Request::default(), Measure::Truesdell);
-    evaluate_call(Call { source, f, fibre: None, limit: T::splat(0.0), state, tangent, sink }, Level::Avx512)?;
+    evaluate_call(Call { source, f, fibre: None, limit: None, state, tangent, sink }, Level::Avx512)?;
     Ok(status)
 }
 

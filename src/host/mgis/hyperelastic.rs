@@ -90,7 +90,7 @@ unsafe fn evaluate(view: &BehaviourDataView, options: Options, plane: bool) -> R
     macro_rules! evaluate_with {
         ($tangent:expr) => {
             evaluate_call(
-                Call { source, f: &f, fibre: None, limit: 0.0, state, tangent: $tangent, sink: to },
+                Call { source, f: &f, fibre: None, limit: None, state, tangent: $tangent, sink: to },
                 Level::Avx512,
             )
         };

@@ -120,6 +120,9 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     const LIMITS_STATE: u8 = LIMITS + STATE;
     const LIMITS_STATE_FIBRES: u8 = LIMITS + STATE_FIBRES;
     const LIMITS_STATE_ALIGNED: u8 = LIMITS + STATE_ALIGNED;
+    const LIMITS_SHEAR_STATE: u8 = LIMITS + SHEAR_STATE;
+    const LIMITS_SHEAR_STATE_FIBRES: u8 = LIMITS + SHEAR_STATE_FIBRES;
+    const LIMITS_SHEAR_STATE_ALIGNED: u8 = LIMITS + SHEAR_STATE_ALIGNED;
     const LIMITS_WAVE_STATE_FIBRES: u8 = LIMITS + WAVE_STATE_FIBRES;
     const LIMITS_WAVE_STATE_ALIGNED: u8 = LIMITS + WAVE_STATE_ALIGNED;
     const STRESS_FIBRES: u8 = STRESS + FIBRES;
@@ -131,6 +134,9 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
             (true, false, _) if limits && fibres => I::run::<T, LIMITS_STATE_FIBRES>(law, block),
             (true, false, _) if limits && law.aligned => I::run::<T, LIMITS_STATE_ALIGNED>(law, block),
             (true, false, _) if limits => I::run::<T, LIMITS_STATE>(law, block),
+            (true, true, _) if limits && fibres => I::run::<T, LIMITS_SHEAR_STATE_FIBRES>(law, block),
+            (true, true, _) if limits && law.aligned => I::run::<T, LIMITS_SHEAR_STATE_ALIGNED>(law, block),
+            (true, true, _) if limits => I::run::<T, LIMITS_SHEAR_STATE>(law, block),
             _ if limits && explicit && fibres => I::run::<T, LIMITS_WAVE_STATE_FIBRES>(law, block),
             _ if limits && explicit && law.aligned => I::run::<T, LIMITS_WAVE_STATE_ALIGNED>(law, block),
             _ if limits => run_any::<T, I>(law, block),

@@ -528,7 +528,8 @@ unsafe fn store_state<T: Scalar, R: Lanes<T>, const WANT: u8>(
     unsafe {
         let (k, shear) = (law.kirchhoff(d, strain, power), shears::<R, WANT>(law));
         let failure = limit::<T, R, WANT>(block, i).map_or(law.failure, |limit| law.failure.at(limit));
-        let r = law.history(&failure, strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
+        let index = if request.failure { failure.index(strain) } else { R::splat(0.0) };
+        let r = law.history(index, strain, d.shear_invariant(), &k, outcome.updated, outcome.latch, request, shear);
         if request.energies {
             for (c, energy) in r.energies.into_iter().enumerate() {
                 energy.store_where(outcome.updated, block.energies.add(c * stride + i));
@@ -591,8 +592,7 @@ unsafe fn status_code<T: Scalar, R: Lanes<T>, const WANT: u8>(
     }
     // SAFETY: F has the lanes from i on, and so has a limit.
     let (limit, gradient) = unsafe { (limit::<T, R, WANT>(block, i), gradient(block, i)) };
-    let usable = [usable, limit.map_or(zero.le(zero), Failure::is_limit)];
-    let code = law.status_code(&gradient, d, usable, outcome.latch);
+    let code = law.status_code(&gradient, d, usable, limit.map(Failure::is_limit), outcome.latch);
     let code = R::select(!finite & zero.le(code), R::splat(f64::from(status::STATE_NOT_FINITE)), code);
     R::select(outcome.updated, zero, code)
 }
