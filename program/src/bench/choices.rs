@@ -16,7 +16,7 @@ use crate::entries::blocks::{SolverBlock, prepared};
 use crate::entries::hosts::{Given, Wanted};
 use toron::Hyperelastic;
 use toron::law::block::Arrays;
-use toron::law::parameters::HYPERELASTIC_PROPERTIES;
+use toron::law::parameters::{self, EPS_LIM, HYPERELASTIC_PROPERTIES};
 use toron::law::state::HYPERELASTIC_STATE;
 
 /// A ratio is the median over so many pairs of timings; of calls of a millisecond, over fewer.
@@ -28,6 +28,9 @@ const BATCH: Duration = Duration::from_micros(50);
 const POINTS: usize = 256;
 /// A block where the outputs are compared.
 const BLOCK: usize = 1024;
+/// The longitudinal shear stiffness of the law that has one, and its place among the properties.
+const SHEARED: f64 = 20.0;
+const K_LD: usize = parameters::place(&parameters::HYPERELASTIC, "k_ld");
 
 /// A line of the report.
 #[derive(Serialize)]
@@ -89,6 +92,12 @@ pub fn measured() -> Result<Vec<Choice>, Error> {
         add(&name, [BLOCK; 2], [outputs, state].map(|outputs| of_outputs(outputs, BLOCK)))?;
     }
     let plain = Calls::default();
+    let (sheared, waves) = (Calls { sheared: true, ..plain }, Calls { wave_speed: true, ..plain });
+    for (name, calls) in [("block", plain), ("block with k_ld", sheared), ("block with wave speed", waves)] {
+        let name = format!("{name}, limits of points / none");
+        let limited = Calls { limits: true, ..calls };
+        add(&name, [BLOCK; 2], [limited, calls].map(|calls| of_block(calls, BLOCK)))?;
+    }
     for n in [4096, 100_000] {
         let apart = Calls { old_state_apart: true, ..plain };
         add("block, old state apart / in place", [n; 2], [apart, plain].map(|calls| of_block(calls, n)))?;
@@ -198,10 +207,18 @@ struct Calls {
     old_state_apart: bool,
     by_properties: bool,
     tangent: bool,
+    wave_speed: bool,
+    /// A failure limit of its own for each point: that of the properties, so that the same points fail.
+    limits: bool,
+    /// A law with a longitudinal shear.
+    sheared: bool,
 }
 
 fn of_block(calls: Calls, n: usize) -> Result<Run, Error> {
-    let properties = all_properties(properties().to_vec())?;
+    let mut properties = all_properties(properties().to_vec())?;
+    if calls.sheared {
+        properties[K_LD] = SHEARED;
+    }
     let law = prepared(&properties).map_err(Error::Evaluation)?;
     let scene = match calls.leading_dimension {
         Some(leading_dimension) => Scene::with_leading_dimension(n, leading_dimension, impacts()),
@@ -211,12 +228,16 @@ fn of_block(calls: Calls, n: usize) -> Result<Run, Error> {
         Aligned::new(0.0, if wanted { components * scene.leading_dimension } else { 0 })
     };
     let (old, tangent) = (array(calls.old_state_apart, HYPERELASTIC_STATE), array(calls.tangent, 36));
+    let limit = &*Box::leak(Box::new(Aligned::new(properties[EPS_LIM].ln_1p(), n)));
+    let wave_speed = Box::leak(Box::new(array(true, 1)));
     // A caller sets up the structure once, for arrays that stay to the program's end.
     let (state, old, tangent) =
         (Box::leak(Box::new(array(true, HYPERELASTIC_STATE))), Box::leak(Box::new(old)), Box::leak(Box::new(tangent)));
     let block = SolverBlock {
         state_old: calls.old_state_apart.then_some(&**old),
         tangent: calls.tangent.then_some(&mut **tangent),
+        limit: calls.limits.then_some(&**limit),
+        wave_speed: calls.wave_speed.then_some((1.0, &mut **wave_speed)),
         ..whole(Box::leak(Box::new(scene)), state)
     };
     let mut block = block.arrays();
