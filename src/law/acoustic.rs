@@ -57,7 +57,7 @@ impl Hyperelastic<f64> {
         }
         let frame = fibre.map_or(self.frame, |fibre| FibreFrame::new(fibre).0);
         let (stretch, images) = Stretch::new(f, &frame);
-        let (section, [a, b]) = Section::new(&stretch, images, &frame);
+        let (section, [a, b]) = Section::of_point(&stretch, images, &frame);
         let strain = Strain::new(&stretch, &section, &Logarithms::new(&stretch, &section));
         let kinematics =
             Kinematics { stretch: &stretch, section: &section, images: [images[0], a, b], strain: &strain };

@@ -48,10 +48,11 @@ impl<R: Real> Failure<R> {
     /// The same criterion with `limit` = ln(1 + ε_lim) for a point that has a limit of its own; where that is 0, the criterion itself.
     #[inline(always)]
     pub fn at(self, limit: R) -> Self {
-        let (zero, one) = (R::splat(0.0), R::splat(1.0));
+        let zero = R::splat(0.0);
         let own = zero.lt(limit);
         let limit = R::select(own, limit.max(R::splat(LEAST_LIMIT)), self.limit);
-        Failure { limit, inverse_limit: one / limit, threshold: R::select(own, zero, self.threshold), ..self }
+        // The quotient of `index` corrects a reciprocal that is an ulp off.
+        Failure { limit, inverse_limit: limit.reciprocal(), threshold: R::select(own, zero, self.threshold), ..self }
     }
 
     /// Whether a point may have this limit of its own: a finite number, not negative.

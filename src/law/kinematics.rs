@@ -29,7 +29,7 @@
 //! overlap points, and divisions and roots come at its end, where no operation of the stage waits for them.
 
 use super::number::elementary::{Asinh, Logarithm};
-use super::number::real::Real;
+use super::number::real::{Real, Single};
 use super::number::vector::{accurate_cross, along, cross, dot, image, scale};
 
 /// F is near the reference if every entry of its diagonal is above this by more than the sum of the squares of the others. F − 1
@@ -51,8 +51,8 @@ pub trait Axes<R: Real>: Copy {
     fn images(&self, f: &[[R; 3]; 3], chi: R) -> [Image<R>; 3];
     /// `v + s n`, n being the axis with the index `axis`, counted from 0.
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3];
-    /// det F, given the images of the axes and the square of that of the fibre.
-    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R;
+    /// det F, given the images of the axes, 1/λ² and |F|².
+    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R;
     /// The scalar product of the images of two different axes; `y` is that of the axis with the index `axis`.
     fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R;
 }
@@ -93,7 +93,7 @@ impl<R: Real> Axes<R> for FirstAxis {
         }
     }
     #[inline(always)]
-    fn determinant(&self, f: &[[R; 3]; 3], _: [[R; 3]; 3], _: R) -> R {
+    fn determinant(&self, f: &[[R; 3]; 3], _: [[R; 3]; 3], _: R, _: R) -> R {
         triple_product(*f)
     }
     #[inline(always)]
@@ -134,11 +134,14 @@ impl<R: Real> FibreFrame<R> {
         let m = [direction[0] / length, direction[1] / length, direction[2] / length];
         // Two axes across m, without a branch and without loss of digits for m near −x (Duff et al., J. Comput. Graph. Tech.
         // 6(1), 2017). For m along the first coordinate axis they are the other two coordinate axes.
+        // With |m|² = 1 their second and third component are sums of positive numbers, which keep their digits for m near the
+        // other two axes, where 1 − m2²/(1 + |m1|) would lose them.
         let sign = R::select(m[0].lt(zero), -one, one);
-        let a = -(one / (sign + m[0]));
+        let size = m[0].abs();
+        let a = one / (one + size);
         let b = m[1] * m[2] * a;
-        let t1 = [-(sign * m[1]), one + sign * m[1] * m[1] * a, sign * b];
-        let t2 = [-m[2], b, sign + m[2] * m[2] * a];
+        let t1 = [-(sign * m[1]), (m[2] * m[2]).mul_add(a, size), -b];
+        let t2 = [-m[2], -(sign * b), sign * (m[1] * m[1]).mul_add(a, size)];
         (FibreFrame { m, t1, t2 }, usable)
     }
 
@@ -177,22 +180,23 @@ impl<R: Real> Axes<R> for FibreFrame<R> {
     fn shifted(&self, v: [R; 3], s: R, axis: usize) -> [R; 3] {
         along(v, s, self.axis(axis))
     }
-    /// Of a short fibre from the images, whose rounding λ has too: in J/λ it is gone, while that of the columns would be magnified by
-    /// 1/λ. Else, and where the sign is in question, from the columns, which are not rounded.
+    /// From the images where J_t = J/λ keeps more digits so. The image of the fibre has an error of |F|/λ roundings, and so has λ. In J
+    /// from the images that error is the same, and cancels in J/λ; there remains that of the other two images, at most |F|²/J_t. Else,
+    /// and where the sign is in question, from the columns, which have no error. Of an image that is short beside F, whether the fibre
+    /// is pressed or its section blown up, it makes the difference between all digits and none.
     #[inline(always)]
-    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], square: R) -> R {
+    fn determinant(&self, f: &[[R; 3]; 3], images: [[R; 3]; 3], inverse_square: R, norm_square: R) -> R {
         let (columns, images) = (triple_product(*f), triple_product(images));
-        let sure = R::splat(0.0).lt(columns) & R::splat(0.0).lt(images);
-        R::select(sure & square.lt(R::splat(SHORT)), images, columns)
+        // Negative where the determinant of the images is.
+        let area_over_stretch = images * inverse_square;
+        let better = norm_square.lt(area_over_stretch * area_over_stretch.abs());
+        R::select(better & R::splat(0.0).lt(columns), images, columns)
     }
     #[inline(always)]
     fn product(&self, x: &Image<R>, y: &Image<R>, chi: R, axis: usize) -> R {
         chi.mul_add(dot(self.axis(axis), x.rest), dot(x.whole, y.rest))
     }
 }
-
-/// A fibre is short below this λ².
-const SHORT: f64 = 1.0 / 16.0;
 
 /// u·(v × w). With accurate minors it is as accurate as the entries allow; with ordinary ones it would lose most of its digits if a
 /// section is sheared and compacted.
@@ -231,15 +235,17 @@ impl<R: Real> Stretch<R> {
         let [c1, c2, c3] = f;
         let apart = c1[1].mul_add(c1[1], c1[2] * c1[2])
             + c2[0].mul_add(c2[0], c2[2] * c2[2])
-            + c3[0].mul_add(c3[0], c3[1].mul_add(c3[1], R::splat(NEAR_REFERENCE)));
-        let chi = R::select(apart.lt(c1[0].min(c2[1]).min(c3[2])), one, zero);
+            + c3[0].mul_add(c3[0], c3[1] * c3[1]);
+        let least = c1[0].min(c2[1]).min(c3[2]);
+        let chi = R::select(apart.lt(least - R::splat(NEAR_REFERENCE)), one, zero);
+        let norm_square = c1[0].mul_add(c1[0], c2[1].mul_add(c2[1], c3[2].mul_add(c3[2], apart)));
 
         let [m, t1, t2] = n.images(f, chi);
         let u11 = dot(m.rest, n.shifted(m.whole, chi, 0));
         let square = chi + u11;
         let h = [n.product(&m, &t1, chi, 1), n.product(&m, &t2, chi, 2)];
         let inverse_square = one / square;
-        let jacobian = n.determinant(f, [m.whole, t1.whole, t2.whole], square);
+        let jacobian = n.determinant(f, [m.whole, t1.whole, t2.whole], inverse_square, norm_square);
         let stretch = Stretch {
             chi,
             jacobian,
@@ -282,14 +288,56 @@ pub struct Section<R: Real> {
     rounding: R,
 }
 
+/// The fibres have slipped far where the square of their slip, (h2² + h3²)/λ², is above this times that of the section's shorter half
+/// axis, of which J_t²/t̂ is at most twice the square.
+const FAR_SLIP: f64 = 8.0;
+
 impl<R: Real> Section<R> {
     /// From F m, (F − χ1) t1 and (F − χ1) t2. Also returns a and b, the images of the transverse axes without their components
     /// along the image of the fibre.
     #[inline(always)]
-    pub fn new<A: Axes<R>>(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
+    pub fn new<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2]) {
+        Self::from_rests(d, Self::rests(d, images), n)
+    }
+
+    /// As [`new`](Self::new), for one point, and right after a far slip as well.
+    #[inline(always)]
+    pub fn of_point<T, A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A) -> (Self, [[R; 3]; 2])
+    where
+        R: Single<T>,
+    {
+        let (section, vectors) = Self::new(d, images, n);
+        let far = section.slipped_far(d);
+        if R::holds(far) { Self::orthogonal(d, images, n, far) } else { (section, vectors) }
+    }
+
+    /// Where the fibres have slipped so far that [`orthogonal`](Self::orthogonal) is needed: seldom.
+    #[inline(always)]
+    pub fn slipped_far(&self, d: &Stretch<R>) -> R::Mask {
+        (R::splat(FAR_SLIP) * self.area_square).lt(d.slip_square * self.half_trace)
+    }
+
+    /// As [`new`](Self::new), with a and b made orthogonal to the fibre once more where `far` holds: of their components along it the
+    /// rounding of (h/λ²) c1 is left, as many roundings of a as the slip is longer than a. The other lanes keep their bits.
+    #[inline(always)]
+    pub fn orthogonal<A: Axes<R>>(d: &Stretch<R>, images: [[R; 3]; 3], n: &A, far: R::Mask) -> (Self, [[R; 3]; 2]) {
+        let c1 = images[0];
+        let [delta_2, delta_3] = Self::rests(d, images);
+        let again = R::select(far, d.inverse_square, R::splat(0.0));
+        let left_2 = dot(c1, n.shifted(delta_2, d.chi, 1)) * again;
+        let left_3 = dot(c1, n.shifted(delta_3, d.chi, 2)) * again;
+        Self::from_rests(d, [along(delta_2, -left_2, c1), along(delta_3, -left_3, c1)], n)
+    }
+
+    /// δ2 = a − χ t1 and δ3 = b − χ t2.
+    #[inline(always)]
+    fn rests(d: &Stretch<R>, [c1, g2, g3]: [[R; 3]; 3]) -> [[R; 3]; 2] {
+        [along(g2, -(d.h[0] * d.inverse_square), c1), along(g3, -(d.h[1] * d.inverse_square), c1)]
+    }
+
+    #[inline(always)]
+    fn from_rests<A: Axes<R>>(d: &Stretch<R>, [delta_2, delta_3]: [[R; 3]; 2], n: &A) -> (Self, [[R; 3]; 2]) {
         let (one, half) = (R::splat(1.0), R::splat(0.5));
-        let delta_2 = along(g2, -(d.h[0] * d.inverse_square), c1);
-        let delta_3 = along(g3, -(d.h[1] * d.inverse_square), c1);
         let a = Image { whole: n.shifted(delta_2, d.chi, 1), rest: delta_2 };
         let b = Image { whole: n.shifted(delta_3, d.chi, 2), rest: delta_3 };
 

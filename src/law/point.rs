@@ -461,7 +461,7 @@ fn point_in<
     let (stretch, images) = Stretch::new(f, axes);
     let law = source.law(own)?;
     let (shear, law) = (law.shears, law.lanes::<R>());
-    let (section, [a, b]) = Section::new(&stretch, images, axes);
+    let (section, [a, b]) = Section::of_point(&stretch, images, axes);
     let images = [images[0], a, b];
     let logarithms = Logarithms::new(&stretch, &section);
     let early = if D::EARLY { Some(Bases::new(&stretch, &section, &images)) } else { None };

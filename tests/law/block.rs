@@ -9,7 +9,7 @@ use std::ptr::null_mut;
 
 use crate::common::block::{Asked, Call, Input, Number, Old, Output, VALUES, levels, run};
 use crate::common::deformations::{Ranges, Sample, deformation, samples};
-use crate::common::truth::{Answer, Score, cases};
+use crate::common::truth::{Answer, Case, Score, cases, far_cases};
 use nalgebra::Matrix3;
 use proptest::prelude::*;
 use toron::Arrays;
@@ -387,11 +387,16 @@ fn one_point_gives_a_status_and_no_nan() {
     assert!(all.iter().all(|code| seen.contains(code)), "{seen:?}");
 }
 
-/// The truth's cases at every level, by their own measure.
-fn truth<T: Number>(epsilon: f64, flag_margin: f64, bound: f64) -> impl Iterator<Item = (Level, Score)> {
+/// Cases of the truth at every level, by their own measure.
+fn truth<T: Number>(
+    cases: Vec<Case>,
+    epsilon: f64,
+    flag_margin: f64,
+    bound: f64,
+) -> impl Iterator<Item = (Level, Score)> {
     levels().map(move |level| {
         let mut score = Score::new(epsilon, flag_margin);
-        for case in cases() {
+        for case in &cases {
             let input = Input::<T>::fresh(by_columns(&case.deformation_gradient()), case.m);
             // Alone and amid others, by the general kernel and by one of the special ones.
             let inputs = vec![input; 1 + 20 * (case.id % 2)];
@@ -401,7 +406,7 @@ fn truth<T: Number>(epsilon: f64, flag_margin: f64, bound: f64) -> impl Iterator
             assert_eq!(worst, status::OK, "case {}", case.id);
             let v = outputs[0].values::<T>();
             score.add(
-                &case,
+                case,
                 &Answer {
                     stress: std::array::from_fn(|c| v[c]),
                     energies: std::array::from_fn(|c| v[6 + c]),
@@ -424,7 +429,7 @@ fn truth<T: Number>(epsilon: f64, flag_margin: f64, bound: f64) -> impl Iterator
 
 #[test]
 fn truth_f64() {
-    for (level, score) in truth::<f64>(f64::EPSILON / 2.0, 0.0, 5.0) {
+    for (level, score) in truth::<f64>(cases(), f64::EPSILON / 2.0, 0.0, 5.0) {
         for category in ["small", "degenerate"] {
             let forward = score.worst[category].forward;
             assert!(forward <= 2e-15, "{level:?} {category}: relative error {forward}");
@@ -438,13 +443,25 @@ fn truth_f64() {
 
 #[test]
 fn truth_f32() {
-    assert!(truth::<f32>(6e-8, 1e-6, 8.0).count() > 0);
+    assert!(truth::<f32>(cases(), 6e-8, 1e-6, 8.0).count() > 0);
+}
+
+/// The cases where sums over F cancel.
+#[test]
+fn truth_far_from_the_reference() {
+    assert!(truth::<f64>(far_cases(), f64::EPSILON / 2.0, 0.0, 5.0).count() > 0);
+    let single: Vec<_> = far_cases().into_iter().filter(Case::fits_single_precision).collect();
+    assert!(single.len() > 50, "{}", single.len());
+    assert!(truth::<f32>(single, 6e-8, 1e-6, 8.0).count() > 0);
 }
 
 /// Whatever the number of points, their leading dimension, place and neighbours: the bits of the point on its own.
 fn place_does_not_matter<T: Number>([m_1, m_2, m_3]: [f64; 3]) {
     let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, m_1, m_2, m_3]);
-    let mut pool = [ordinary(160), extreme()].concat();
+    let far = far_cases();
+    let far = far.iter().filter(|case| case.fits_single_precision());
+    let far: Vec<_> = far.map(|case| Input::fresh(by_columns(&case.deformation_gradient()), case.m)).collect();
+    let mut pool = [ordinary(160), extreme(), far].concat();
     // Ordinary and extreme points side by side.
     let count = pool.len();
     pool = (0..count).map(|i| pool[i * 101 % count]).collect();
@@ -499,7 +516,7 @@ fn hard_volumes<T: Number>() -> Vec<Input<T>> {
 /// does not have is left out; `reciprocals` in `src/law/tests/elementary.rs` are checked for all of them.
 fn fused_levels_agree<T: Number>() {
     let law = law::<T>([82.341e9, 1.055e9, 2.2, 0.64974e9, 1e9, 0.0458, 1.8, 0.3, 0.48, -0.6, 0.64]);
-    let truth = cases();
+    let truth: Vec<_> = cases().into_iter().chain(far_cases()).collect();
     let truth = truth.iter().map(|case| Input::fresh(by_columns(&case.deformation_gradient()), case.m));
     let inputs: Vec<Input<T>> = [ordinary(160), extreme(), hard_volumes()].concat().into_iter().chain(truth).collect();
     let fused: Vec<_> = levels().filter(|&level| level > Level::Baseline).collect();

@@ -174,10 +174,11 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
     axes: impl Fn(usize) -> (A, Option<R::Mask>),
     worst: &mut R,
 ) {
-    let (mut stretches, mut sections, mut kept, mut images) = (Stage::new(), Stage::new(), Stage::new(), Stage::new());
+    let (mut stretches, mut sections, mut kept, mut images) =
+        (Stage::new(), Stage::<Section<R>>::new(), Stage::new(), Stage::new());
     let (mut steps, mut strains, mut outcomes) = (Stage::new(), Stage::new(), Stage::new());
     let zero = R::splat(0.0);
-    let mut check = zero;
+    let (mut check, mut slipped) = (zero, R::never());
     let mut places = Stage::new();
     for k in 0..count {
         // SAFETY: k < count ≤ STAGED.
@@ -204,8 +205,20 @@ unsafe fn staged<T: Scalar, R: Lanes<T>, A: Axes<R>, const WANT: u8>(
         for k in 0..count {
             let (n, d) = (axes(k).0, stretches.get(k));
             let (section, vectors) = Section::new(d, n.recall(kept.get(k), &gradient(block, at(k)), d), &n);
+            slipped = slipped | section.slipped_far(d);
             sections.put(k, section);
             images.put(k, vectors);
+        }
+        // Far slips are seldom, so that there is one test for all.
+        if R::any(slipped) {
+            for k in 0..count {
+                let (n, d) = (axes(k).0, stretches.get(k));
+                let far = sections.get(k).slipped_far(d);
+                let (section, vectors) =
+                    Section::orthogonal(d, n.recall(kept.get(k), &gradient(block, at(k)), d), &n, far);
+                sections.put(k, section);
+                images.put(k, vectors);
+            }
         }
         for k in 0..count {
             steps.put(k, Step { logarithms: Logarithms::new(stretches.get(k), sections.get(k)) });
