@@ -424,7 +424,7 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
 unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> Option<R> {
-    let limited = if WANT & ANY != 0 { !block.failure.is_null() && !block.limit.is_null() } else { WANT & LIMITS != 0 };
+    let limited = if WANT & ANY != 0 { !block.limits().is_null() } else { WANT & LIMITS != 0 };
     if !limited {
         return None;
     }
