@@ -589,7 +589,8 @@ fn lsdyna_elements_that_collapse() {
     assert_eq!((sig, &hsv[LINEAR_FAILED..=LINEAR_ALIVE]), ([0.0; 6], &[1.0, 0.0][..]));
 }
 
-/// The same in the step after the first one, in which nothing happens: state, F of that step and flat F then hold a turned F too.
+/// The same in the step after the first one, in which nothing happens: state, F of that step and flat F then hold a
+/// turned F too.
 #[test]
 fn lsdyna_elements_that_collapse_from_rest() {
     for flat in [[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.9, 1.1, 0.0], [0.0, 0.0, 1.0]] {

@@ -5,7 +5,8 @@ use core::fmt;
 use super::parameters::Property;
 use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, UNKNOWN_FIELD, meaning};
 
-/// A number of a message in the precision in which the caller has it, since in the other one it would have other digits.
+/// A number of a message in the precision in which the caller has it, since in the other one it would have other
+/// digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     Single(f32),

@@ -11,7 +11,8 @@ pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
-/// The compiler's flags for the library: those of this run of the tests, and names that tell what a kernel is built for.
+/// The compiler's flags for the library: those of this run of the tests, and names that tell what a kernel is built
+/// for.
 pub fn flags() -> String {
     std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0"
 }

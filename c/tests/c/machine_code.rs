@@ -127,8 +127,8 @@ impl Function {
         self.code.iter().filter(leaves).map(|i| format!("{:x}: {} {}", i.address, i.name, i.operands)).collect()
     }
 
-    /// Where the stack of a large frame is probed in a loop that counts in r11 while that is in use: LLVM does so where it makes the frame
-    /// behind a way out of the function.
+    /// Where the stack of a large frame is probed in a loop that counts in r11 while that is in use: LLVM does so where
+    /// it makes the frame behind a way out of the function.
     fn probes_over_r11(&self) -> Option<u64> {
         let probe = self.code.iter().position(|i| i.name == "mov" && i.operands == "%rsp,%r11")?;
         let loops = self.code.get(probe + 1).is_some_and(|i| i.name == "sub" && i.operands.ends_with(",%r11"));

@@ -119,8 +119,8 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
-            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept: the law adds nothing to
-            // it.
+            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept: the law
+            // adds nothing to it.
             for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }

@@ -145,8 +145,8 @@ unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> 
     }
 }
 
-/// A point's own limit, where it is read: beside a new state. It is looked up where it is passed on: read with the other arrays, it
-/// would cost all calls a register.
+/// A point's own limit, where it is read: beside a new state. It is looked up where it is passed on: read with the
+/// other arrays, it would cost all calls a register.
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).

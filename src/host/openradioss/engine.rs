@@ -343,8 +343,8 @@ impl<T: Precision> Group<T> {
         Ok(())
     }
 
-    /// Sets the latch of points that others have taken out, whatever their variables say: their OFF is below 1. The solver scales F − 1 by
-    /// OFF, so that what arrives from then on is no deformation, and the state must be kept.
+    /// Sets the latch of points that others have taken out, whatever their variables say: their OFF is below 1. The
+    /// solver scales F − 1 by OFF, so that what arrives from then on is no deformation, and the state must be kept.
     unsafe fn take_out_deleted(&self, layout: &Layout) {
         let one = T::splat(1.0);
         // SAFETY: OFF has NEL values.
@@ -528,7 +528,8 @@ impl<T: Precision> Group<T> {
         Ok(())
     }
 
-    /// Latches the points that have failed or could not be evaluated, from element `first` on; those that were out before are so already.
+    /// Latches the points that have failed or could not be evaluated, from element `first` on; those that were out
+    /// before are so already.
     ///
     /// # Errors
     /// A fibre direction that has no length, a limit that means nothing: nothing has deformed them, so that the model is wrong.

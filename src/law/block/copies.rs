@@ -12,8 +12,8 @@ use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-// The first components of F, fibre, energies, invariants, failure, stress, wave speed, active, limit, modes and tangent among those of
-// the copies.
+// The first components of F, fibre, energies, invariants, failure, stress, wave speed, active, limit, modes and tangent
+// among those of the copies.
 const F: usize = 0;
 const FIBRE: usize = F + 9;
 const ENERGIES: usize = FIBRE + 3;
@@ -146,13 +146,14 @@ fn block_in<T: Scalar>(memory: *mut T, count: usize, codes: *mut i32, like: &Poi
     }
 }
 
-/// How many points that are not next to each other are copied at a time; in double precision with modes or a tangent, which take four
-/// times the room; and to how many copies if there are no more than these: all copies are evaluated.
+/// How many points that are not next to each other are copied at a time; in double precision with modes or a tangent,
+/// which take four times the room; and to how many copies if there are no more than these: all copies are evaluated.
 const APART: usize = 32;
 const LARGE_APART: usize = 16;
 const FEW_APART: usize = 8;
 
-/// Runs a kernel on copies of the points of a block, part by part, and copies the results back. Returns the worst of the kernel's results.
+/// Runs a kernel on copies of the points of a block, part by part, and copies the results back. Returns the worst of
+/// the kernel's results.
 ///
 /// # Safety
 /// The block is valid, see [`Pointers`].
@@ -176,8 +177,9 @@ pub(super) unsafe fn in_copies<T: Scalar>(block: &Pointers<T>, run: impl Fn(&Poi
     worst
 }
 
-/// Copies `points`, at least one and at most `COUNT`, of a block that has no arrays but those of the first `ROWS` components, runs a kernel
-/// on the copies and copies the results back. Returns the kernel's result. Not inlined, so that the stack has copies of one size alone.
+/// Copies `points`, at least one and at most `COUNT`, of a block that has no arrays but those of the first `ROWS`
+/// components, runs a kernel on the copies and copies the results back. Returns the kernel's result. Not inlined, so
+/// that the stack has copies of one size alone.
 ///
 /// # Safety
 /// The block is valid, see [`Pointers`], and has these points.

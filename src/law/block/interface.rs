@@ -178,8 +178,8 @@ impl<T: Precision> Hyperelastic<T> {
         }
         let level = block.level();
         if block.strides != Strides::UNIT {
-            // SAFETY: the block is valid; `in_copies` passes a valid block of copies, next to each other, and `level` is one that the
-            // processor has.
+            // SAFETY: the block is valid; `in_copies` passes a valid block of copies, next to each other, and `level`
+            // is one that the processor has.
             return Ok(unsafe { in_copies(block, |points| T::dispatch(level, self, points, request)) });
         }
         if block.in_place() {
@@ -330,8 +330,8 @@ impl<T: Precision> LinearElastic<T> {
             // SAFETY: the block is valid, with points next to each other; `level` is one that the processor has.
             return Ok(unsafe { T::dispatch_linear(level, self, &block) });
         }
-        // SAFETY: the block is valid; `linear_in_copies` passes a valid block of copies, next to each other, and `level` is one that the
-        // processor has.
+        // SAFETY: the block is valid; `linear_in_copies` passes a valid block of copies, next to each other, and
+        // `level` is one that the processor has.
         Ok(unsafe { linear_in_copies(&block, |points| T::dispatch_linear(level, self, points)) })
     }
 }

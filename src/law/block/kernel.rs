@@ -51,8 +51,8 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
     let (registers, mut first) = (block.n.div_ceil(R::COUNT), 0);
-    // Without a way out before the first turn: it would be taken before the stack frame is made, and LLVM's probes of a frame of more than
-    // eight pages overwrite r11, which may hold n by then.
+    // Without a way out before the first turn: it would be taken before the stack frame is made, and LLVM's probes of a
+    // frame of more than eight pages overwrite r11, which may hold n by then.
     loop {
         let left = registers - first;
         let count = match left {

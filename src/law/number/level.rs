@@ -24,8 +24,8 @@ impl Level {
         }
     }
 
-    /// The best level that this processor has. Compiled with `--cfg toron_without_avx512` the library takes every processor for one
-    /// that lacks it: for tests, which else would see what such a processor does on none that has it.
+    /// The best level that this processor has. Compiled with `--cfg toron_without_avx512` the library takes every
+    /// processor for one that lacks AVX-512: for tests of what happens on those.
     #[inline(always)]
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
