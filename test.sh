@@ -51,4 +51,4 @@ ffi-tests/calculix/build.sh >/dev/null
 for requirements in python/tests ffi-tests/felupe ffi-tests/fedoo ffi-tests/akantu ffi-tests/lammps ffi-tests/meshio ffi-tests/pytexgen; do
     ffi-tests/python/environment.sh "$requirements/requirements.txt" >/dev/null
 done
-cargo test --locked --workspace "$@"
+cargo test --locked --workspace --no-fail-fast "$@"

@@ -1576,9 +1576,9 @@ int32_t toron_linear_elastic_block_with_properties_f32(const float *properties,
  DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
  intact tangent, later calls return zeros.
 
- Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
- (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: stress and tangent are 0, the state is
- unchanged, `pnewdt` is reduced to at most 0.25.
+ Returns 0; a −1xx code (`TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_ARGUMENT` for a limit of the
+ point that is negative, NaN or infinite) or a −2xx code (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is
+ written; or a −3xx code: stress and tangent are 0, the state is unchanged, `pnewdt` is reduced to at most 0.25.
  */
 int32_t toron_abaqus_umat_tangent_f64(double *stress,
                                       double *statev,
@@ -1646,9 +1646,10 @@ int32_t toron_abaqus_linear_umat_f64(double *stress,
  (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
  element.
 
- Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and nothing
- is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
- and is marked as failed and deleted.
+ Returns the worst status: 0; a −1xx or −2xx code (`TORON_BAD_ARGUMENT` among them, in the data check for a limit of
+ a point that is negative, NaN or infinite), and nothing is written; or the most negative −3xx code: a point with
+ such a code has zero stress, keeps its energies and invariants, and is marked as failed and deleted. State variables
+ behind those of the law are copied; `ener_inelas_new` is `ener_inelas_old`, or 0 where that is not finite.
  */
 int32_t toron_abaqus_vumat_f64(const struct toron_vumat_f64 *block,
                                char *message,
@@ -1955,8 +1956,8 @@ int32_t toron_lsdyna_linear_bulk_and_shear_f64(const double *values,
  density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
  value, the modulus of the fastest wave at rest. None may be null.
 
- Returns 0, or a code with which the starter is to be stopped: `TORON_NULL_ARGUMENT`, `TORON_BAD_ARGUMENT` (number, option) or a
- −2xx code.
+ Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code
+ (`TORON_BAD_ARGUMENT` for a number or an option among them) or a −2xx code.
  */
 int32_t toron_openradioss_lecm_f64(int32_t number,
                                    const double *values,
@@ -1992,11 +1993,11 @@ int32_t toron_openradioss_listing_f64(const double *uparam,
  `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
  (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
 
- A point with `off` below 1 has no stress and keeps its state. The variable `deleted` says why it is out: 1 failed, 2 by the
- solver, or the −3xx code of the reason why it could not be evaluated.
+ A point with `off` below 1 has no stress and keeps its state; `off` never rises. The variable `deleted` says why it
+ is out: 1 failed, 2 by the solver, or the −3xx code of the reason why it could not be evaluated.
 
- Returns 0, or a code with which the run is to be stopped: `TORON_NO_DEFORMATION_GRADIENT` (Ismstr is not 10),
- `TORON_FIBRE_DIRECTION`, another −1xx or a −2xx code.
+ Returns 0, or a code with which the run is to be stopped: a −1xx code (`TORON_NO_DEFORMATION_GRADIENT` where Ismstr
+ is not 10) or a −2xx code, and nothing is written; or `TORON_FIBRE_DIRECTION` or `TORON_LIMIT` of an element.
  */
 int32_t toron_openradioss_luser_f64(int32_t nel,
                                     int32_t nuparam,

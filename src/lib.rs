@@ -48,7 +48,7 @@ pub mod host;
 pub mod law;
 
 pub use law::block::{Arrays, Block};
-pub use law::error::Error;
+pub use law::error::{Error, Value};
 pub use law::hyperelastic::{Hyperelastic, Properties};
 pub use law::linear_elastic::{Criterion, LinearElastic, LinearPoint, Rotation};
 pub use law::linear_tangent::LinearTangent;

@@ -589,6 +589,20 @@ fn lsdyna_elements_that_collapse() {
     assert_eq!((sig, &hsv[LINEAR_FAILED..=LINEAR_ALIVE]), ([0.0; 6], &[1.0, 0.0][..]));
 }
 
+/// The same in the step after the first one, in which nothing happens: state, F of that step and flat F then hold a
+/// turned F too.
+#[test]
+fn lsdyna_elements_that_collapse_from_rest() {
+    for flat in [[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0], [0.9, 1.1, 0.0], [0.0, 0.0, 1.0]] {
+        let (mut hsv, mut sig, mut failed) = ([0.0; 28], [f64::NAN; 6], 7);
+        for (f, code) in [([1.0; 3], status::OK), (flat, status::INVERTED)] {
+            hsv[19..].copy_from_slice(Matrix3::from_diagonal(&Vector3::from(f)).as_slice());
+            assert_eq!(element(&ALONG_X, &mut sig, &mut hsv, 19, &mut failed).0, code, "{flat:?}");
+        }
+        assert_eq!((failed, sig, &hsv[LINEAR_FAILED..=LINEAR_ALIVE]), (1, [0.0; 6], &[1.0, 0.0][..]), "{flat:?}");
+    }
+}
+
 #[test]
 fn lsdyna_bulk_and_shear() {
     let (mut bulk, mut shear) = (0.0, 0.0);

@@ -18,9 +18,9 @@ use toron::{Hyperelastic, LinearElastic};
 /// DDSDDE is the modulus of the Jaumann rate of the Kirchhoff stress, over J. The call that detects failure returns the
 /// intact tangent, later calls return zeros.
 ///
-/// Returns 0; `TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code
-/// (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is written; or a −3xx code: stress and tangent are 0, the state is
-/// unchanged, `pnewdt` is reduced to at most 0.25.
+/// Returns 0; a −1xx code (`TORON_NO_DEFORMATION_GRADIENT` where `nlgeom` is 0, `TORON_BAD_ARGUMENT` for a limit of the
+/// point that is negative, NaN or infinite) or a −2xx code (`TORON_FIBRE_OUT_OF_PLANE` among them), and nothing is
+/// written; or a −3xx code: stress and tangent are 0, the state is unchanged, `pnewdt` is reduced to at most 0.25.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_abaqus_umat_tangent_f64(
@@ -121,9 +121,10 @@ pub unsafe extern "C" fn toron_abaqus_linear_umat_f64(
 /// (`step_time` = `total_time` = 0) the answer is elastic and nothing fails. State variable 11, "alive", deletes the
 /// element.
 ///
-/// Returns the worst status: 0; `TORON_NULL_ARGUMENT`, `TORON_BAD_COUNT`, `TORON_STATE_COUNT` or a −2xx code, and nothing
-/// is written; or the most negative −3xx code: a point with such a code has zero stress, keeps its energies and invariants,
-/// and is marked as failed and deleted.
+/// Returns the worst status: 0; a −1xx or −2xx code (`TORON_BAD_ARGUMENT` among them, in the data check for a limit of
+/// a point that is negative, NaN or infinite), and nothing is written; or the most negative −3xx code: a point with
+/// such a code has zero stress, keeps its energies and invariants, and is marked as failed and deleted. State variables
+/// behind those of the law are copied; `ener_inelas_new` is `ener_inelas_old`, or 0 where that is not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn toron_abaqus_vumat_f64(
     block: *const Vumat<f64>,

@@ -10,8 +10,8 @@ use toron::host::openradioss::{read_card_f32, read_card_f64, write_line_f32, wri
 /// density, the law's properties and then the options; `uparam`: `maxuparam` values, out; `nuparam`, `nuvar`: out; `parmat`: out, 1
 /// value, the modulus of the fastest wave at rest. None may be null.
 ///
-/// Returns 0, or a code with which the starter is to be stopped: `TORON_NULL_ARGUMENT`, `TORON_BAD_ARGUMENT` (number, option) or a
-/// −2xx code.
+/// Returns 0, or a code with which the starter is to be stopped, and nothing is written: a −1xx code
+/// (`TORON_BAD_ARGUMENT` for a number or an option among them) or a −2xx code.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_openradioss_lecm_f64(
@@ -58,11 +58,11 @@ pub unsafe extern "C" fn toron_openradioss_listing_f64(
 /// `uvar`: (`nel`, `nuvar`), in and out; `off`: `nel`, in and out, 0 where a point has failed or cannot be evaluated; `nodes`:
 /// (`nel`, 8, 3), what MAT_SOLID_GET_NOD_X gives, or null; read at time 0 if the fibre comes from the nodes.
 ///
-/// A point with `off` below 1 has no stress and keeps its state. The variable `deleted` says why it is out: 1 failed, 2 by the
-/// solver, or the −3xx code of the reason why it could not be evaluated.
+/// A point with `off` below 1 has no stress and keeps its state; `off` never rises. The variable `deleted` says why it
+/// is out: 1 failed, 2 by the solver, or the −3xx code of the reason why it could not be evaluated.
 ///
-/// Returns 0, or a code with which the run is to be stopped: `TORON_NO_DEFORMATION_GRADIENT` (Ismstr is not 10),
-/// `TORON_FIBRE_DIRECTION`, another −1xx or a −2xx code.
+/// Returns 0, or a code with which the run is to be stopped: a −1xx code (`TORON_NO_DEFORMATION_GRADIENT` where Ismstr
+/// is not 10) or a −2xx code, and nothing is written; or `TORON_FIBRE_DIRECTION` or `TORON_LIMIT` of an element.
 #[unsafe(no_mangle)]
 #[allow(clippy::too_many_arguments)]
 pub unsafe extern "C" fn toron_openradioss_luser_f64(

@@ -398,12 +398,14 @@ static void vumat_data_check(void)
 /* In the data check as in a step: a point with numbers that are not finite is deleted, and its neighbours do not notice. */
 static void vumat_data_check_of_bad_points(void)
 {
-    static const int32_t wanted[] = {TORON_OK, TORON_NOT_FINITE, TORON_STATE_NOT_FINITE, TORON_OVERFLOW, TORON_OVERFLOW};
-    for (int bad = 0; bad < 5; bad++) {
+    static const int32_t wanted[] = {TORON_OK,       TORON_NOT_FINITE,       TORON_STATE_NOT_FINITE, TORON_OVERFLOW,
+                                     TORON_OVERFLOW, TORON_STATE_NOT_FINITE, TORON_STATE_NOT_FINITE};
+    for (int bad = 0; bad < 7; bad++) {
         vumat_arrays v = vumat_block(cases, 2);
         v.block.step_time = v.block.total_time = 0;
-        real *stress_old = filled(5, 12);
+        real *stress_old = filled(5, 12), *energies[2] = {filled(7, 2), filled(9, 2)};
         v.block.stress_old = stress_old;
+        v.block.ener_intern_old = energies[0], v.block.ener_inelas_old = energies[1];
         v.strain_inc[0] = (real)1e-4;
         if (bad == 1)
             v.strain_inc[3 * 2 + 1] = NAN;
@@ -413,6 +415,8 @@ static void vumat_data_check_of_bad_points(void)
             stress_old[1] = INFINITY;
         if (bad == 4)
             v.strain_inc[1] = (real)(sizeof(real) == 4 ? 3e38 : 1e308);
+        if (bad > 4)
+            energies[bad - 5][1] = bad == 5 ? INFINITY : NAN;
         CHECK(TOLD(VUMAT, &v.block) == wanted[bad], "%d: %s", bad, text);
         CHECK(v.stress_new[0] > 5 && v.state_new[ALIVE * 2] == 1, "%d: the first point", bad);
         CHECK(v.state_new[ALIVE * 2 + 1] == (bad == 0) && v.state_new[FAILED * 2 + 1] == (bad != 0), "%d: the second one", bad);
@@ -420,6 +424,25 @@ static void vumat_data_check_of_bad_points(void)
             CHECK(v.stress_new[2 * c + 1] == (bad == 0 ? 5 : 0), "%d: component %d", bad, c);
         for (int j = 0; j < STATE; j++)
             CHECK(isfinite(v.state_new[2 * j + 1]), "%d: variable %d", bad, j);
+        CHECK(v.energy_new[0] == 7 && v.energy_new[1] == (bad == 5 ? 0 : 7), "%d: energy", bad);
+        CHECK(v.inelastic_new[0] == 9 && v.inelastic_new[1] == (bad == 6 ? 0 : 9), "%d: inelastic energy", bad);
+        release();
+    }
+}
+
+/* In a step an old energy that is not finite is not passed on, whether the point can be evaluated or not. */
+static void vumat_energies_that_are_not_finite(void)
+{
+    static const double none[] = {NAN, INFINITY, -INFINITY};
+    for (int k = 0; k < 3; k++) {
+        vumat_arrays v = vumat_block(cases, 3);
+        v.block.ener_intern_old = v.block.ener_inelas_old = filled(none[k], 3);
+        v.stretch_new[1] = NAN;
+        CHECK(TOLD(VUMAT, &v.block) == TORON_NOT_FINITE, "%s", text);
+        for (int i = 0; i < 3; i++)
+            CHECK(isfinite(v.energy_new[i]) && v.inelastic_new[i] == 0, "point %d: %g %g", i, v.energy_new[i], v.inelastic_new[i]);
+        check_corotational(&v, 0, &cases[0]);
+        check_corotational(&v, 2, &cases[2]);
         release();
     }
 }
@@ -433,6 +456,7 @@ static void vumat_refused(toron_vumat block, int32_t wanted, const char *words)
     if (block.stress_new != NULL)
         CHECK(untouched(block.stress_new, 6 * sizeof(real)), "status %d", wanted);
     CHECK(untouched(block.state_new, VUMAT_STATE * sizeof(real)), "status %d", wanted);
+    CHECK(untouched(block.ener_intern_new, sizeof(real)) && untouched(block.ener_inelas_new, sizeof(real)), "status %d", wanted);
 }
 
 static void vumat_wrong_calls(void)
@@ -462,6 +486,18 @@ static void vumat_wrong_calls(void)
     block = good, block.props = filled(NAN, PROPERTIES);
     vumat_refused(block, TORON_PROPERTY_NOT_FINITE,
                   "property 1 (k_el, longitudinal elongation stiffness) is NaN; allowed: a number from 0 to 1e25");
+    real *props = filled(VUMAT_STATE + 1, PROPERTIES + 1);
+    memcpy(props, good.props, PROPERTIES * sizeof(real));
+    block = good, block.props = props, block.nprops = PROPERTIES + 1, block.state_old = filled(-1, VUMAT_STATE);
+    vumat_refused(block, TORON_BAD_ARGUMENT,
+                  "argument limit_variable is 14.0; allowed: 0, or the number of a state variable behind those of the law, within "
+                  "*DEPVAR");
+    /* A limit that means nothing, in the data check. */
+    props[PROPERTIES] = VUMAT_STATE;
+    block.step_time = block.total_time = 0;
+    vumat_refused(block, TORON_BAD_ARGUMENT,
+                  "argument failure limit of a point (state variable limit_variable) is -1.0; allowed: a finite number, not negative; 0 "
+                  "for that of the properties");
     REFUSED(TORON_NULL_ARGUMENT, "argument block is null", VUMAT, NULL);
     release();
 
@@ -474,6 +510,54 @@ static void vumat_wrong_calls(void)
     CHECK(v.state_new[ENERGIES * 3 + 1] == 4 && v.energy_new[1] == 7, "energies stay");
     check_corotational(&v, 0, &cases[0]);
     check_corotational(&v, 2, &cases[2]);
+    release();
+}
+
+/* ---- OpenRadioss, whose engine the programs of ffi-tests/openradioss take the part of. */
+
+/* A group that is refused is left as it is, and so is what a card that is refused would be written to. */
+static void openradioss_wrong_calls(void)
+{
+    enum { NEL = 3, NUVAR = 15, NUPARAM = 14, CARD = 13 };
+    static const char *const words[] = {"NUVAR: 14 given, 15 needed", "argument density is 0.0; allowed: " DENSITIES_TEXT,
+                                        "property 2 (k_tc, transverse compaction stiffness) is -1.0; allowed: a number from 0 to 1e25",
+                                        "argument coordinates of the nodes (MAT_SOLID_GET_NOD_X) is null"};
+    static const int32_t wanted[] = {TORON_STATE_COUNT, TORON_BAD_ARGUMENT, TORON_PROPERTY_OUT_OF_BOUNDS, TORON_NULL_ARGUMENT};
+    for (int wrong = 0; wrong < 4; wrong++) {
+        real *uparam = filled(0, NUPARAM), *density = filled(wrong == 1 ? 0 : 1, 1), *f[9], *s = reals(6 * NEL), *v = reals(7 * NEL);
+        uparam[0] = 1;
+        for (int c = 0; c < PROPERTIES; c++)
+            uparam[1 + c] = (real)cases[0].properties[c];
+        if (wrong == 2)
+            uparam[2] = -1;
+        uparam[1 + PROPERTIES] = wrong == 3;
+        for (int c = 0; c < 9; c++)
+            f[c] = filled(c < 3, NEL);
+        real *sound = reals(NEL), *uvar = filled(0, NUVAR * NEL), *off = filled(0, NEL);
+        uvar[14 * NEL] = 7;
+        REFUSED(wanted[wrong], words[wrong], ENTRY(toron_openradioss_luser), NEL, NUPARAM, wrong == 0 ? NUVAR - 1 : NUVAR, 0, uparam, NULL,
+                density, f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], s, s + NEL, s + 2 * NEL, s + 3 * NEL, s + 4 * NEL,
+                s + 5 * NEL, v, v + NEL, v + 2 * NEL, v + 3 * NEL, v + 4 * NEL, v + 5 * NEL, sound, v + 6 * NEL, uvar, off, NULL);
+        CHECK(untouched(s, 6 * NEL * sizeof(real)) && untouched(v, 7 * NEL * sizeof(real)) && untouched(sound, NEL * sizeof(real)),
+              "results: %s", words[wrong]);
+        for (int k = 0; k < NUVAR * NEL; k++)
+            CHECK(uvar[k] == (k == 14 * NEL ? 7 : 0), "variable %d: %s", k, words[wrong]);
+        CHECK(off[0] == 0 && off[1] == 0 && off[2] == 0, "OFF: %s", words[wrong]);
+    }
+    release();
+    for (int wrong = 0; wrong < 4; wrong++) {
+        static const char *const of_card[] = {"argument count is -1; allowed: 0 to " MOST_TEXT, "MAXUPARAM: 5 given, 15 needed",
+                                              "number of values on the card, five a line: 3 given, 11 needed",
+                                              "argument nn of /MAT/USERnn is 9; allowed: 1 (USER01, hyperelastic yarn law), 2 (USER02, "
+                                              "linear elastic law)"};
+        static const int32_t codes[] = {TORON_BAD_COUNT, TORON_PROPERTY_COUNT, TORON_PROPERTY_COUNT, TORON_BAD_ARGUMENT};
+        real *values = filled(1, CARD), *uparam = reals(20), *parmat = reals(1);
+        int32_t *counts = guarded(2 * sizeof *counts);
+        REFUSED(codes[wrong], of_card[wrong], ENTRY(toron_openradioss_lecm), wrong == 3 ? 9 : 1, values,
+                wrong == 0 ? SIZE_MAX : wrong == 2 ? 3 : PROPERTIES, uparam, wrong == 1 ? 5 : 20, counts, counts + 1, parmat);
+        CHECK(untouched(uparam, 20 * sizeof(real)) && untouched(counts, 2 * sizeof *counts) && untouched(parmat, sizeof(real)), "%s",
+              of_card[wrong]);
+    }
     release();
 }
 
@@ -632,7 +716,9 @@ int main(int argc, char **argv)
     vumat();
     vumat_data_check();
     vumat_data_check_of_bad_points();
+    vumat_energies_that_are_not_finite();
     vumat_wrong_calls();
+    openradioss_wrong_calls();
 #ifndef SINGLE
     umat();
     umat_energies_that_overflow();

@@ -277,6 +277,52 @@ static void taken_out(void)
     }
 }
 
+/* Whatever a model or a restart has in the variables of an element that is out, it stays out, with a reason; and what it has in
+ * `deleted` of an intact element at first is no reason later. */
+static void variables_that_contradict(void)
+{
+    static const double reasons[] = {0, 1, 2, TORON_INVERTED, 7, NAN}, latches[] = {0, 1, NAN}, offs[] = {0, 0.8, 1};
+    enum { REASONS = 6, LATCHES = 3, OFFS = 3, NEL = REASONS * LATCHES * OFFS };
+    const double pulled[9] = {1.02, 0, 0, 0, 0.9, 0, 0, 0, 1}, broken[9] = {1.06, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (int later = 0; later < 2; later++) {
+        material m = read_card(1, card_of(yarn, 12));
+        group g = new_group(&m, 1, NEL, MVSIZ);
+        if (later)
+            cycle(&g);
+        for (int i = 0; i < NEL; i++) {
+            *variable(&g, 1, i) = 3;
+            *variable(&g, DELETED, i) = (real)reasons[i % REASONS];
+            *variable(&g, 10, i) = (real)latches[i / REASONS % LATCHES];
+            g.off[i] = (real)offs[i / REASONS / LATCHES];
+            set_f(&g, i, pulled);
+        }
+        for (int again = 0; again < 3; again++) {
+            cycle(&g);
+            CHECK(stops == 0, "%s", said);
+            for (int i = 0; i < NEL; i++) {
+                const double reason = reasons[i % REASONS], latch = latches[i / REASONS % LATCHES], off = offs[i / REASONS / LATCHES];
+                const double deleted = *variable(&g, DELETED, i);
+                if (off == 1 && latch == 0) {
+                    CHECK(g.off[i] == 1 && g.sign[0][i] > 1000, "element %d: OFF %g", i, (double)g.off[i]);
+                    CHECK(later || deleted == 0, "element %d: deleted %g", i, deleted);
+                    continue;
+                }
+                CHECK(g.off[i] == 0 && *variable(&g, 10, i) == 1 && *variable(&g, 11, i) == 0, "element %d: OFF %g", i, (double)g.off[i]);
+                CHECK(*variable(&g, 1, i) == 3, "element %d: the state", i);
+                CHECK(fabs(reason) > 0 ? deleted == reason : deleted == (off < 1 ? 2 : latch == 1 ? 1 : TORON_STATE_NOT_FINITE),
+                      "element %d: deleted %g", i, deleted);
+                for (int c = 0; c < 6; c++)
+                    CHECK(g.sign[c][i] == 0, "stress of element %d", i);
+            }
+        }
+        for (int i = 0; i < NEL; i++)
+            set_f(&g, i, broken);
+        cycle(&g);
+        for (int i = 0; i < NEL; i++)
+            CHECK(g.off[i] == 0 && *variable(&g, 10, i) == 1 && fabs((double)*variable(&g, DELETED, i)) > 0, "element %d breaks", i);
+    }
+}
+
 /* ---- What stops the run */
 
 static void stopped(void)
@@ -527,6 +573,7 @@ int main(int argc, char **argv)
         }
     }
     taken_out();
+    variables_that_contradict();
     stopped();
     other_axes();
     other_precision();

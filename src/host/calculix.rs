@@ -28,7 +28,7 @@ use core::ffi::c_char;
 use crate::law::block::{components, components_mut};
 use crate::law::derivative::SixBySix;
 use crate::law::description::Description;
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::interface::{Law, Points};
 use crate::law::linear_elastic::LinearElastic;
@@ -165,7 +165,11 @@ impl Arguments<'_> {
             return Err(Error::Count { code: status::STATE_COUNT, what, found, wanted });
         }
         if let Some(&value) = self.initial_stress.iter().find(|&&x| x != 0.0) {
-            return Err(Error::Argument { name: "initial stress", value, wanted: "0: F = 1 is free of stress" });
+            return Err(Error::Argument {
+                name: "initial stress",
+                value: Value::of(value),
+                wanted: "0: F = 1 is free of stress",
+            });
         }
         if self.is_linear() {
             let text = "there is no deformation gradient: the step is geometrically linear, give *STEP, NLGEOM";

@@ -9,7 +9,7 @@ use super::environment::in_default_environment;
 use crate::law::block::Precision;
 use crate::law::bounds::wrong_number;
 use crate::law::description::Description;
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::interface::Law;
 use crate::law::parameters::Property;
 use crate::law::status;
@@ -57,7 +57,7 @@ fn out_of_plane([m_1, m_2, m_3]: [f64; 3]) -> bool {
 /// components that such an element does not have. `index` is that of its first component, from 0.
 #[cold]
 fn oblique(index: usize, name: &'static str, value: [f64; 3]) -> Error {
-    let wanted = "a direction in the plane (third component 0) or normal to it";
+    let (value, wanted) = (value.map(Value::of), "a direction in the plane (third component 0) or normal to it");
     Error::Direction { code: status::FIBRE_OUT_OF_PLANE, index, name, value, wanted }
 }
 
@@ -73,12 +73,12 @@ pub(super) fn check_plane<T: Precision, L: Law<T>>(law: &L, properties: &[T]) ->
     };
     let Description { fibre, second_axis, .. } = L::DESCRIPTION;
     if let Some(fibre) = fibre.filter(|&fibre| out_of_plane(direction(fibre))) {
-        return Err(oblique(fibre, "fibre direction", direction(fibre)));
+        return Err(oblique(fibre, "fibre direction", direction(fibre)).for_caller_of::<T>());
     }
     match second_axis {
         // Another axis may be oblique only because of the second one.
         Some(second) if law.axes().into_iter().any(out_of_plane) => {
-            Err(oblique(second, "second axis", direction(second)))
+            Err(oblique(second, "second axis", direction(second)).for_caller_of::<T>())
         }
         _ => Ok(()),
     }

@@ -4,7 +4,7 @@
 use core::ptr::null;
 
 use crate::law::block::Precision;
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::failure::Failure;
 use crate::law::interface::Law;
 use crate::law::parameters::Property;
@@ -42,10 +42,11 @@ pub(super) unsafe fn place<T: Precision, L: Law<T>>(
         return Ok(None);
     }
     // SAFETY: there are `count` constants, one more than properties.
-    let value: f64 = unsafe { *constants.add(count - 1) }.into();
+    let constant = unsafe { *constants.add(count - 1) };
+    let value: f64 = constant.into();
     let number = value as usize;
     if number as f64 != value || (number != 0 && !(kept + 1..=variables).contains(&number)) {
-        return Err(Error::Argument { name: NAME, value, wanted: WANTED });
+        return Err(Error::Argument { name: NAME, value: Value::of(constant), wanted: WANTED });
     }
     Ok(number.checked_sub(1))
 }
@@ -71,7 +72,7 @@ pub(super) unsafe fn check<T: Precision>(limit: *const T) -> Result<T, Error> {
     let name = "failure limit of a point (state variable limit_variable)";
     Err(Error::Argument {
         name,
-        value: limit.into(),
+        value: Value::of(limit),
         wanted: "a finite number, not negative; 0 for that of the properties",
     })
 }

@@ -1,6 +1,6 @@
 //! The check of properties against the bounds of their table.
 
-use super::error::Error;
+use super::error::{Error, Value};
 use super::number::real::Real;
 use super::parameters::Property;
 use super::status::{PROPERTY_COUNT, PROPERTY_NOT_FINITE, PROPERTY_OUT_OF_BOUNDS};
@@ -50,15 +50,15 @@ pub fn check<T: Real + Into<f64>>(table: &'static [Property], values: &[T]) -> R
         return Err(wrong_number(values.len() as i64, table));
     }
     for (index, (property, &value)) in table.iter().zip(values).enumerate() {
-        let value: f64 = value.into();
+        let (given, value): (_, f64) = (Value::of(value), value.into());
         if !value.is_finite() {
-            return Err(Error::Property { code: PROPERTY_NOT_FINITE, index, property, value });
+            return Err(Error::Property { code: PROPERTY_NOT_FINITE, index, property, value: given });
         }
         if value < property.minimum
             || value > property.maximum
             || (property.minimum_excluded && value == property.minimum)
         {
-            return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value });
+            return Err(Error::Property { code: PROPERTY_OUT_OF_BOUNDS, index, property, value: given });
         }
     }
     Ok(())

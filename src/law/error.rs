@@ -5,22 +5,61 @@ use core::fmt;
 use super::parameters::Property;
 use super::status::{BAD_ARGUMENT, BAD_SIZE, NOT_PREPARED, NULL_ARGUMENT, UNKNOWN_FIELD, meaning};
 
+/// A number of a message in the precision in which the caller has it, since in the other one it would have other
+/// digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    Single(f32),
+    Double(f64),
+}
+
+impl Value {
+    /// A caller's number.
+    pub fn of<T: Into<f64>>(value: T) -> Self {
+        Value::Double(value.into()).for_caller_of::<T>()
+    }
+
+    /// The same number, which a caller of this type has passed, where it has been converted to double precision since.
+    fn for_caller_of<T>(self) -> Self {
+        match self {
+            Value::Double(value) if size_of::<T>() == size_of::<f32>() => Value::Single(value as f32),
+            value => value,
+        }
+    }
+
+    /// Passes the shortest decimal number to `sink` that is read back as this one.
+    pub(crate) fn describe(self, sink: &mut dyn FnMut(&str)) {
+        let value: f64 = match self {
+            Value::Single(value) => value.into(),
+            Value::Double(value) => value,
+        };
+        let mut digits = ryu::Buffer::new();
+        sink(match self {
+            _ if value.is_nan() => "NaN",
+            _ if value == f64::INFINITY => "infinity",
+            _ if value == f64::NEG_INFINITY => "-infinity",
+            Value::Single(value) => digits.format_finite(value),
+            Value::Double(value) => digits.format_finite(value),
+        });
+    }
+}
+
 /// An error, with the values that its message contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {
     /// A count is wrong: of properties, of state variables or of entries of an array, or a leading dimension.
     Count { code: i32, what: &'static str, found: i64, wanted: i64 },
     /// A property is not finite or out of bounds. `index` counts from 0.
-    Property { code: i32, index: usize, property: &'static Property, value: f64 },
+    Property { code: i32, index: usize, property: &'static Property, value: Value },
     /// A direction among the properties is zero, parallel to another one or out of a plane; `index`, from 0, is that of its first
     /// component.
-    Direction { code: i32, index: usize, name: &'static str, value: [f64; 3], wanted: &'static str },
+    Direction { code: i32, index: usize, name: &'static str, value: [Value; 3], wanted: &'static str },
     /// A whole number among the arguments is outside its range.
     Range { code: i32, name: &'static str, value: i64, least: i64, greatest: i64 },
     /// A whole number among the arguments is none of those that have a meaning.
     Choice { name: &'static str, value: i64, wanted: &'static str },
     /// A scalar argument does not have an allowed value.
-    Argument { name: &'static str, value: f64, wanted: &'static str },
+    Argument { name: &'static str, value: Value, wanted: &'static str },
     /// An argument or an array that must not be null is null.
     Null { name: &'static str },
     /// A prepared law that this function has not written.
@@ -62,6 +101,21 @@ impl Error {
         }
     }
 
+    /// The same error for a caller whose numbers are of type T, where it comes from a check in double precision.
+    pub(crate) fn for_caller_of<T>(self) -> Self {
+        let converted = |value: Value| value.for_caller_of::<T>();
+        match self {
+            Error::Property { code, index, property, value } => {
+                Error::Property { code, index, property, value: converted(value) }
+            }
+            Error::Direction { code, index, name, value, wanted } => {
+                Error::Direction { code, index, name, value: value.map(converted), wanted }
+            }
+            Error::Argument { name, value, wanted } => Error::Argument { name, value: converted(value), wanted },
+            other => other,
+        }
+    }
+
     /// Passes the message to `sink`, piece by piece. `core::fmt` is not used, since its code can panic.
     pub fn describe(&self, sink: &mut dyn FnMut(&str)) {
         match *self {
@@ -81,7 +135,7 @@ impl Error {
                 sink(", ");
                 sink(property.meaning);
                 sink(") is ");
-                describe_number(value, sink);
+                value.describe(sink);
                 sink("; allowed: ");
                 sink(property.allowed);
             }
@@ -93,11 +147,11 @@ impl Error {
                 sink(" (");
                 sink(name);
                 sink(") are ");
-                describe_number(value[0], sink);
+                value[0].describe(sink);
                 sink(", ");
-                describe_number(value[1], sink);
+                value[1].describe(sink);
                 sink(", ");
-                describe_number(value[2], sink);
+                value[2].describe(sink);
                 sink("; allowed: ");
                 sink(wanted);
             }
@@ -105,7 +159,7 @@ impl Error {
                 sink("argument ");
                 sink(name);
                 sink(" is ");
-                describe_number(value, sink);
+                value.describe(sink);
                 sink("; allowed: ");
                 sink(wanted);
             }
@@ -201,19 +255,6 @@ pub(crate) fn describe_integer(value: i64, sink: &mut dyn FnMut(&str)) {
             sink(DIGITS[(magnitude / place % 10) as usize]);
         }
         place /= 10;
-    }
-}
-
-/// The shortest decimal number that is read back as `value`.
-pub(crate) fn describe_number(value: f64, sink: &mut dyn FnMut(&str)) {
-    if value.is_nan() {
-        sink("NaN");
-    } else if value == f64::INFINITY {
-        sink("infinity");
-    } else if value == f64::NEG_INFINITY {
-        sink("-infinity");
-    } else {
-        sink(ryu::Buffer::new().format_finite(value));
     }
 }
 

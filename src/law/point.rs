@@ -5,7 +5,7 @@ use core::cell::Cell;
 use nalgebra::Matrix3;
 
 use super::derivative::{Derivative, NineByNine, NoTangent, SixBySix};
-use super::error::Error;
+use super::error::{Error, Value};
 use super::failure::Failure;
 use super::hyperelastic::{Deformed, Hyperelastic};
 use super::kinematics::{Axes, FibreFrame, FirstAxis, Kinematics, Logarithms, Section, Strain, Stretch};
@@ -142,7 +142,7 @@ impl<T: Real<Mask = bool> + Into<f64>> Hyperelastic<T> {
         if Failure::is_limit(limit) {
             return Ok(Hyperelastic { failure: self.failure.at(limit), ..*self });
         }
-        Err(Error::Argument { name: "limit", value: limit.into(), wanted: "a finite number, not negative" })
+        Err(Error::Argument { name: "limit", value: Value::of(limit), wanted: "a finite number, not negative" })
     }
 
     /// All results at one point without history, and its full 6×6 tangent; the fibre direction is that of the properties.

@@ -1,7 +1,7 @@
 //! From properties to a law: their check against the tables, and what is derived from them once.
 
 use super::bounds::{check, limits, within};
-use super::error::Error;
+use super::error::{Error, Value};
 use super::failure::Failure;
 use super::hyperelastic::{self, Hyperelastic};
 use super::kinematics::FibreFrame;
@@ -71,7 +71,7 @@ impl<T: Real + Into<f64>> Hyperelastic<T> {
                 code: status::PROPERTY_DIRECTION,
                 index: FIBRE,
                 name: "fibre direction",
-                value: [m_1.into(), m_2.into(), m_3.into()],
+                value: [Value::of(m_1), Value::of(m_2), Value::of(m_3)],
                 wanted: "any vector but zero",
             });
         }
@@ -205,7 +205,7 @@ impl<T: Real<Mask = bool> + Into<f64>> LinearElastic<T> {
         };
         let linear_elastic::Properties { e_1, e_2, g, sigma_lim: limit, fibre, second_axis } = (*properties).into();
         let direction = |index, name, value: [T; 3], wanted| {
-            let (code, value) = (status::PROPERTY_DIRECTION, [value[0].into(), value[1].into(), value[2].into()]);
+            let (code, value) = (status::PROPERTY_DIRECTION, value.map(Value::of));
             Err(Error::Direction { code, index, name, value, wanted })
         };
         let (frame, usable) = FibreFrame::new(fibre);

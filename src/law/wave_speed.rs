@@ -15,7 +15,7 @@
 //!
 //! At rest and along a stretched fibre c is √(k_el/ρ0). k_el is kept for a slack fibre, since tension may return within a step.
 
-use super::error::Error;
+use super::error::{Error, Value};
 use super::hyperelastic::{Hyperelastic, Kirchhoff, shear_components};
 use super::kinematics::{Decomposition, Strain};
 use super::number::real::Real;
@@ -25,11 +25,12 @@ use super::number::real::Real;
 /// # Errors
 /// The density is not a positive, normal, finite number.
 pub(crate) fn check_density<T: Real + Into<f64>>(density: T) -> Result<(), Error> {
+    let given = Value::of(density);
     let density = density.into();
     if density >= T::MIN_POSITIVE && density < f64::INFINITY {
         return Ok(());
     }
-    Err(Error::Argument { name: "density", value: density, wanted: "a finite number > 0, not subnormal" })
+    Err(Error::Argument { name: "density", value: given, wanted: "a finite number > 0, not subnormal" })
 }
 
 /// √(modulus/density), as a quotient of roots: it does not overflow if modulus and density are normal numbers.

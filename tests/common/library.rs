@@ -11,13 +11,18 @@ pub const BUILD: &str = env!("CARGO_TARGET_TMPDIR");
 /// What the static library needs of the system.
 pub const SYSTEM: [&str; 3] = ["-lpthread", "-ldl", "-lm"];
 
+/// The compiler's flags for the library: those of this run of the tests, and names that tell what a kernel is built
+/// for.
+pub fn flags() -> String {
+    std::env::var("RUSTFLAGS").unwrap_or_default() + " -Csymbol-mangling-version=v0"
+}
+
 /// The library as a user installs it, from today's source, but for the names of functions inside; the libraries that solvers load
 /// by themselves are with it.
 pub static INSTALLED: LazyLock<PathBuf> = LazyLock::new(|| {
     let installed = Path::new(BUILD).join("installed");
-    // Names that tell what a kernel is built for.
     let environment = |command: &mut Command| {
-        command.env("RUSTFLAGS", "-Csymbol-mangling-version=v0").env_remove("CARGO_ENCODED_RUSTFLAGS");
+        command.env("RUSTFLAGS", flags()).env_remove("CARGO_ENCODED_RUSTFLAGS");
         command.env("CARGO_TARGET_DIR", BUILD).env("CARGO_NET_OFFLINE", "true");
     };
     let mut install = Command::new(Path::new(ROOT).join("install.sh"));

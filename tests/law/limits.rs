@@ -86,8 +86,8 @@ fn a_block_gives_each_point_what_the_law_with_its_limit_gives() {
     let along = [82341.0, 1055.0, 2.2, 649.74, 90.0, 0.0458, 1.8, 0.1, 1.0, 0.0, 0.0];
     for properties in [PROPERTIES, oblique, along] {
         let law = Hyperelastic::new(&properties).expect("valid properties");
-        let mut failed = [0; 2];
         for level in levels() {
+            let mut failed = [0; 2];
             for n in [1, 2, 3, 5, 8, 9, 17, 50] {
                 let f = gradients(n);
                 let limits: Vec<f64> = (0..n).map(limit).collect();
@@ -102,8 +102,9 @@ fn a_block_gives_each_point_what_the_law_with_its_limit_gives() {
                     }
                 }
             }
+            // Of each level, since processors have different ones.
+            assert!(failed.iter().all(|&count| count > 33), "{level:?}: {failed:?}");
         }
-        assert!(failed.iter().all(|&count| count > 100), "{failed:?}");
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 
-use toron::Error;
 use toron::host::units::UnitSystem;
 use toron::law::description;
 use toron::law::linear_elastic::{self, LinearElastic};
@@ -13,6 +12,7 @@ use toron::law::parameters::{
 use toron::law::prepared::{PreparedHyperelastic, PreparedLinearElastic};
 use toron::law::state::{self, StateVariable};
 use toron::law::status;
+use toron::{Error, Value};
 use toron::{Hyperelastic, Properties};
 
 const YARN: [f64; HYPERELASTIC_PROPERTIES] = [82.341e9, 1.055e9, 2.2, 0.64974e9, 0.0, 0.0458, 1.8, 0.0, 1.0, 0.0, 0.0];
@@ -152,6 +152,36 @@ fn single_precision_refuses_the_same() {
     assert_eq!(Hyperelastic::<f32>::new(&properties).unwrap_err().code(), status::PROPERTY_NOT_FINITE);
 }
 
+/// In the digits that the caller has written: 0.1 in single precision is 0.10000000149011612.
+#[test]
+fn messages_have_the_digits_of_the_caller_s_precision() {
+    let beta = "property 8 (beta, weight of distortion in multiaxial failure, 0: uniaxial) is -0.1; allowed: a number from 0 to 1e25";
+    let mut properties = YARN;
+    properties[7] = -0.1;
+    let single = properties.map(|x| x as f32);
+    assert_error(Hyperelastic::<f64>::new(&properties).unwrap_err(), status::PROPERTY_OUT_OF_BOUNDS, beta);
+    assert_error(Hyperelastic::<f32>::new(&single).unwrap_err(), status::PROPERTY_OUT_OF_BOUNDS, beta);
+    // What is that number in double precision has its digits there.
+    properties[7] = (-0.1_f32).into();
+    let digits = beta.replace("-0.1;", "-0.10000000149011612;");
+    assert_error(Hyperelastic::<f64>::new(&properties).unwrap_err(), status::PROPERTY_OUT_OF_BOUNDS, &digits);
+
+    let mut parallel = LINEAR.map(|x| x as f32);
+    parallel[4..7].copy_from_slice(&[0.1, 0.2, 0.3]);
+    parallel[7..].copy_from_slice(&[0.1, 0.2, 0.3]);
+    let message =
+        "properties 8 to 10 (second axis) are 0.1, 0.2, 0.3; allowed: any vector that is not along the fibre, or zero";
+    assert_error(LinearElastic::<f32>::new(&parallel).unwrap_err(), status::PROPERTY_DIRECTION, message);
+    let law = Hyperelastic::<f32>::new(&YARN.map(|x| x as f32)).expect("good");
+    let message = "argument limit is -0.1; allowed: a finite number, not negative";
+    assert_error(law.with_limit(-0.1).unwrap_err(), status::BAD_ARGUMENT, message);
+    for (value, text) in [(1e-45, "1e-45"), (f32::MAX, "3.4028235e38"), (f32::NAN, "NaN"), (f32::INFINITY, "infinity")]
+    {
+        let error = Error::Argument { name: "x", value: Value::of(value), wanted: "nothing" };
+        assert_eq!(error.to_string(), format!("argument x is {text}; allowed: nothing"));
+    }
+}
+
 #[test]
 fn directions() {
     let message = "properties 9 to 11 (fibre direction) are 0.0, 0.0, 0.0; allowed: any vector but zero";
@@ -221,7 +251,7 @@ fn status_codes() {
     }
     assert_eq!(status::name(-999), None);
     assert_eq!(Error::Plain(-999).to_string(), "no such status code: -999");
-    let argument = Error::Argument { name: "density", value: 0.0, wanted: "a finite number > 0" };
+    let argument = Error::Argument { name: "density", value: Value::Double(0.0), wanted: "a finite number > 0" };
     assert_error(argument, status::BAD_ARGUMENT, "argument density is 0.0; allowed: a finite number > 0");
 }
 

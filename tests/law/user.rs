@@ -17,7 +17,7 @@ use toron::user::parameters::{NUMBER, Property, STRESS, positive};
 use toron::user::state::{ALIVE, ENERGY_DENSITY, FAILED, StateVariable, variable};
 use toron::user::vector::{dot, transposed};
 use toron::user::{Description, Dual, Real, Response, Step, UserMaterial};
-use toron::{Error, Level, Measure};
+use toron::{Error, Level, Measure, Value};
 
 #[path = "../../examples/own_law/law/src/lib.rs"]
 mod reinforced_solid;
@@ -60,7 +60,7 @@ impl UserMaterial for Damaged {
 
     fn check([mu, rate]: &[f64; 2]) -> Result<(), Error> {
         let wanted = "less than mu";
-        if rate < mu { Ok(()) } else { Err(Error::Argument { name: "rate", value: *rate, wanted }) }
+        if rate < mu { Ok(()) } else { Err(Error::Argument { name: "rate", value: Value::of(*rate), wanted }) }
     }
 
     #[inline(always)]
@@ -633,6 +633,8 @@ fn wrong_properties_are_named() {
     assert!(text(&[1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0]).contains("fibre direction"));
     assert!(text(&[1.0, 1.0]).contains("number of properties"));
     let own = User::<Damaged, f64>::new(&[0.2, 0.3]).expect_err("a wrong relation").to_string();
+    assert_eq!(own, "argument rate is 0.3; allowed: less than mu");
+    let own = User::<Damaged, f32>::new(&[0.2, 0.3]).expect_err("rate above mu").to_string();
     assert_eq!(own, "argument rate is 0.3; allowed: less than mu");
 }
 

@@ -79,7 +79,11 @@ fn messages() {
             wrong[index] = value;
             describe(Hyperelastic::<f64>::new(&wrong).expect_err("a wrong property"), &mut written);
         }
-        let argument = toron::Error::Argument { name: "density", value: 1.0 / 3.0, wanted: "a finite number > 0" };
+        let argument = toron::Error::Argument {
+            name: "density",
+            value: toron::Value::Double(1.0 / 3.0),
+            wanted: "a finite number > 0",
+        };
         describe(argument, &mut written);
         for (code, ..) in status::TABLE {
             describe(toron::Error::Plain(code), &mut written);

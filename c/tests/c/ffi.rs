@@ -22,7 +22,7 @@ fn c_program<S: AsRef<OsStr>>(name: &str, options: &[&str], libraries: &[S], rea
 fn c_programs() {
     let library = [LIBRARY.join("libtoron.a")];
     for precision in PRECISIONS {
-        for name in ["about", "linear_elastic", "structures", "layouts"] {
+        for name in ["about", "linear_elastic", "structures", "layouts", "pages"] {
             c_program(name, precision, &library, false);
         }
         for name in ["points", "hosts", "threads", "levels"] {

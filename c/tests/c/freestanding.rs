@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::library::{BUILD, ROOT, folder, run};
+use crate::library::{BUILD, ROOT, flags, folder, run};
 
 /// Builds the package with these options, with the versions of the crates that the library itself has.
 fn build(options: &[&str]) -> Output {
@@ -18,7 +18,7 @@ fn build(options: &[&str]) -> Output {
         .args(options)
         // The standard library's part of unwinding, which is never called.
         .args(["--", "-C", "link-arg=-Wl,--no-undefined", "-C", "link-arg=-Wl,--defsym=rust_eh_personality=0"])
-        .env("RUSTFLAGS", "-Csymbol-mangling-version=v0")
+        .env("RUSTFLAGS", flags())
         .env_remove("CARGO_ENCODED_RUSTFLAGS")
         .output()
         .expect("cargo runs")

@@ -127,6 +127,15 @@ impl Function {
         self.code.iter().filter(leaves).map(|i| format!("{:x}: {} {}", i.address, i.name, i.operands)).collect()
     }
 
+    /// Where the stack of a large frame is probed in a loop that counts in r11 while that is in use: LLVM does so where
+    /// it makes the frame behind a way out of the function.
+    fn probes_over_r11(&self) -> Option<u64> {
+        let probe = self.code.iter().position(|i| i.name == "mov" && i.operands == "%rsp,%r11")?;
+        let loops = self.code.get(probe + 1).is_some_and(|i| i.name == "sub" && i.operands.ends_with(",%r11"));
+        let in_use = self.code.iter().take(probe).any(|i| i.operands.contains("%r11"));
+        (loops && in_use).then(|| self.code[probe].address)
+    }
+
     /// What the stages hold that they should not: calls, branches beside their own; what is computed in a loop but in no
     /// stage, since a decision makes a loop of it; and jumps to nowhere known, wherever they stand.
     fn faults(&self) -> Vec<String> {
@@ -234,6 +243,20 @@ fn kernels_of_an_own_law_call_nothing() {
     }
 }
 
+/// No function loses a register to the probes of its stack.
+#[test]
+fn probes_of_the_stack_spare_what_is_in_use() {
+    let solvers = ["calculix", "mgis", "openradioss", "openradioss_sp", "abaqus", "abaqus_sp"];
+    let solvers = solvers.map(|name| LIBRARY.join(format!("libtoron_{name}.so")));
+    let own = ["libown_law_double.so", "libown_law_single.so"].map(|name| OWN_LAW.join(name));
+    for library in solvers.into_iter().chain(own).chain([LIBRARY.join("libtoron.so")]) {
+        for (name, function) in functions(&library) {
+            let place = function.probes_over_r11();
+            assert!(place.is_none(), "{}: {name} at {:x}", library.display(), place.unwrap_or_default());
+        }
+    }
+}
+
 fn code(lines: &[(&str, &str)]) -> Function {
     let instruction = |(k, &(name, operands)): (usize, &(&str, &str))| Instruction {
         address: k as u64,
@@ -259,6 +282,9 @@ fn the_check_can_fail() {
     assert_eq!(code(&clean).calls().len(), 1);
     assert_eq!(code(&[("vmulpd", ""), ("jne", "0 <f>"), ("ret", "")]).calls().len(), 0);
     assert_eq!(code(&[("vmulpd", ""), ("jmp", "20 <memcpy>")]).calls().len(), 1);
+    let probed = [("mov", "0x30(%rsi),%r11"), ("je", "9"), ("mov", "%rsp,%r11"), ("sub", "$0x9000,%r11"), ("ret", "")];
+    assert_eq!(code(&probed).probes_over_r11(), Some(2));
+    assert_eq!(code(&probed[1..]).probes_over_r11(), None);
     // Left at the top, with what follows the loop in its midst.
     let rotated = [
         ("cmp", ""),

@@ -110,19 +110,23 @@ unsafe fn vumat<L: Law<T>, T: Precision>(block: *const Vumat<T>) -> Result<i32, 
         check_plane(&law, values)?;
     }
     let checks = block.step_time == 0.0 && block.total_time == 0.0;
-    let moduli = if checks { stiffness_at_rest(&law)? } else { [T::splat(0.0); 2] };
+    let mut moduli = [T::splat(0.0); 2];
+    if checks {
+        moduli = stiffness_at_rest(&law)?;
+        // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says.
+        unsafe { check_limits(block, limit, n) }?;
+    }
     // SAFETY: arrays of `nblock` points, which are not null, with the components that `Vumat` says; here and in the functions below.
     unsafe {
         for i in 0..n {
-            // State variables beyond those of the law are copied, and so is the inelastic energy, to which the law adds
-            // nothing.
+            // State variables beyond those of the law are copied as they are, and the inelastic energy is kept: the law
+            // adds nothing to it.
             for c in L::DESCRIPTION.state.len()..block.nstatev as usize {
                 at!(block.state_new, block, c, i) = at!(block.state_old, block, c, i);
             }
-            *block.ener_inelas_new.add(i) = *block.ener_inelas_old.add(i);
+            *block.ener_inelas_new.add(i) = finite(*block.ener_inelas_old.add(i));
         }
         if checks {
-            check_limits(block, limit, n)?;
             return Ok(elastic_check::<L, T>(moduli, block, n));
         }
         stretched(&law, block, limit, n, level)
@@ -146,6 +150,12 @@ unsafe fn check_limits<T: Precision>(block: &Vumat<T>, limit: Option<usize>, n: 
         unsafe { limit_variable::check(limits.wrapping_add(index)) }?;
     }
     Ok(())
+}
+
+/// An energy of the solver's that stays as it is; 0 in place of one that is not finite.
+fn finite<T: Precision>(energy: T) -> T {
+    let zero = T::splat(0.0);
+    if (energy * zero).le(zero) { energy } else { zero }
 }
 
 /// The data check: before there is any deformation, Abaqus determines the elastic wave speed from the stress due to fictitious
@@ -180,9 +190,9 @@ unsafe fn elastic_check<L: Law<T>, T: Precision>([bulk, shear]: [T; 2], block: &
             }
             at!(block.state_new, block, L::DESCRIPTION.alive, i) =
                 T::splat(1.0) - at!(block.state_new, block, L::DESCRIPTION.failed, i);
-            let energy = *block.ener_intern_old.add(i);
-            code = if is_finite(energy) { code } else { status::STATE_NOT_FINITE };
-            *block.ener_intern_new.add(i) = if is_finite(energy) { energy } else { zero };
+            let energies = [*block.ener_intern_old.add(i), *block.ener_inelas_old.add(i)];
+            code = if energies.into_iter().all(is_finite) { code } else { status::STATE_NOT_FINITE };
+            *block.ener_intern_new.add(i) = finite(energies[0]);
             if code != status::OK {
                 code = if (0..components).all(|c| is_finite(strain(c))) { code } else { status::NOT_FINITE };
                 for c in 0..components {
@@ -280,7 +290,7 @@ unsafe fn finish<L: Law<T>, T: Precision>(block: &Vumat<T>, i: usize, code: i32)
         let specific = energy / (*block.density.add(i) * volume);
         // If the deformation or the density is invalid, the energy keeps its old value.
         let known = zero.lt(volume) && (specific * zero).le(zero);
-        *block.ener_intern_new.add(i) = if known { specific } else { *block.ener_intern_old.add(i) };
+        *block.ener_intern_new.add(i) = if known { specific } else { finite(*block.ener_intern_old.add(i)) };
     }
 }
 

@@ -4,7 +4,7 @@ use libc::size_t;
 
 use super::constants::*;
 use crate::law::block::{MOST, check_layout, components, components_mut};
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::linear_elastic::{Criterion, Rotation};
 use crate::law::number::level::Level;
 use crate::law::number::real::Real;
@@ -41,7 +41,7 @@ pub fn check_density<T: Real + Into<f64>>(density: f64, needed: bool) -> Result<
         return Ok(());
     }
     let wanted = "a finite number > 0, not subnormal";
-    Err(Error::Argument { name: "density", value: density, wanted })
+    Err(Error::Argument { name: "density", value: Value::of(density), wanted })
 }
 
 impl Layout {

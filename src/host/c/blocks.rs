@@ -289,8 +289,8 @@ unsafe fn evaluate_point<T: Registers>(law: &PreparedHyperelastic<T>, block: &Bl
     let (source, f, old, m) = (law, OnlyPoint(block), OnlyPoint(block), block.fibre[0]);
     // SAFETY: the block is plain: its fibre, which is not null, is one array of three components.
     let fibre = if m.is_null() { None } else { Some(unsafe { [f.read(m, 0), f.read(m, 1), f.read(m, 2)] }) };
-    // SAFETY: the block is plain: null, or the number of the only point.
-    let limit = unsafe { block.limit.as_ref() };
+    // SAFETY: the block is plain: null, or the number of the only point, if its failure is computed.
+    let limit = if block.failure.is_null() { None } else { unsafe { block.limit.as_ref() } };
     let mut code = status::OK;
     let sink = PointOfBlock { block, code: &mut code };
     let level = Level::Avx512;

@@ -14,7 +14,7 @@ use crate::host::structures::{read, structures};
 use crate::law::block::Precision;
 use crate::law::block::linear::{LinearPointers, LinearStrides};
 use crate::law::block::{components, components_mut, distances};
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::linear_elastic::LinearElastic;
 use crate::law::number::real::Scalar;
 use crate::law::parameters;
@@ -321,7 +321,7 @@ unsafe fn increment<T: Scalar>(law: &LinearElastic<T>, increment: *const LinearI
         let jacobian = if increment.jacobian == 0.0 { 1.0 } else { increment.jacobian };
         if !(jacobian > 0.0 && jacobian.is_finite()) {
             let wanted = "a finite number > 0, or 0 if it is not known";
-            return Err(Error::Argument { name: "jacobian", value: jacobian, wanted });
+            return Err(Error::Argument { name: "jacobian", value: Value::of(jacobian), wanted });
         }
         let old: [f64; LINEAR_ELASTIC_STATE] = load(increment.state_old);
         let law = law.lanes::<f64>();

@@ -145,14 +145,15 @@ unsafe fn motion<'a, T: Real>(point: &Point<T>) -> Result<Motion<'a, T>, Error> 
     }
 }
 
-/// A point's own limit. It is looked up where it is passed on: read with the other arrays, it would cost all calls a register.
+/// A point's own limit, where it is read: beside a new state. It is looked up where it is passed on: read with the
+/// other arrays, it would cost all calls a register.
 ///
 /// # Safety
 /// What [a caller promises](super#what-a-caller-promises).
 #[inline(always)]
 unsafe fn limit<'a, T>(point: &Point<T>) -> Option<&'a T> {
-    // SAFETY: null or one number.
-    unsafe { point.limit.as_ref() }
+    // SAFETY: null or one number, if there is a new state.
+    if point.state_new.is_null() { None } else { unsafe { point.limit.as_ref() } }
 }
 
 /// The sink for the stress alone, or with the new state.

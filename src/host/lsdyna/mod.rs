@@ -289,12 +289,14 @@ unsafe fn law<T: Precision, L: History<T>>(
 /// Whether the history of an element can be that of this law, with F behind the state variables: `history(j)` is hsv(j + 1), j
 /// below NHV + 9.
 ///
-/// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another place, behind
-/// zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show. After a call,
-/// `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may be anything, also with
-/// rows or columns of zeros where the element has collapsed, unless a first F is seen elsewhere. Nine zeros are no F: an element
-/// that collapses to a point in one step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first
-/// column of F then seems to be zero. Values that are not finite are left to the law.
+/// LS-DYNA passes the card's NHV to no routine. With IHYPER = 0 there is no F; if NHV is another one, F is at another
+/// place, behind zeros. Before the first call of an element, F is a rotation or nearly one, which its columns show.
+/// After a call, `failed` and `alive` show that the state is this law's: each is 0 or 1, and not both are 0; then F may
+/// be anything, also with rows or columns of zeros where the element has collapsed, unless a first F is seen elsewhere
+/// and not among the variables, where a law has that of the last step: zeros, `alive` and diag(1, 1, 0) are also the
+/// numbers of a turned F from the ninth variable on. Nine zeros are no F: an element that collapses to a point in one
+/// step has entries that are rounded. An NHV that is greater by 3 to 8 is not detected if the first column of F then
+/// seems to be zero. Values that are not finite are left to the law.
 fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
     let f = L::DESCRIPTION.history();
     let h = |j: usize| -> f64 { history(j).into() };
@@ -319,7 +321,9 @@ fn is_plausible<T: Precision, L: Law<T>>(history: impl Fn(usize) -> T) -> bool {
         // Entries of a first F at another place may look like such flags; then there are zeros where F is read. Only the F of
         // a collapsed element has a row or column of zeros as well.
         let zeros = |first: usize, stride: usize| (0..3).all(|i| h(first + i * stride) == 0.0);
-        return !(0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3)) || !is_elsewhere();
+        let collapsed = (0..3).any(|k| zeros(f + 3 * k, 1) || zeros(f + k, 3));
+        let keeps_one = L::DESCRIPTION.reads_old_gradient && is_at(L::DESCRIPTION.state.len());
+        return !collapsed || keeps_one || !is_elsewhere();
     }
     !is_elsewhere()
 }

@@ -3,7 +3,7 @@
 use core::ffi::c_char;
 
 use crate::host::entry_points::{Message, entry};
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::status;
 use crate::law::wave_speed::check_density;
 
@@ -112,12 +112,12 @@ impl Options {
             Some(2) => StressMeasure::FirstPiolaKirchhoff,
             _ => {
                 let wanted = "0 (Cauchy), 1 (PK2) or 2 (PK1)";
-                return Err(Error::Argument { name: "K[1]", value: measure, wanted });
+                return Err(Error::Argument { name: "K[1]", value: Value::of(measure), wanted });
             }
         };
         if !known {
             let wanted = "-3 to 4, or 100 more for the speed of sound";
-            return Err(Error::Argument { name: "K[0]", value: coded, wanted });
+            return Err(Error::Argument { name: "K[0]", value: Value::of(coded), wanted });
         }
         // SAFETY: K has a third value where there is an operator; the densities are null or a value.
         let (operator, density) = unsafe {
@@ -142,7 +142,7 @@ impl Operator {
             Some(3) => Ok(Operator::KirchhoffByIncrement),
             _ => {
                 let wanted = "0 (dsig/dF), 1 (dPK2/dE), 2 (dPK1/dF) or 3 (dtau/ddF)";
-                Err(Error::Argument { name: "K[2]", value, wanted })
+                Err(Error::Argument { name: "K[2]", value: Value::of(value), wanted })
             }
         }
     }

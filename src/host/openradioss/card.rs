@@ -2,7 +2,7 @@
 
 use crate::law::block::Precision;
 use crate::law::description::Description;
-use crate::law::error::Error;
+use crate::law::error::{Error, Value};
 use crate::law::hyperelastic::Hyperelastic;
 use crate::law::linear_elastic::{Criterion, LinearElastic, Rotation};
 use crate::law::number::real::Scalar;
@@ -187,7 +187,7 @@ impl<'a, T: Precision> Card<'a, T> {
         let layout = &material.layout;
         for (option, &value) in layout.options().zip(options) {
             if !(0..=option.greatest).contains(&whole(value)) {
-                return Err(Error::Argument { name: option.name, value: value.into(), wanted: option.allowed });
+                return Err(Error::Argument { name: option.name, value: Value::of(value), wanted: option.allowed });
             }
         }
         let chosen = |i: usize| if i < layout.options { options.get(i).map_or(0, |&value| whole(value)) } else { 0 };

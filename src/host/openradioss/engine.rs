@@ -4,10 +4,12 @@ use core::{ptr, slice};
 
 use crate::law::block::{Precision, components, components_mut};
 use crate::law::error::Error;
+use crate::law::failure::Failure;
 use crate::law::interface::Points;
 use crate::law::number::vector::{cross, dot, image, scale};
 use crate::law::status;
 use crate::law::wave_bounds::{Deformed, WaveBounds};
+use crate::law::wave_speed::check_density;
 
 use super::brick::Brick;
 use super::card::{BY_FAILURE, BY_SOLVER, Card, FibreFrom, Layout};
@@ -109,12 +111,7 @@ pub unsafe fn evaluate<T: Precision>(laws: &Laws<T>, group: &Group<T>) -> Result
             let text = if size_of::<T>() == size_of::<f32>() { NO_GRADIENT_IN_SINGLE } else { NO_GRADIENT };
             return Err(Error::Setting { code: status::NO_DEFORMATION_GRADIENT, text });
         }
-        if at_start {
-            group.initialise(&card)?;
-        }
-        group.compare_axes()?;
-        group.take_out_deleted(card.layout());
-        group.clear_viscosity();
+        check_density(*group.density)?;
         (card.material.evaluate_group)(group, &card)
     }
 }
@@ -278,17 +275,44 @@ impl<T: Precision> Group<T> {
         Error::Element { code, number: unsafe { self.number(i) } }
     }
 
-    /// Time 0: the fibre directions of the elements.
+    /// What comes before the law, once nothing is wrong with the card.
+    ///
+    /// # Errors
+    /// As for [`initialise`](Self::initialise) and [`compare_axes`](Self::compare_axes).
+    unsafe fn begin(&self, card: &Card<'_, T>) -> Result<(), Error> {
+        // SAFETY: the group has been checked.
+        unsafe {
+            if self.time.into() == 0.0 {
+                self.initialise(card)?;
+            }
+            self.compare_axes()?;
+            self.take_out_deleted(card.layout());
+            self.clear_viscosity();
+        }
+        Ok(())
+    }
+
+    /// Time 0: why elements are out, and their fibre directions.
     ///
     /// # Errors
     /// A direction that has no length or is not finite; the nodes are needed and missing.
     unsafe fn initialise(&self, card: &Card<'_, T>) -> Result<(), Error> {
-        if card.fibre_from == FibreFrom::Card {
-            return Ok(());
-        }
         let from_nodes = card.fibre_from == FibreFrom::Nodes;
         if from_nodes && self.nodes.is_null() {
             return Err(Error::Null { name: "coordinates of the nodes (MAT_SOLID_GET_NOD_X)" });
+        }
+        let (failed, deleted) = (self.row(card.layout().law.failed), self.row(card.layout().deleted()));
+        for i in 0..self.count() {
+            // SAFETY: i is below NEL, and the rows are of UVAR.
+            unsafe {
+                // What the model says of an intact element would later be taken for the reason why it is out.
+                if T::splat(1.0).le(*self.off.add(i)) && Failure::intact(*failed.add(i)) {
+                    *deleted.add(i) = T::splat(0.0);
+                }
+            }
+        }
+        if card.fibre_from == FibreFrom::Card {
+            return Ok(());
         }
         let rows = [0, 1, 2].map(|c| self.row(card.layout().fibre() + c));
         let mut extents = [0.0; 3];
@@ -319,8 +343,8 @@ impl<T: Precision> Group<T> {
         Ok(())
     }
 
-    /// Sets the latch of points that others have taken out: their OFF is below 1. The solver scales F − 1 by OFF, so that what
-    /// arrives from then on is no deformation, and the state must be kept.
+    /// Sets the latch of points that others have taken out, whatever their variables say: their OFF is below 1. The
+    /// solver scales F − 1 by OFF, so that what arrives from then on is no deformation, and the state must be kept.
     unsafe fn take_out_deleted(&self, layout: &Layout) {
         let one = T::splat(1.0);
         // SAFETY: OFF has NEL values.
@@ -329,23 +353,25 @@ impl<T: Precision> Group<T> {
             return;
         }
         for (i, &off) in off.iter().enumerate() {
-            // SAFETY: i is below NEL.
-            unsafe {
-                let deleted = self.row(layout.deleted()).add(i);
-                if !one.le(off) && (*deleted).into() == 0.0 {
-                    self.latch(layout, i, BY_SOLVER);
-                }
+            if !one.le(off) {
+                // SAFETY: i is below NEL.
+                unsafe { self.latch(layout, i, BY_SOLVER) };
             }
         }
     }
 
-    /// Marks point `i` as failed, with this reason.
-    unsafe fn latch(&self, layout: &Layout, i: usize, deleted: f64) {
+    /// Marks point `i` as failed; the reason is this one if it has none yet.
+    unsafe fn latch(&self, layout: &Layout, i: usize, reason: f64) {
         // SAFETY: i is below NEL, and the rows are of UVAR.
         unsafe {
             *self.row(layout.law.failed).add(i) = T::splat(1.0);
             *self.row(layout.law.alive).add(i) = T::splat(0.0);
-            *self.row(layout.deleted()).add(i) = T::splat(deleted);
+            let deleted = self.row(layout.deleted()).add(i);
+            let known = (*deleted).into();
+            // NaN is none.
+            if !(known < 0.0 || known > 0.0) {
+                *deleted = T::splat(reason);
+            }
         }
     }
 
@@ -391,6 +417,8 @@ impl<T: Precision> Group<T> {
     /// As for [`evaluate`], with a group that has been checked.
     pub(super) unsafe fn step<L: SolidLaw<T>>(&self, card: &Card<'_, T>) -> Result<(), Error> {
         let law = L::new(card.properties)?;
+        // SAFETY: the group has been checked.
+        unsafe { self.begin(card)? };
         let n = self.count();
         // Of a law that does not depend on F at the start of a step, this is not there.
         let f_old = components_mut(self.row(card.layout().f_old()), n);
@@ -500,7 +528,8 @@ impl<T: Precision> Group<T> {
         Ok(())
     }
 
-    /// Latches the points that have failed or could not be evaluated in this cycle, from element `first` on.
+    /// Latches the points that have failed or could not be evaluated, from element `first` on; those that were out
+    /// before are so already.
     ///
     /// # Errors
     /// A fibre direction that has no length, a limit that means nothing: nothing has deformed them, so that the model is wrong.
@@ -509,13 +538,12 @@ impl<T: Precision> Group<T> {
         for (i, &code) in (first..).zip(codes) {
             // SAFETY: i is below NEL, and the rows are of UVAR.
             unsafe {
-                let known = (*self.row(layout.deleted()).add(i)).into() != 0.0;
-                if known || T::splat(1.0).le(*self.off.add(i)) {
+                if T::splat(1.0).le(*self.off.add(i)) {
                     continue;
                 }
                 match code {
                     status::FIBRE_DIRECTION | status::LIMIT => return Err(self.error_of(i, code)),
-                    status::OK => *self.row(layout.deleted()).add(i) = T::splat(BY_FAILURE),
+                    status::OK => self.latch(layout, i, BY_FAILURE),
                     _ => self.latch(layout, i, f64::from(code)),
                 }
             }

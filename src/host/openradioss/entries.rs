@@ -6,6 +6,7 @@ use core::slice;
 use libc::{c_char, size_t};
 
 use crate::host::entry_points::{Message, check_pointers, entry};
+use crate::law::block::MOST;
 use crate::law::error::Error;
 use crate::law::status;
 
@@ -51,6 +52,10 @@ const MOST_PARAMETERS: usize = <f64 as MyReal>::TORON.most_parameters;
 unsafe fn read_card<T: MyReal>(card: &MaterialCard<T>) -> Result<i32, Error> {
     check_pointers(&[(card.values, "values"), (card.uparam, "UPARAM"), (card.parmat, "PARMAT")])?;
     check_pointers(&[(card.nuparam.cast_const(), "NUPARAM"), (card.nuvar.cast_const(), "NUVAR")])?;
+    if card.count > MOST {
+        let (value, greatest) = (card.count as i64, MOST as i64); // as the caller wrote it, if it is negative
+        return Err(Error::Range { code: status::BAD_COUNT, name: "count", value, least: 0, greatest });
+    }
     let mut own = [T::splat(0.0); MOST_PARAMETERS];
     let room = usize::try_from(card.maxuparam).unwrap_or(0).min(MOST_PARAMETERS);
     // SAFETY: `values` is not null, as just checked: `count` values.

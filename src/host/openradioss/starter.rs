@@ -1,7 +1,7 @@
 //! The starter: the numbers of a material's card are checked and become UPARAM.
 
 use crate::law::block::Precision;
-use crate::law::error::{Error, describe_integer, describe_number};
+use crate::law::error::{Error, Value, describe_integer};
 use crate::law::status;
 
 use super::card::{Card, FibreFrom, Layout, NEEDS};
@@ -38,7 +38,7 @@ pub fn read<T: Precision>(laws: &Laws<T>, number: i32, values: &[T], uparam: &mu
     if let Some(&value) = values.iter().skip(most).find(|&&value| value.into() != 0.0) {
         return Err(Error::Argument {
             name: "behind the last value of the card",
-            value: value.into(),
+            value: Value::of(value),
             wanted: "nothing",
         });
     }
@@ -122,5 +122,5 @@ fn value_line<T: Precision>(layout: &Layout, uparam: &[T], i: usize, sink: &mut 
         None => sink(layout.options().nth(i - layout.law.properties.len()).map_or("", |option| option.name)),
     }
     sink(" = ");
-    describe_number(uparam.get(i + 1).map_or(0.0, |&value| value.into()), sink);
+    Value::of(uparam.get(i + 1).copied().unwrap_or(T::splat(0.0))).describe(sink);
 }

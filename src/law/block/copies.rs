@@ -12,8 +12,8 @@ use crate::law::number::real::{Lanes, Scalar, WIDEST};
 use crate::law::state::LINEAR_ELASTIC_STATE;
 use crate::law::status;
 
-// The first components of F, fibre, energies, invariants, failure, stress, wave speed, active, modes and tangent among those of the
-// copies.
+// The first components of F, fibre, energies, invariants, failure, stress, wave speed, active, limit, modes and tangent
+// among those of the copies.
 const F: usize = 0;
 const FIBRE: usize = F + 9;
 const ENERGIES: usize = FIBRE + 3;
@@ -22,11 +22,12 @@ const FAILURE: usize = INVARIANTS + 4;
 const STRESS: usize = FAILURE + 3;
 const WAVE_SPEED: usize = STRESS + 6;
 const ACTIVE: usize = WAVE_SPEED + 1;
-const MODES: usize = ACTIVE + 1;
+const LIMIT: usize = ACTIVE + 1;
+const MODES: usize = LIMIT + 1;
 const TANGENT: usize = MODES + 24;
-/// With the largest tangent.
-const LIMIT: usize = TANGENT + 81;
-const COMPONENTS: usize = LIMIT + 1;
+/// With the largest tangent, and without modes and a tangent.
+const COMPONENTS: usize = TANGENT + 81;
+const FEW_COMPONENTS: usize = MODES;
 /// F at both ends, fibre, second axis, limit, axes, state at both ends, stress, wave speed and active of the linear elastic law.
 const LINEAR_COMPONENTS: usize = 9 + 9 + 3 + 3 + 1 + 9 + 2 * LINEAR_ELASTIC_STATE + 6 + 1 + 1;
 
@@ -126,7 +127,7 @@ fn block_in<T: Scalar>(memory: *mut T, count: usize, codes: *mut i32, like: &Poi
         strides: Strides::UNIT,
         deformation_gradient: components(memory.wrapping_add(F * count), count),
         fibre: components(array(!like.fibre[0].is_null(), FIBRE), count),
-        limit: array(!like.limit.is_null(), LIMIT),
+        limit: array(!like.limits().is_null(), LIMIT),
         energies_old: energies,
         invariants_old: invariants,
         failure_old: failure,
@@ -145,17 +146,50 @@ fn block_in<T: Scalar>(memory: *mut T, count: usize, codes: *mut i32, like: &Poi
     }
 }
 
-/// Copies `points`, at least one and at most `COUNT`, of a block, runs a kernel on the copies and copies the results back.
-/// Returns the kernel's result.
+/// How many points that are not next to each other are copied at a time; in double precision with modes or a tangent,
+/// which take four times the room; and to how many copies if there are no more than these: all copies are evaluated.
+const APART: usize = 32;
+const LARGE_APART: usize = 16;
+const FEW_APART: usize = 8;
+
+/// Runs a kernel on copies of the points of a block, part by part, and copies the results back. Returns the worst of
+/// the kernel's results.
+///
+/// # Safety
+/// The block is valid, see [`Pointers`].
+pub(super) unsafe fn in_copies<T: Scalar>(block: &Pointers<T>, run: impl Fn(&Pointers<T>) -> i32) -> i32 {
+    let few = block.modes.is_null() && block.tangent.is_null();
+    let large = !few && size_of::<T>() > size_of::<f32>();
+    let (mut worst, apart) = (status::OK, if large { LARGE_APART } else { APART });
+    for first in (0..block.n).step_by(apart) {
+        let points = first..block.n.min(first + apart);
+        // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
+        worst = worst.min(unsafe {
+            match (points.len(), few) {
+                (0..=FEW_APART, true) => copied::<T, FEW_APART, FEW_COMPONENTS>(block, points, &run),
+                (0..=FEW_APART, false) => copied::<T, FEW_APART, COMPONENTS>(block, points, &run),
+                (_, true) => copied::<T, APART, FEW_COMPONENTS>(block, points, &run),
+                (_, false) if large => copied::<T, LARGE_APART, COMPONENTS>(block, points, &run),
+                (_, false) => copied::<T, APART, COMPONENTS>(block, points, &run),
+            }
+        });
+    }
+    worst
+}
+
+/// Copies `points`, at least one and at most `COUNT`, of a block that has no arrays but those of the first `ROWS`
+/// components, runs a kernel on the copies and copies the results back. Returns the kernel's result. Not inlined, so
+/// that the stack has copies of one size alone.
 ///
 /// # Safety
 /// The block is valid, see [`Pointers`], and has these points.
-pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
+#[inline(never)]
+unsafe fn copied<T: Scalar, const COUNT: usize, const ROWS: usize>(
     block: &Pointers<T>,
     points: Range<usize>,
     run: impl FnOnce(&Pointers<T>) -> i32,
 ) -> i32 {
-    let mut memory = [[const { MaybeUninit::<T>::uninit() }; COUNT]; COMPONENTS];
+    let mut memory = [[const { MaybeUninit::<T>::uninit() }; COUNT]; ROWS];
     let mut codes = [status::OK; COUNT];
     let copies = Copies::<COUNT>::new(points);
     let of_copies = block_in(memory.as_mut_ptr().cast(), COUNT, codes.as_mut_ptr(), block);
@@ -179,7 +213,7 @@ pub(super) unsafe fn copied<T: Scalar, const COUNT: usize>(
                 of_fibre.copy_in(from, to.cast_mut(), 1);
             }
         }
-        copies.group(limit, 0).copy_in(block.limit, of_copies.limit.cast_mut(), 1);
+        copies.group(limit, 0).copy_in(block.limits(), of_copies.limit.cast_mut(), 1);
         let groups = [
             (block.energies_old, energies, 4),
             (block.invariants_old, invariants, 4),
@@ -241,8 +275,8 @@ pub(super) unsafe fn padded<T: Scalar, R: Lanes<T>>(block: &Pointers<T>, run: im
                 R::load_first(block.fibre[c], count, fill).store(copies.fibre[c].cast_mut());
             }
         }
-        if !block.limit.is_null() {
-            R::load_first(block.limit, count, zero).store(copies.limit.cast_mut());
+        if !block.limits().is_null() {
+            R::load_first(block.limits(), count, zero).store(copies.limit.cast_mut());
         }
         for (old, to) in [(block.energies, copies.energies), (block.invariants, copies.invariants)] {
             if !old.is_null() {
@@ -327,11 +361,34 @@ pub(super) unsafe fn padded_linear<T: Scalar, R: Lanes<T>>(
     }
 }
 
+/// As [`in_copies`], for the linear elastic law without a tangent.
+///
+/// # Safety
+/// The block is valid, see [`LinearPointers`].
+pub(super) unsafe fn linear_in_copies<T: Scalar>(
+    block: &LinearPointers<T>,
+    run: impl Fn(&LinearPointers<T>) -> i32,
+) -> i32 {
+    let mut worst = status::OK;
+    for first in (0..block.n).step_by(APART) {
+        let points = first..block.n.min(first + APART);
+        // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
+        worst = worst.min(unsafe {
+            match points.len() {
+                0..=FEW_APART => copied_linear::<T, FEW_APART>(block, points, &run),
+                _ => copied_linear::<T, APART>(block, points, &run),
+            }
+        });
+    }
+    worst
+}
+
 /// As [`copied`], for the linear elastic law without a tangent.
 ///
 /// # Safety
 /// As for [`padded_linear`].
-pub(super) unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
+#[inline(never)]
+unsafe fn copied_linear<T: Scalar, const COUNT: usize>(
     block: &LinearPointers<T>,
     points: Range<usize>,
     run: impl FnOnce(&LinearPointers<T>) -> i32,

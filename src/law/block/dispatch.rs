@@ -109,7 +109,7 @@ unsafe fn run<T: Registers, I: Instructions>(law: &Hyperelastic<T>, block: &Poin
     let nothing_else = !energies && !invariants && !failure && block.failure_old.is_null() && block.active.is_null();
     let stress_alone = usual && nothing_else && !wave_modulus && !law.shears;
     let fibres = !block.fibre[0].is_null();
-    let limits = failure && !block.limit.is_null();
+    let limits = !block.limits().is_null();
     const STATE_FIBRES: u8 = STATE + FIBRES;
     const STATE_ALIGNED: u8 = STATE + ALIGNED;
     const SHEAR_STATE_FIBRES: u8 = SHEAR + STATE + FIBRES;

@@ -3,7 +3,7 @@
 use core::marker::PhantomData;
 use core::ptr::{null, null_mut};
 
-use super::copies::{copied, copied_linear};
+use super::copies::{in_copies, linear_in_copies};
 use super::dispatch::Precision;
 use super::kernel::STAGED;
 use super::linear::{LinearPointers, LinearStrides, with_tangents};
@@ -178,21 +178,9 @@ impl<T: Precision> Hyperelastic<T> {
         }
         let level = block.level();
         if block.strides != Strides::UNIT {
-            let mut worst = status::OK;
-            for first in (0..block.n).step_by(COPIED_APART) {
-                let points = first..block.n.min(first + COPIED_APART);
-                // SAFETY: `copied` passes a valid block of copies, next to each other; `level` is one that the processor has.
-                let run = |points: &Pointers<T>| unsafe { T::dispatch(level, self, points, request) };
-                // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
-                let code = unsafe {
-                    match points.len() {
-                        0..=FEW_APART => copied::<T, FEW_APART>(block, points, run),
-                        _ => copied::<T, COPIED_APART>(block, points, run),
-                    }
-                };
-                worst = worst.min(code);
-            }
-            return Ok(worst);
+            // SAFETY: the block is valid; `in_copies` passes a valid block of copies, next to each other, and `level`
+            // is one that the processor has.
+            return Ok(unsafe { in_copies(block, |points| T::dispatch(level, self, points, request)) });
         }
         if block.in_place() {
             // SAFETY: the block is valid, with points next to each other and its state in place; `level` is one that the processor
@@ -271,11 +259,6 @@ pub(crate) unsafe fn raw_block_of<T: Precision>(law: Law<'_, T>, block: &Pointer
     unsafe { law.raw_block(block) }
 }
 
-/// How many points that are not next to each other are copied at a time, and to how many copies if there are no more than these:
-/// all copies are evaluated.
-const COPIED_APART: usize = 32;
-const FEW_APART: usize = 8;
-
 /// The number of points whose old state is copied at a time: a multiple of the points of a stage in either precision.
 const COPIED: usize = 2 * STAGED * WIDEST;
 
@@ -347,20 +330,8 @@ impl<T: Precision> LinearElastic<T> {
             // SAFETY: the block is valid, with points next to each other; `level` is one that the processor has.
             return Ok(unsafe { T::dispatch_linear(level, self, &block) });
         }
-        let mut worst = status::OK;
-        for first in (0..block.n).step_by(COPIED_APART) {
-            let points = first..block.n.min(first + COPIED_APART);
-            // SAFETY: `copied_linear` passes a valid block of copies, next to each other.
-            let run = |points: &LinearPointers<T>| unsafe { T::dispatch_linear(level, self, points) };
-            // SAFETY: the block is valid and has `points`, one at least and no more than there are copies.
-            let code = unsafe {
-                match points.len() {
-                    0..=FEW_APART => copied_linear::<T, FEW_APART>(&block, points, run),
-                    _ => copied_linear::<T, COPIED_APART>(&block, points, run),
-                }
-            };
-            worst = worst.min(code);
-        }
-        Ok(worst)
+        // SAFETY: the block is valid; `linear_in_copies` passes a valid block of copies, next to each other, and
+        // `level` is one that the processor has.
+        Ok(unsafe { linear_in_copies(&block, |points| T::dispatch_linear(level, self, points)) })
     }
 }

@@ -51,7 +51,9 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
     let lanes = law.lanes::<R>();
     let mut worst = R::splat(0.0);
     let (registers, mut first) = (block.n.div_ceil(R::COUNT), 0);
-    while first < registers {
+    // Without a way out before the first turn: it would be taken before the stack frame is made, and LLVM's probes of a
+    // frame of more than eight pages overwrite r11, which may hold n by then.
+    loop {
         let left = registers - first;
         let count = match left {
             0..=STAGED => left,
@@ -63,8 +65,10 @@ pub(super) unsafe fn sweep<T: Scalar, R: Lanes<T>, const WANT: u8>(law: &Hyperel
         // least, unless it is the whole block.
         unsafe { evaluate::<T, R, WANT>(&lanes, block, first * R::COUNT, count, &mut worst) };
         first += count;
+        if first >= registers {
+            return least_code(worst);
+        }
     }
-    least_code(worst)
 }
 
 /// The least (worst) of the status codes in the lanes, or 0.
@@ -433,7 +437,7 @@ unsafe fn latch<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -
 /// As for [`sweep`], for the lanes from i on.
 #[inline(always)]
 unsafe fn limit<T, R: Lanes<T>, const WANT: u8>(block: &Pointers<T>, i: usize) -> Option<R> {
-    let limited = if WANT & ANY != 0 { !block.failure.is_null() && !block.limit.is_null() } else { WANT & LIMITS != 0 };
+    let limited = if WANT & ANY != 0 { !block.limits().is_null() } else { WANT & LIMITS != 0 };
     if !limited {
         return None;
     }

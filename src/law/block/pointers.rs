@@ -108,6 +108,12 @@ pub fn components_mut<T, const N: usize>(array: *mut T, leading_dimension: usize
 }
 
 impl<T> Pointers<T> {
+    /// The limits of points that have their own, where they are read: beside a failure that is computed.
+    #[inline(always)]
+    pub(super) fn limits(&self) -> *const T {
+        if self.failure.is_null() { null() } else { self.limit }
+    }
+
     /// The points from `first` ≤ n on.
     pub(super) fn from(self, first: usize) -> Self {
         let input = |p: *const T, stride: usize| if p.is_null() { p } else { p.wrapping_add(first * stride) };
@@ -241,8 +247,8 @@ impl<T: Scalar> Pointers<T> {
         // SAFETY: in a valid block an array that is not null has an entry for each point, the old failure's second component too.
         unsafe {
             let latch = self.failure_old.wrapping_add(self.leading_dimension + i * self.strides.state);
-            let intact = self.failure_old.is_null() || Failure::intact(*latch);
-            intact && !self.limit.is_null() && !Failure::is_limit(*self.limit.add(i * self.strides.limit))
+            let (limits, intact) = (self.limits(), self.failure_old.is_null() || Failure::intact(*latch));
+            intact && !limits.is_null() && !Failure::is_limit(*limits.add(i * self.strides.limit))
         }
     }
 
@@ -256,7 +262,7 @@ impl<T: Scalar> Pointers<T> {
             return Err(Error::Null { name: "deformation_gradient" });
         }
         let Strides { limit, state, modes, tangent, .. } = self.strides;
-        if !self.limit.is_null() {
+        if !self.limits().is_null() {
             check_layout(self.n, 1, self.n, limit, distances!("limit"))?;
         }
         let old = [self.energies_old, self.invariants_old];

@@ -24,14 +24,15 @@ impl Level {
         }
     }
 
-    /// The best level that this processor has.
+    /// The best level that this processor has. Compiled with `--cfg toron_without_avx512` the library takes every
+    /// processor for one that lacks AVX-512: for tests of what happens on those.
     #[inline(always)]
     pub fn best() -> Level {
         #[cfg(target_arch = "x86_64")]
         {
             // This and `has_fma` hold the only global state of the library: what the processor can do, determined once.
             cpufeatures::new!(has_avx512, "avx512f", "avx512dq", "avx512vl", "avx2", "fma");
-            if has_avx512::get() {
+            if !cfg!(toron_without_avx512) && has_avx512::get() {
                 return Level::Avx512;
             }
             if has_fma() {

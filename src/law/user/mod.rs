@@ -36,7 +36,7 @@ pub mod state {
 
 use super::block::Precision;
 use super::bounds::check;
-use super::error::Error;
+use super::error::{Error, Value};
 use super::interface::{Law, Points};
 use super::kinematics::FibreFrame;
 use super::number::vector::Matrix;
@@ -251,14 +251,14 @@ impl<M: UserMaterial, T: Precision> User<M, T> {
                     properties.get(index..).and_then(<[T]>::first_chunk).copied().unwrap_or([one, zero, zero]);
                 let (frame, usable) = FibreFrame::new(direction);
                 if !usable {
-                    let (code, value) = (status::PROPERTY_DIRECTION, direction.map(Into::into));
+                    let (code, value) = (status::PROPERTY_DIRECTION, direction.map(Value::of));
                     let wanted = "any vector but zero";
                     return Err(Error::Direction { code, index, name: "fibre direction", value, wanted });
                 }
                 frame
             }
         };
-        M::check(&doubled)?;
+        M::check(&doubled).map_err(Error::for_caller_of::<T>)?;
         Ok(User { properties: own, fibre: frame.m, second: [frame.t1, frame.t2] })
     }
 
