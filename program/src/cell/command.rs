@@ -1,5 +1,6 @@
 //! `toron cell`: from the file of a section to its energies, pictures and the file for the identification.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Instant;
@@ -17,6 +18,7 @@ use crate::common::console::{print, print_error};
 use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
+use crate::common::kept_file;
 use crate::common::progress;
 use crate::common::run_directory::{RunDirectory, file_error};
 use crate::common::shell;
@@ -58,10 +60,10 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
             "output is the folder of the scene, whose files could be overwritten; allowed: another one, -o DIR";
         return Err(Error::Input(message.to_string()));
     }
-    let directory = RunDirectory::open(output)?;
-    // One of an earlier run would stand beside other tables.
-    directory.remove(FIT)?;
+    let _directory = RunDirectory::open(output)?;
     let fit = output.join(FIT);
+    // One of an earlier run would stand beside other tables.
+    kept_file::set_aside_if_there(&fit)?;
     let interrupt = scene.explicit.then(Interrupt::listen).transpose()?;
     let run = Run { program: program.as_deref(), scene: &scene, model: &model, output, restart, interrupt };
     let runs = run.loads();
@@ -84,7 +86,8 @@ pub fn run(path: &Path, output: &Path, ccx: Option<&Path>, restart: bool) -> Res
         let text = failures.iter().map(Error::to_string).collect::<Vec<_>>().join("\n");
         return Err(if matches!(first, Error::Input(_)) { Error::Input(text) } else { Error::Evaluation(text) });
     }
-    output::write(&fit, &output::fit_file(&scene, &model, &outcomes))?;
+    let text = output::fit_file(&scene, &model, &outcomes);
+    kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(fit)
 }
 

@@ -10,6 +10,7 @@ pub mod error;
 pub mod folder;
 pub mod interrupt;
 pub mod progress;
+pub mod kept_file;
 pub mod root;
 pub mod run_directory;
 pub mod shell;

@@ -1,5 +1,6 @@
 //! `toron fibres`: from the file of a scene to what LAMMPS reads, to its runs, and to what they have come to.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
@@ -15,8 +16,9 @@ use super::scene::{Case, Scene};
 use super::{picture, plot, pressed, report, summary};
 use crate::common::console::{print, print_error};
 use crate::common::error::Error;
+use crate::common::kept_file;
 use crate::common::progress::{self, Lines};
-use crate::common::run_directory::{RunDirectory, file_error};
+use crate::common::run_directory::RunDirectory;
 use crate::impact::summary::{STRAINS, write_strains};
 
 const SUMMARY: &str = "summary.csv";
@@ -75,7 +77,8 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
         return Ok(None);
     }
     directory.remove(SUMMARY)?;
-    directory.remove(FIT)?;
+    let fit = output.join(FIT);
+    kept_file::set_aside_if_there(&fit)?;
     for case in &scene.cases {
         directory.remove_files_of(&case.name, PICTURES, Some(STRAINS), 0)?;
     }
@@ -118,8 +121,7 @@ pub fn run(arguments: &Arguments) -> Result<Option<PathBuf>, Error> {
     }
     combine(&errors)?;
     let Some(text) = pressed::output::fit_file(&scene, &pressed) else { return Ok(None) };
-    let fit = output.join(FIT);
-    std::fs::write(&fit, text).map_err(|error| file_error(&fit, &error))?;
+    kept_file::write(&fit, |file| file.write_all(text.as_bytes()))?;
     Ok(Some(fit))
 }
 

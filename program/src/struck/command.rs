@@ -18,6 +18,7 @@ use crate::common::error::Error;
 use crate::common::folder;
 use crate::common::interrupt::Interrupt;
 use crate::common::progress::{self, Lines};
+use crate::common::kept_file;
 use crate::common::run_directory::{RunDirectory, file_error, is_file};
 use crate::common::shell;
 use crate::common::text_table::write_csv;
@@ -200,7 +201,7 @@ fn clear<S: Scene>(
             std::fs::remove_file(&checkpoint.place).map_err(|error| file_error(&checkpoint.place, &error))?;
             removed += 1;
         } else {
-            let old = checkpoint.set_aside()?;
+            let old = kept_file::set_aside(&checkpoint.place)?;
             said += &format!("the checkpoint of an earlier run of case {name} is now {}\n", old.display());
         }
     }
@@ -293,16 +294,6 @@ impl Checkpoint {
     pub fn of(case: &str, output: &Path) -> Checkpoint {
         let [place, new] = ["checkpoint", "checkpoint-new"].map(|ending| output.join(format!("{case}.{ending}")));
         Checkpoint { place, new }
-    }
-
-    /// Gives it another name, which none has that was set aside before; returns that.
-    pub fn set_aside(&self) -> Result<PathBuf, Error> {
-        let numbered = (2..).map(|number| format!("checkpoint-old-{number}"));
-        let endings = std::iter::once("checkpoint-old".to_string()).chain(numbered);
-        let mut places = endings.map(|ending| self.place.with_extension(ending));
-        let old = places.find(|place| !place.exists()).unwrap_or_default();
-        std::fs::rename(&self.place, &old).map_err(|error| file_error(&old, &error))?;
-        Ok(old)
     }
 
     pub fn files(&self) -> [&Path; 2] {
@@ -425,7 +416,7 @@ mod tests {
             [("a", "one.checkpoint-old"), ("b", "one.checkpoint-old-2"), ("c", "one.checkpoint-old-3")]
         {
             checkpoint.write(contents.as_bytes()).expect("it is written");
-            assert_eq!(checkpoint.set_aside().expect("it is set aside"), folder.join(name));
+            assert_eq!(kept_file::set_aside(&checkpoint.place).expect("it is set aside"), folder.join(name));
         }
         assert_eq!(std::fs::read_to_string(folder.join("one.checkpoint-old")).expect("a file"), "a");
         std::fs::remove_dir_all(&folder).expect("it is removed");
