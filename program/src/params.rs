@@ -7,13 +7,13 @@ use clap::Args;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
-use crate::common::units::unit;
+use crate::common::units::{unit, with_unit};
 use crate::material::laws::{LawName, Laws};
 use crate::material::model::Law;
 use crate::material::preset::Preset;
 use toron::host::c::TORON_ABI_VERSION;
 use toron::host::units::UnitSystem;
-use toron::law::parameters::{DENSITY, Dimension, NUMBER, Property};
+use toron::law::parameters::{DENSITY, Dimension, Property};
 use toron::law::state::StateVariable;
 use toron::{Criterion, Rotation};
 
@@ -94,7 +94,8 @@ fn values(laws: Laws, preset: &Preset, units: &UnitSystem) -> Result<String, Err
 fn preset_text(preset: &Preset, units: &UnitSystem) -> Result<String, Error> {
     let (values, density) = (preset.complete(units)?, preset.density_in(units));
     let table = preset_table(preset.law.table(), &values, density, units);
-    Ok(format!("Preset {} ({})\n{}\n{table}", preset.name, preset.law.text(), preset.source))
+    let guesses = preset.guesses.text(preset.law).map_or(String::new(), |guesses| format!("Guesses: {guesses}\n"));
+    Ok(format!("Preset {} ({})\n{}\n{guesses}{table}", preset.name, preset.law.text(), preset.source))
 }
 
 fn property_table(properties: &[Property], units: &UnitSystem) -> String {
@@ -127,8 +128,7 @@ fn preset_table(table: &[Property], values: &[f64], density: Option<f64>, units:
 }
 
 fn quantity(units: &UnitSystem, value: f64, dimension: Dimension) -> String {
-    let value = short(value, 12);
-    if dimension == NUMBER { value } else { format!("{value} {}", unit(units, dimension)) }
+    with_unit(units, &short(value, 12), dimension)
 }
 
 /// Left-aligned columns, two blanks apart.

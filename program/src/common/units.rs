@@ -70,6 +70,11 @@ fn imperial(units: &UnitSystem, [inch, foot]: [&str; 2]) -> Option<String> {
     }
 }
 
+/// A number's text with its unit, if it has one.
+pub fn with_unit(units: &UnitSystem, number: &str, dimension: Dimension) -> String {
+    if dimension == NUMBER { number.to_string() } else { format!("{number} {}", unit(units, dimension)) }
+}
+
 /// A number for people: four significant digits, with an exponent where the number is very large or small.
 pub fn number(value: f64) -> String {
     let size = value.abs();

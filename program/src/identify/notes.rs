@@ -65,13 +65,13 @@ fn unit_warning(problem: &Problem, fit: &Fit) -> Option<String> {
 
 /// Which parameters nothing tells, and what would.
 fn open_parameters(problem: &Problem, fit: &Fit) -> Vec<String> {
-    let open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
-    let filled = |p: &Parameter| problem.fallback[p.index()].is_some();
     let names = |parameters: &[Parameter]| parameters.iter().map(|p| p.name()).collect::<Vec<_>>().join(", ");
-    let (filled, missing): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().filter(open).partition(filled);
+    let (filled, others): (Vec<Parameter>, Vec<Parameter>) = ALL.into_iter().partition(|&p| fit.is_of_base(problem, p));
+    let is_open = |p: &Parameter| fit.values[p.index()].is_none() && p.property().default.is_none();
+    let missing: Vec<Parameter> = others.into_iter().filter(is_open).collect();
     let mut notes = Vec::new();
     if !filled.is_empty() {
-        notes.push(format!("the data say nothing of {}: these are the base preset's", names(&filled)));
+        notes.push(format!("the data say nothing of {}: these are guesses, the base preset's", names(&filled)));
     }
     if !missing.is_empty() {
         let alike = missing.chunk_by(|a, b| a.told_by() == b.told_by());

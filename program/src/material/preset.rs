@@ -11,8 +11,10 @@ use super::laws::{LawName, LawText, Laws};
 use crate::common::error::Error;
 use crate::common::short_number::short;
 use crate::common::toml_error::shortened;
+use crate::common::text_table::grouped;
 use crate::common::toml_file::Source;
 use toron::host::units::UnitSystem;
+use crate::common::units::with_unit;
 use toron::law::bounds;
 use toron::law::parameters::{self, DENSITY, Dimension, Property};
 
@@ -36,9 +38,42 @@ pub struct Preset {
     pub values: Vec<Option<f64>>,
     pub density: Option<f64>,
     file: Option<File>,
+    pub guesses: Guesses,
 }
 
 /// The file of a preset: its name, and the line of each property that it has.
+/// Which properties, or the density, nobody has measured on this yarn, and where their values come from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Guesses(BTreeMap<String, String>);
+
+impl Guesses {
+    pub fn insert(&mut self, name: &str, origin: &str) {
+        self.0.insert(name.to_string(), origin.to_string());
+    }
+
+    /// Forgets the guess of what somebody has given.
+    pub fn remove(&mut self, name: &str) {
+        self.0.remove(name);
+    }
+
+    /// Where a guess comes from; none of what is not guessed.
+    pub fn origin(&self, name: &str) -> Option<&str> {
+        self.0.get(name).map(String::as_str)
+    }
+
+    /// The guesses in words, in the order of the law's table: `k_tc, p (of kevlar-km2-600)`. None without any.
+    pub fn text(&self, law: LawName) -> Option<String> {
+        let groups = grouped(self.in_order(law).map(|(name, origin)| (name, origin.as_str())));
+        let texts = groups.into_iter().map(|(origin, names)| format!("{} ({origin})", names.join(", ")));
+        (!self.0.is_empty()).then(|| texts.collect::<Vec<_>>().join("; "))
+    }
+
+    fn in_order(&self, law: LawName) -> impl Iterator<Item = (&'static str, &String)> {
+        let names = law.table().iter().map(|property| property.name).chain(["density"]);
+        names.filter_map(|name| Some((name, self.0.get(name)?)))
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 struct File {
     name: String,
@@ -56,6 +91,8 @@ struct PresetFile {
     #[serde(default)]
     properties: BTreeMap<Spanned<String>, Spanned<f64>>,
 }
+    #[serde(default)]
+    guesses: BTreeMap<Spanned<String>, Spanned<String>>,
 
 impl From<&parameters::Preset> for Preset {
     fn from(preset: &parameters::Preset) -> Preset {
@@ -67,6 +104,7 @@ impl From<&parameters::Preset> for Preset {
             values: preset.values.iter().copied().map(Some).collect(),
             density: Some(preset.density),
             file: None,
+            guesses: Guesses::default(),
         }
     }
 }
@@ -75,7 +113,8 @@ impl Preset {
     /// A preset without values, to be filled in and written.
     pub fn new(name: &str, source: &str, law: LawName, units: UnitSystem) -> Preset {
         let values = vec![None; law.table().len()];
-        Preset { name: name.to_string(), source: source.to_string(), law, units, values, density: None, file: None }
+        let (name, source, guesses) = (name.to_string(), source.to_string(), Guesses::default());
+        Preset { name, source, law, units, values, density: None, guesses, file: None }
     }
 
     /// The preset of this name among those of the laws, or the file, where the name ends in `.toml`; a relative one is in `folder`.
@@ -112,7 +151,9 @@ impl Preset {
         let density = density.map(|value| source.positive("density", *value.get_ref(), value.span())).transpose()?;
         let label = source.preset_name(&file)?;
         Ok(Preset {
-            source: source.one_line(&file)?.unwrap_or(&label).to_string(),
+            source: given.unwrap_or(&label).to_string(),
+            guesses: source.guesses(&file, law, &values)?,
+        let given = file.source.as_ref().map(|text| source.one_line("source", text)).transpose()?;
             name: label,
             law,
             units: source.units(&file.units)?,
@@ -136,14 +177,17 @@ impl Preset {
             self.density = Some(own(DENSITY));
         } else {
             let known = || {
+            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), DENSITY));
                 let known: Vec<&str> = table.iter().map(|property| property.name).collect();
                 format!("no property {name}; allowed: {} density", known.join(" "))
             };
             let index = table.iter().position(|property| property.name == name).ok_or_else(known)?;
             check(table, index, value).map_err(|error| error.to_string())?;
-            self.values[index] = Some(own(table[index].dimension));
+            let dimension = table[index].dimension;
+            self.values[index] = Some(own(dimension));
+            self.source += &format!("; {name} = {}", with_unit(units, &short(value, LONGEST_VALUE), dimension));
         }
-        self.source += &format!("; {name} = {}", short(value, LONGEST_VALUE));
+        self.guesses.remove(name);
         Ok(())
     }
 
@@ -221,7 +265,9 @@ impl Preset {
         for (property, &value) in self.law.table().iter().zip(&self.values) {
             text += &line(property.name, value);
         }
-        text
+        let guesses: String =
+            self.guesses.in_order(self.law).map(|(name, origin)| format!("{name} = {}\n", quoted(origin))).collect();
+        if guesses.is_empty() { text } else { format!("{text}\n[guesses]\n{guesses}") }
     }
 }
 
@@ -269,19 +315,35 @@ impl Source<'_> {
         Err(self.error(span, &message))
     }
 
-    /// Where the values come from, if the file says so: a line break would end the comment of a deck.
-    fn one_line<'a>(&self, file: &'a PresetFile) -> Result<Option<&'a str>, Error> {
-        match &file.source {
-            Some(source) if source.get_ref().chars().any(char::is_control) => {
-                let message = "source has a line break or another control character; allowed: one line of text";
-                Err(self.error(source.span(), message))
+    /// A text that decks have as a comment, which a line break would end.
+    fn one_line<'a>(&self, key: &str, text: &'a Spanned<String>) -> Result<&'a str, Error> {
+        if text.get_ref().chars().any(char::is_control) {
+            let message = format!("{key} has a line break or another control character; allowed: one line of text");
+            return Err(self.error(text.span(), &message));
+        }
+        Ok(text.get_ref())
+    }
+
+    /// Which of the file's values are guesses.
+    fn guesses(&self, file: &PresetFile, law: LawName, values: &[Option<f64>]) -> Result<Guesses, Error> {
+        let mut guesses = Guesses::default();
+        for (name, origin) in &file.guesses {
+            let has_value = match name.get_ref().as_str() {
+                "density" => file.density.is_some(),
+                _ => values[self.property_index(law.table(), name)?].is_some(),
+            };
+            if !has_value {
+                let message =
+                    format!("a guess of {}, which the file does not give; allowed: a property of it", name.get_ref());
+                return Err(self.error(name.span(), &message));
             }
-            source => Ok(source.as_ref().map(|source| source.get_ref().as_str())),
+            guesses.insert(name.get_ref(), self.one_line(name.get_ref(), origin)?);
         }
     }
 }
 
 /// The property that a law refuses, the first of a direction's three.
+        Ok(guesses)
 pub fn first_property(error: &toron::Error) -> Option<usize> {
     match *error {
         toron::Error::Property { index, .. } | toron::Error::Direction { index, .. } => Some(index),
