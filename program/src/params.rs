@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 
+use crate::common::build;
 use crate::common::console::print;
 use crate::common::error::Error;
 use crate::common::short_number::short;
@@ -19,7 +20,7 @@ use toron::{Criterion, Rotation};
 
 /// The text of `toron --version`.
 pub fn version() -> String {
-    format!("{} (ABI {TORON_ABI_VERSION})", env!("CARGO_PKG_VERSION"))
+    format!("{} (ABI {TORON_ABI_VERSION}, build {:08x})", env!("CARGO_PKG_VERSION"), build::number())
 }
 
 #[derive(Args)]

@@ -171,7 +171,7 @@ impl Run<'_> {
         let section = explicit_run::Section::new(self.scene, self.model, load);
         let mut observer = LoadObserver { checkpoint: &place, interrupt: self.interrupt.as_ref(), progress };
         let mut outcome = struck::run::run(&section, found.as_deref().filter(|_| self.restart), &mut observer)?;
-        if outcome.end != End::Interrupted && checkpoint::build().is_ok() {
+        if outcome.end != End::Interrupted {
             place.write(&checkpoint::of_outcome(&section, &mut outcome)?)?;
         }
         section.outcome(outcome)

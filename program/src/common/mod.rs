@@ -2,6 +2,7 @@
 //! measured data, numbers of chance, roots, the level of intervals.
 
 pub mod bound_child;
+pub mod build;
 pub mod chance;
 pub mod confidence;
 pub mod console;

@@ -103,11 +103,10 @@ pub trait Scene: Sync {
 pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Result<(), Error> {
     folder::check(output)?;
     // Before hours are spent on the first one.
-    let (mut found, mut keeps) = (false, restart);
+    let mut found = false;
     let mut names = Vec::new();
     for number in 0..scene.cases() {
         let case = scene.case(number)?;
-        keeps |= case.plan().checkpoints > 0;
         let checkpoint = Checkpoint::of(case.name(), output);
         for file in checkpoint.files() {
             is_file(file)?;
@@ -117,9 +116,6 @@ pub fn run<S: Scene>(scene: &S, path: &Path, output: &Path, restart: bool) -> Re
             found = true;
         }
         names.push(case.name().to_string());
-    }
-    if keeps {
-        checkpoint::build()?;
     }
     if restart && !found {
         let allowed = "allowed: the directory of the run that was stopped";
@@ -229,7 +225,7 @@ impl<'a, S: Scene> Cases<'a, S> {
         let (name, checkpoint) = (case.name().to_string(), Checkpoint::of(case.name(), self.output));
         let mut outcome = self.strike(&case, &checkpoint)?;
         // Who goes on after an interruption of a later case finds that this one has ended.
-        if case.plan().checkpoints == 0 && outcome.end != End::Interrupted && checkpoint::build().is_ok() {
+        if case.plan().checkpoints == 0 && outcome.end != End::Interrupted {
             checkpoint.write(&checkpoint::of_outcome(&case, &mut outcome)?)?;
         }
         let time = self::number(outcome.last_time());

@@ -167,7 +167,7 @@ fn check_restart(place: &Path, restart: bool) -> Result<(), Error> {
 
 /// The table that the shots go to, with those that are there.
 fn open(scene: &Scene, place: &Path) -> Result<Records, Error> {
-    let mut records = Records::new(scene, place)?;
+    let mut records = Records::new(scene, place);
     if is_file(place)? {
         let count = records.read(place)?;
         print_error(&format!("{count} shots stand in {}\n", place.display()));
@@ -195,7 +195,7 @@ fn evaluate(scene: &Scene, records: &Records, directory: &RunDirectory, argument
 
 fn collect(scene: &Scene, arguments: &Arguments) -> Result<(), Error> {
     let place = arguments.output.join(SHOTS);
-    let mut records = Records::new(scene, &place)?;
+    let mut records = Records::new(scene, &place);
     // Before there is a directory for them.
     for part in &arguments.collect {
         let table = part.join(SHOTS);

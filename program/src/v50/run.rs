@@ -257,7 +257,7 @@ mod tests {
 
     /// A table of the shots of these numbers at these speeds, with their endings.
     fn records(scene: &Scene, shots: &[(usize, f64, Ending)]) -> Records {
-        let mut records = Records::new(scene, Path::new("shots.csv")).expect("a table");
+        let mut records = Records::new(scene, Path::new("shots.csv"));
         let of = |(number, nominal, ending): &(usize, f64, Ending)| {
             (*number, ended(scene.shot(*number, *nominal), ending.clone()))
         };
